@@ -44,7 +44,7 @@ class MapWithout {
   struct Hop {
     std::uint32_t lane, to;
   };
-  // The hops from each station, side by side: a search reads many, and the lanes of the map are large.
+  // The hops from each station, one behind the other in memory. A search reads many, and lanes of the map are large.
   struct Hops {
     std::span<const Hop> all;
     std::span<const std::uint32_t> first;  // by station, and one more

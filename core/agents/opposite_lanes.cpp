@@ -7,12 +7,6 @@
 #include "core/agents/routes.hpp"
 
 namespace fleetproof::agents {
-namespace {
-
-constexpr double kOpposite = -0.9;  // the cosine between two directions
-
-}  // namespace
-
 OppositeLanes::OppositeLanes(const MapView& map, const HullParts& parts)
     : map_(map), main_of_(map.lane_count(), FP_NONE), against_(map.lane_count(), false) {
   find_pairs(parts);
@@ -34,7 +28,7 @@ void OppositeLanes::find_pairs(const HullParts& parts) {
     for (const std::uint32_t other : parts.lanes_blocked_by_turning(end)) {
       const bool touches = map_.lane(other).from == end || map_.lane(other).to == end;
       const bool opposite =
-          dot(map_.start_heading(other), heading) < kOpposite || dot(map_.end_heading(other), heading) < kOpposite;
+          opposite_heading(map_.start_heading(other), heading) || opposite_heading(map_.end_heading(other), heading);
       if (touches || !opposite || map_.two_way(other) || !parts.standing_blocks_lane(end, heading, other)) continue;
       pairs_.emplace_back(lane, other);
     }

@@ -9,7 +9,6 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr std::size_t kRoots = 4;
-constexpr double kOpposite = -0.9;  // the cosine between two directions
 // So many stations are judged at once: what a judge needs for any of them costs as much as a few judgements.
 constexpr std::uint32_t kTogether = 16;
 
@@ -190,7 +189,7 @@ bool PlaceJudge::is_missed(std::uint32_t station, std::uint32_t lane, bool only_
 // Whether an AGV on the lane goes on the other way than one that arrives at the station.
 bool PlaceJudge::leads_against(std::uint32_t station, std::uint32_t lane) const {
   return std::ranges::any_of(map_.lanes_to(station), [&](std::uint32_t arriving) {
-    return dot(map_.end_heading(lane), map_.end_heading(arriving)) < kOpposite;
+    return opposite_heading(map_.end_heading(lane), map_.end_heading(arriving));
   });
 }
 

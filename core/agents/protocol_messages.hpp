@@ -62,8 +62,8 @@ struct Status : Condition {
   Path ahead;  // the way that it announces from there. On the wire only its lanes
 };
 
-// The bytes of a message that say what its sender holds, announces, and in which zones that lies. Most messages repeat
-// those of the message before.
+// The part of a message that says what its sender holds and announces, and in which zones. Most messages repeat that of
+// the message before.
 struct WayBytes {
   // Station, heading, the numbers of lanes and zones, and these.
   static constexpr std::size_t kMax = 9 + 2 * std::size_t{kPathLanesMax} + 2 * std::size_t{ZoneSet::kMax};

@@ -9,8 +9,8 @@ bool ZoneTalk::find_zones_of_request() {
   return map_.add_zones(neighbours_.self(), claim_.request, of_request_);
 }
 
-// The zones of the held path and of the request. If there is room, those of the way on, too: when the AGV requests that
-// part, it is a member there already.
+// The zones of the held path, of the request, and of the way on as far as there is room: so the AGV is a member there
+// before it requests that part.
 void ZoneTalk::announce() {
   const std::uint32_t self = neighbours_.self();
   ZoneSet zones;

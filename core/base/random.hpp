@@ -55,8 +55,8 @@ class RoundKeys {
 // The blocks of four counters that agree in their first two words; `rest`: their third word, and the fourth times 2^32.
 // It costs less than half of four single blocks.
 void philox_of_four(const RoundKeys& keys, std::uint64_t first_words, const std::uint64_t* rest, Block* blocks);
-// The blocks of four such counters, whose last words have the bits of `common` set as well. Only one thing is asked of
-// them: bit i says whether unit_interval(word64(block i, 0)) is below `limit` times 2^-53.
+// Of the blocks of four such counters, whose last words have the bits of `common` set as well, one thing only: bit i
+// says whether unit_interval(word64(block i, 0)) is below `limit` times 2^-53.
 std::uint32_t philox_of_four_below(const RoundKeys& keys, std::uint64_t first_words, std::uint64_t common,
                                    const std::uint64_t* rest, std::uint64_t limit);
 

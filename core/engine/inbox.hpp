@@ -7,7 +7,7 @@
 
 namespace fleetproof {
 
-// The slots of the messages that an AGV has not read, oldest first.
+// The messages that an AGV has not read, by their slots in the message pool, oldest first.
 class Inbox {
  public:
   bool empty() const { return read_ == end_; }

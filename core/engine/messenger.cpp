@@ -89,7 +89,8 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   pool_.release(slot);
 }
 
-// The hearers in ascending order. `ordinal`: of the message among all that its AGV sends at this instant.
+// Everybody but the sender, in ascending order. `ordinal`: the number of the message among those that its AGV sends at
+// this instant, from 0 on.
 void Messenger::all_hear(AgvId sender, std::uint32_t ordinal) {
   std::vector<std::uint32_t>& sent = sent_to_[sender.index()].counts;
   if (sent.empty()) [[unlikely]]

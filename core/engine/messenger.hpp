@@ -61,8 +61,8 @@ class Messenger {
     std::uint32_t in_hand = FP_NONE;
     SentCount sent;  // to any receiver
   };
-  // The messages of an AGV at the last instant at which it sent: how many to each receiver, and to whom any. Of those
-  // to all, not to whom.
+  // What an AGV sent at the last instant at which it sent: the number of messages to each receiver, and the receivers
+  // of those that did not go to all.
   struct SentTo {
     std::vector<std::uint32_t> counts;
     std::vector<AgvId> receivers;
