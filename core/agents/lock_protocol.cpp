@@ -16,7 +16,7 @@ constexpr double kQuiet_s = 1.0, kQuietPerAgv_s = 0.05, kLongestQuiet_s = 30.0;
 // In a divided fleet, an AGV that asks again gets its answer again, at most so often. If the fleet is not large, a
 // STATE goes to all so often: ways are better if an AGV knows the ways of those far away.
 constexpr std::int64_t kAnswersAgain_ns = kSecond_ns / 3;
-constexpr double kTellsAll_s = 3.0;
+constexpr double kTellsAll_s = 3.0, kTellsAllPerAgv_s = 0.2;
 
 }  // namespace
 
@@ -355,7 +355,8 @@ void LockProtocol::repeat_answer(std::uint32_t agv) {
 void LockProtocol::repeat_in_zones() {
   zones_->talk(true);
   const bool hears_of_all = neighbours_.audience().hears_of_all();
-  if (hears_of_all && messages_.quiet_s() >= kTellsAll_s) messages_.broadcast_state();
+  const double quiet_s = std::max(kTellsAll_s, kTellsAllPerAgv_s * neighbours_.fleet_count());
+  if (hears_of_all && messages_.quiet_s() >= quiet_s) messages_.broadcast_state();
   neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
     const bool request = options_.progress.asks_again && claim_.is_unanswered(n) && n.request_repeats.is_due();
     const bool unasked = claim_.has_granted(n) && (hears_of_all || n.deferred_epoch == n.request_epoch);

@@ -100,9 +100,8 @@ void Membership::note_roll(std::uint32_t registrar, const Message& message) {
 
 void Membership::append_due(bool repeat, const ZoneSet& urgent, std::vector<Due>& due) {
   has_news_ = false;
-  const bool quickly = neighbours_.audience().hears_of_all();
   for (Application& application : applications_)
-    append_due(application, repeat && application.repeats.is_due(application.zones.meets(urgent), quickly), due);
+    append_due(application, repeat && application.repeats.is_due(application.zones.meets(urgent)), due);
   if (!repeat) return;
   introductions_.resize(map_.registrar_count());
   for (std::uint32_t i = 0; i < map_.registrar_count(); ++i) {

@@ -95,14 +95,10 @@ class Membership {
   void append_due(bool repeat, const ZoneSet& urgent, std::vector<Due>& due);
 
  private:
-  // When something is said again. Answers take a while, and most applications are made long before they matter. In a
-  // fleet that is not large, many matter soon, so it is said again at each of the first calls.
+  // When something is said again. Answers take a while, and most applications are made long before they matter.
   struct Repeats {
-    static constexpr std::uint32_t kQuick = 4;
     std::uint32_t calls = 0;
-    bool is_due(bool is_urgent, bool quickly) {
-      return (++calls <= kQuick && quickly) || calls % (is_urgent ? 2 : 6) == 0;
-    }
+    bool is_due(bool is_urgent) { return ++calls % (is_urgent ? 2 : 6) == 0; }
   };
   // An AGV of the roll, and the message that the registrar knows of it.
   struct Contact {

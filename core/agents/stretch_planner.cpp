@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLookAhead_m = 12.0;
 constexpr std::uint32_t kFewAround = 8;  // if it does not hear of all, it knows the ways of so many
-constexpr double kFar_m = 70.0;          // if it does not hear of all, prices of what is further away are of others
+constexpr double kFar_m = 70.0;          // in a divided fleet, prices of what is further away are of others
 constexpr std::uint32_t kLookAheadLanes = 3;
 constexpr double kOnward_m = 40.0, kOnwardInZones_m = 25.0;  // what is announced beyond a stretch
 
@@ -170,12 +170,12 @@ void StretchPlanner::search(const Path& from, std::uint32_t goal) {
   if (!knows_remaining_costs_) return routes_.search(from.station, from.heading, prices_.costs_s(), goal);
   const auto remains_s = remaining_costs_s(geometry_.parts(), model_, goal);
   routes_.search_towards(goal, remains_s, from.station, from.heading, prices_.costs_s(),
-                         neighbours_.audience().hears_of_all() ? INFINITY : kFar_m);
+                         neighbours_.audience().is_divided() ? kFar_m : INFINITY);
 }
 
 // A goal, or a station on the way to it, further away than what is planned now.
 std::uint32_t StretchPlanner::end_of_search(std::uint32_t goal) const {
-  return !neighbours_.audience().hears_of_all() && routes_.reached() != FP_NONE ? routes_.reached() : goal;
+  return neighbours_.audience().is_divided() && routes_.reached() != FP_NONE ? routes_.reached() : goal;
 }
 
 Stretch StretchPlanner::first_stretch(const Path& standing, Budget budget, std::span<const Goal> goals) {
