@@ -234,11 +234,14 @@ std::uint32_t StretchPlanner::free_charger(const Path& standing, bool loaded, bo
   return best;
 }
 
+// Another AGV stands there or will, or comes by on its way. Of two on their way, one must see the charger as free.
 bool StretchPlanner::is_taken(std::uint32_t station) {
+  const auto ends_there = [&](std::uint32_t lane) { return map_.lane(lane).to == station; };
   bool taken = false;
   for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
-    taken =
-        taken || (n.known && geometry_.turn_conflict(neighbours_.self(), station, agv, end_of(map_, n.status.held)));
+    if (taken || !n.known) return;
+    taken = geometry_.turn_conflict(neighbours_.self(), station, agv, end_of(map_, n.status.held)) ||
+            (agv < neighbours_.self() && std::ranges::any_of(n.status.ahead.lanes(), ends_there));
   });
   return taken;
 }

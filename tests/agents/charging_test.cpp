@@ -118,5 +118,32 @@ TEST(Charging, AnAgvThatNeedsTheChargerMoreGetsItSoonAndPicksNothingBefore) {
 
 TEST(Charging, WithSomeBatteryLeftItCarriesLoadsWhileTheChargerIsOccupied) { EXPECT_FALSE(Shared(0.25).charged_first); }
 
+// One charger is near to both AGVs, another one is far. The first AGV drives to the near one, which it does not hold
+// yet when the battery of the second one gets low.
+TEST(Charging, AnAgvLeavesAChargerToOneThatIsOnItsWayThere) {
+  DrawnMap drawn;
+  for (int i = 0; i < 12; ++i) drawn.station(8.0 * i, 0);
+  for (std::uint32_t i = 0; i < 11; ++i) drawn.segment(i, i + 1);
+  const std::uint32_t near = drawn.station(64, 4, FP_CHARGING), far = drawn.station(88, 30, FP_CHARGING);
+  drawn.segment(8, near);
+  drawn.segment(11, far);
+  drawn.map();
+  const TestFleet fleet(drawn.map(), 2);
+  FakeWarehouse warehouse(drawn, fleet, {0, 10}, kHullLock, {}, 1);
+  warehouse.battery(0, 0.2);
+  warehouse.battery(1, 1.0);
+  bool first_gets_there = false, charged_near = false, charged_far = false;
+  warehouse.after_activation = [&](std::uint32_t) {
+    if (warehouse.station_of(0) == 2) warehouse.battery(1, 0.2);
+    first_gets_there = first_gets_there || warehouse.station_of(0) == near;
+    charged_near = charged_near || warehouse.station_of(1) == near;
+    charged_far = charged_far || warehouse.station_of(1) == far;
+  };
+  warehouse.run(100.0);
+  EXPECT_TRUE(first_gets_there);
+  EXPECT_TRUE(charged_far);
+  EXPECT_FALSE(charged_near);
+}
+
 }  // namespace
 }  // namespace fleetproof::agents
