@@ -91,11 +91,12 @@ void LockMessages::tell(std::uint32_t receiver, bool wants_answer) {
 
 bool LockMessages::is_to_be_told(const Neighbour& n) {
   if (n.told_at_ns < 0) return true;
-  const bool is_news = n.owes_acknowledgement || n.told_condition != transmitter_.condition(is_blocked(), is_held_up());
-  const bool knows_way = n.heard_us_ms >= claim_.way.since_ms(claim_.way.path().count);
   const double many = static_cast<double>(std::max(kFewAround, neighbours_.audience().agvs().size())) / kFewAround;
   const double since_ns = static_cast<double>(controller_.now_ns() - n.told_at_ns) / many;
-  return since_ns >= kQuiet_ns || (is_news && since_ns >= kTellsNews_ns) || (!knows_way && since_ns >= kTellsAgain_ns);
+  if (since_ns < kTellsNews_ns || since_ns >= kQuiet_ns) return since_ns >= kQuiet_ns;
+  const bool knows_way = n.heard_us_ms >= claim_.way.since_ms(claim_.way.path().count);
+  return (!knows_way && since_ns >= kTellsAgain_ns) || n.owes_acknowledgement ||
+         n.told_condition != transmitter_.condition(is_blocked(), is_held_up());
 }
 
 Message LockMessages::begin(MessageKind kind) {
