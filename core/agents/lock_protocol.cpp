@@ -319,8 +319,8 @@ bool LockProtocol::consents(std::uint32_t agv, const Neighbour& neighbour, std::
     return true;
   }
   if (zones_ && zones_->is_elsewhere(neighbour)) return true;
-  return knows_request(neighbour) && (neighbours_.surely_beyond(agv, claim_.request, now_ns) ||
-                                      neighbours_.is_apart(agv, claim_.request, claim_.epoch));
+  return knows_request(neighbour) && (neighbours_.is_apart(agv, claim_.request, claim_.epoch) ||
+                                      neighbours_.surely_beyond(agv, claim_.request, now_ns));
 }
 
 // Few repetitions go to their addressees, many go out with the STATE.
