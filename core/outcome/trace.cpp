@@ -3,7 +3,7 @@
 #include <algorithm>
 
 // The library's own choice of instructions for the processor, where it has one. The digest is the same with each.
-#if __has_include(<xxh_x86dispatch.h>)
+#if defined(FLEETPROOF_XXHASH_DISPATCHES) && __has_include(<xxh_x86dispatch.h>)
 #include <xxh_x86dispatch.h>
 #else
 #define XXH_INLINE_ALL
