@@ -40,7 +40,6 @@ class NormalOperationLaw final : public Law {
         faults_(scenario) {}
 
   Pieces hears_pieces() const override { return Pieces::None; }
-  void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
     return TraceKinds{TraceKind::SafeMode,       TraceKind::OrderReleased, TraceKind::TransportDone,
                       TraceKind::ActivityBegins, TraceKind::ActivityEnds,  TraceKind::LoadMoves} |

@@ -9,12 +9,16 @@
 namespace fleetproof::test {
 namespace {
 
-// Tells a law that every piece had company, and makes it hear all records at once.
+// Tells a law of all other bodies as company, and of all pieces, and makes it hear all records at once.
 class Eager final : public Law {
  public:
-  Eager(std::unique_ptr<Law> law, std::size_t bodies) : law_(std::move(law)), pieces_(bodies) {}
-  void piece_started(const Piece& piece) override { law_->piece_started(told(piece)); }
-  void piece_ended(const Piece& piece) override { law_->piece_ended(told(piece)); }
+  explicit Eager(std::unique_ptr<Law> law) : law_(std::move(law)) {}
+  double looks_within_m() const override { return law_->looks_within_m() > 0.0 ? kEverywhere_m : 0.0; }
+  void had_company(const Piece& piece, std::span<const Piece* const> others) override {
+    law_->had_company(piece, others);
+  }
+  void piece_started(const Piece& piece) override { law_->piece_started(piece); }
+  void piece_ended(const Piece& piece) override { law_->piece_ended(piece); }
   TraceKinds reads() const override { return law_->reads(); }
   void happened(const TraceRecord& record) override {
     if (source_ != nullptr) source_->hand_over();
@@ -27,14 +31,8 @@ class Eager final : public Law {
   LawFindings findings() const override { return law_->findings(); }
 
  private:
-  const Piece& told(const Piece& piece) {
-    Piece& kept = pieces_[piece.entity.index()];
-    kept = piece;
-    kept.has_company = true;
-    return kept;
-  }
+  static constexpr double kEverywhere_m = 1e6;
   std::unique_ptr<Law> law_;
-  std::vector<Piece> pieces_;
   TraceSource* source_ = nullptr;
 };
 
@@ -47,7 +45,7 @@ Judged judged(const Scenario& scenario, const fp_agent_type& agent) {
   auto laws = make_default_laws(scenario);
   both.usual = simulate(scenario, agent, laws);
   laws = make_default_laws(scenario);
-  for (auto& law : laws) law = std::make_unique<Eager>(std::move(law), scenario.body_count());
+  for (auto& law : laws) law = std::make_unique<Eager>(std::move(law));
   both.eager = simulate(scenario, agent, laws);
   return both;
 }

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/geometry/broad_phase.hpp"
+#include "core/motion/piece.hpp"
+
+namespace fleetproof {
+
+// The pieces under way, and which of them have company: the planned box of another body comes near theirs. A body looks
+// around once, when it begins a piece. What it finds holds until one of the two pieces is over.
+class Company {
+ public:
+  // Near are boxes that are `within_m` apart or less. Some that are a micrometre farther apart may be there, too.
+  Company(std::size_t bodies, double within_m);
+
+  // The piece takes the place of the one before of its body. Requires: it stays where it is until the next one begins.
+  void begins(const Piece& piece);
+  void leaves(EntityId body);
+
+  // The bodies near the piece of this body, in ascending order, without itself. None if it has left.
+  std::span<const std::uint32_t> near(EntityId body) const { return near_[body.index()]; }
+  // Their pieces. Valid until the next call.
+  std::span<const Piece* const> pieces_near(EntityId body);
+
+ private:
+  void forget(EntityId body);
+
+  double within_m_;
+  BroadPhase planned_;                            // the boxes of the pieces
+  std::vector<const Piece*> pieces_;              // by body: the last one
+  std::vector<std::vector<std::uint32_t>> near_;  // by body
+  std::vector<const Piece*> answer_;
+};
+
+}  // namespace fleetproof
