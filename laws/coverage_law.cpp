@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/clearance/clearance_over_time.hpp"
+#include "core/clearance/swept_region.hpp"
 #include "core/outcome/trace_records.hpp"
 #include "laws/driven_ways.hpp"
 #include "laws/stretch.hpp"
@@ -69,6 +70,7 @@ void CoverageLaw::had_company(const Piece& piece, std::span<const Piece* const> 
 }
 
 void CoverageLaw::look_closer(const Piece& a, const Piece& b, Interval within) {
+  if (surely_apart(a, b, within, kNearMiss_m)) return;
   const auto approach = closest_approach(a, b, within, kNearMiss_m, evaluations_);
   if (!approach) return;
   const auto [at, is_new] = near_.try_emplace({a.entity, b.entity}, Near{within.end, approach->clearance_m});

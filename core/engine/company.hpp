@@ -10,7 +10,8 @@
 namespace fleetproof {
 
 // The pieces under way, and which of them have company: the planned box of another body comes near theirs. A body looks
-// around once, when it begins a piece. What it finds holds until one of the two pieces is over.
+// around when it begins a piece, unless that stays within the box of its last one. What it finds holds until one of the
+// two pieces is over.
 class Company {
  public:
   // Near are boxes that are `within_m` apart or less. Some that are a micrometre farther apart may be there, too.
@@ -26,11 +27,13 @@ class Company {
   std::span<const Piece* const> pieces_near(EntityId body);
 
  private:
+  void stay_near(std::uint32_t body, const Box& near);
   void forget(EntityId body);
 
   double within_m_;
   BroadPhase planned_;                            // the boxes of the pieces
-  std::vector<const Piece*> pieces_;              // by body: the last one
+  std::vector<Box> boxes_;                        // likewise, by body
+  std::vector<const Piece*> pieces_;              // by body; null: it has left
   std::vector<std::vector<std::uint32_t>> near_;  // by body
   std::vector<const Piece*> answer_;
 };

@@ -56,12 +56,18 @@ TEST(Company, IsWhatEveryPairSaysOnItsOwn) {
     std::vector<bool> there(bodies);
     for (int step = 0; step < 500; ++step) {
       const auto body = static_cast<std::uint32_t>(draws.below(bodies));
+      const bool was_there = there[body];
       there[body] = draws.below(4) != 0;
       if (!there[body]) {
         company.leaves(EntityId{body});
         continue;
       }
+      // Then it is somewhere else, or within the box of its last piece.
+      const Box last = pieces[body].planned_box;
       pieces[body] = standing(body, draws.uniform(0.0, side_m), draws.uniform(0.0, side_m));
+      const double wide_m = draws.uniform(0.0, 4.0);
+      pieces[body].planned_box = pieces[body].planned_box.grown(wide_m);
+      if (draws.below(2) == 0 && was_there) pieces[body].planned_box = last.grown(-draws.uniform(0.0, 0.4));
       company.begins(pieces[body]);
       for (std::uint32_t one = 0; one < bodies; ++one) {
         Bodies expected;
