@@ -79,6 +79,12 @@ void LinkQuality::take(const TraceRecord& record, std::int64_t second) {
   if (sent != SimTime::min()) link.longest = std::max(link.longest, record.at - sent);
 }
 
+// Many runs never ask.
+void LinkQuality::note_let_go() {
+  for (const TraceRecord& record : sent_and_let_go_) note_sent(record);
+  sent_and_let_go_.clear();
+}
+
 void LinkQuality::take_before(SimTime end, std::int64_t second) {
   for (; next_waiting_ < waiting_.size(); ++next_waiting_) {
     TracePart& part = waiting_[next_waiting_];
@@ -125,7 +131,7 @@ void LinkQuality::let_go_before(SimTime end, TracePart& part) {
     while (part.block->at(part.begin) < end) ++part.begin;
   }
   for (const TraceBlock::Sent& sent : part.block->sent()) {
-    if (sent.place >= begin && sent.place < part.begin) note_sent(part.block->record(sent.place));
+    if (sent.place >= begin && sent.place < part.begin) sent_and_let_go_.push_back(part.block->record(sent.place));
   }
   waiting_records_ -= part.begin - begin;
 }
@@ -137,6 +143,7 @@ void LinkQuality::make_room() {
 // Only links that received in the second that leaves the window, or in the one that comes into it, can have changed.
 void LinkQuality::end_second(std::int64_t second) {
   make_room();
+  note_let_go();
   const SimTime end = kStart + std::chrono::seconds(second + 1);
   take_before(end, second);
   auto& leaves = received_[slot_of(second - kQualityWindow_s)];

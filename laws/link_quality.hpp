@@ -67,6 +67,7 @@ class LinkQuality {
   void forget_taken_parts();
   void take(const TraceRecord& record, std::int64_t second);
   void note_sent(const TraceRecord& record);
+  void note_let_go();
   static std::size_t slot_of(std::int64_t second) {
     return static_cast<std::size_t>((second + kSeconds) % kSeconds);  // not below -kSeconds
   }
@@ -82,6 +83,7 @@ class LinkQuality {
   std::array<std::vector<std::uint32_t>, kSeconds> received_;  // places of the links that received in a second
   std::vector<std::uint32_t> broken_;                          // by receiver: links to it out of the contract
   std::vector<SentMessages> sent_;                             // by sender
+  std::vector<TraceRecord> sent_and_let_go_;                   // not in sent_ yet
   std::vector<TracePart> waiting_;                             // in order of time
   std::size_t next_waiting_ = 0;                               // those before it were taken
   std::size_t waiting_records_ = 0;
