@@ -49,7 +49,7 @@ TEST(Company, LastsUntilOneOfTheTwoPiecesIsOver) {
 TEST(Company, IsWhatEveryPairSaysOnItsOwn) {
   Draws draws(3);
   std::size_t found = 0;
-  for (const std::uint32_t bodies : {6U, 60U}) {
+  for (const std::uint32_t bodies : {6U, 100U}) {
     const double side_m = 3.0 * bodies / 6.0;
     Company company(bodies, kWithin_m);
     std::vector<Piece> pieces(bodies);
