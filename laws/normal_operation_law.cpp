@@ -15,6 +15,7 @@ namespace {
 constexpr Duration kSecond = std::chrono::seconds(1);
 // Records that wait: four megabytes, or 168 kilobytes for each AGV.
 constexpr std::size_t kMostWaiting = 98'304, kMostWaitingOfAgv = 4'096;
+constexpr std::size_t kPartLetGo = 8;  // of them, the eighth part at least: seldom enough
 
 // Of the instants a second apart from `next` on, the last one before `t`. Requires: next < t.
 SimTime last_of(SimTime next, SimTime t) { return next + (t - next - Duration{1}) / kSecond * kSecond; }
@@ -138,7 +139,8 @@ bool NormalOperationLaw::needs_quality(SimTime now) const {
   return fleet_.safe > 0 || stands_still(now) || scenario_.law.min_transports_per_agv_hour > 0.0;
 }
 
-// Too many records wait; `t` is that of the newest. Those that can matter no more are let go, unless they are few.
+// Too many records wait; `t` is that of the newest. Those that can matter no more are let go. If they are few, the
+// links are followed as well, as long as it takes.
 void NormalOperationLaw::make_room(SimTime t) {
   seconds_before(t);
   const std::int64_t second = (matters_from(t) - kStart) / kSecond - kQualityWindow_s;
@@ -146,7 +148,8 @@ void NormalOperationLaw::make_room(SimTime t) {
     quality_.skip_to(second);
     followed_ = kStart + second * kSecond;
   }
-  if (quality_.waiting() > most_waiting_ / 2) follow_links(next_ - kSecond);
+  const std::size_t enough = most_waiting_ - most_waiting_ / kPartLetGo;
+  while (quality_.waiting() > enough && followed_ < next_ - kSecond) follow_links(followed_ + kSecond);
 }
 
 // From when on it can matter, at seconds from `t` on, whether the links kept the contract. An AGV is accused only if
