@@ -16,7 +16,6 @@ class BatteryLaw final : public Law {
 
   Pieces hears_pieces() const override { return Pieces::Beginnings; }
   void piece_started(const Piece& piece) override { bodies_.note(piece); }
-  void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
     return {TraceKind::BatteryEmpty, TraceKind::ActivityBegins, TraceKind::OperatorAssists};
   }

@@ -24,7 +24,6 @@ class CongestionLaw final : public Law {
         last_air_time_(radio_.air_time(0)) {}
 
   Pieces hears_pieces() const override { return Pieces::None; }
-  void piece_ended(const Piece&) override {}
   bool hears_together() const override { return true; }
   void together(const TracePart& part) override {
     if (interference_ || bytes_matter_ || !stays_calm(part)) look_at_all(part);

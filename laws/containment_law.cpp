@@ -30,7 +30,6 @@ class ContainmentLaw final : public Law {
 
   Pieces hears_pieces() const override { return Pieces::Beginnings; }
   void piece_started(const Piece& piece) override { bodies_.note(piece); }
-  void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
     return {TraceKind::LoadMoves, TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins,
             TraceKind::ActivityEnds};

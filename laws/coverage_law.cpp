@@ -5,11 +5,10 @@
 #include <string>
 
 #include "core/clearance/clearance_over_time.hpp"
-#include "core/geometry/broad_phase.hpp"
+#include "core/clearance/swept_region.hpp"
 #include "core/outcome/trace_records.hpp"
 #include "laws/driven_ways.hpp"
 #include "laws/stretch.hpp"
-#include "laws/whereabouts.hpp"
 
 namespace fleetproof {
 namespace {
@@ -21,13 +20,15 @@ class CoverageLaw final : public Law {
  public:
   explicit CoverageLaw(const Scenario& scenario)
       : margin_m_(violation_threshold_m(scenario.law)),
-        bodies_(scenario),
-        swept_(scenario.agvs.size()),
+        agv_count_(scenario.agvs.size()),
         ways_(*scenario.map, scenario.agvs.size(), margin_m_) {}
 
   double looks_within_m() const override { return kNearMiss_m; }
-  void piece_started(const Piece& piece) override;
-  void piece_ended(const Piece& piece) override;
+  void had_company(const Piece& piece, std::span<const Piece* const> others) override;
+  Pieces hears_pieces() const override { return Pieces::Beginnings; }
+  void piece_started(const Piece& piece) override {
+    if (piece.manner == Manner::Drive && piece.entity.index() < agv_count_) ways_.begins(piece);
+  }
   TraceKinds reads() const override { return {TraceKind::FaultStrikes}; }
   void happened(const TraceRecord& record) override { ++faults_[read<traced::FaultStrikes>(record).fault]; }
   void finish(SimTime end) override;
@@ -43,8 +44,7 @@ class CoverageLaw final : public Law {
   void close(const Near& near) { near_misses_ += near.clearance_m >= margin_m_; }
 
   double margin_m_;
-  Whereabouts bodies_;
-  BroadPhase swept_;  // AGVs by their pieces, as planned; none between a piece and the next
+  std::size_t agv_count_;
   DrivenWays ways_;
   std::map<std::pair<EntityId, EntityId>, Near> near_;
   std::uint64_t near_misses_ = 0;
@@ -52,32 +52,25 @@ class CoverageLaw final : public Law {
   EvaluationCount evaluations_;
 };
 
-void CoverageLaw::piece_started(const Piece& piece) {
-  bodies_.note(piece);
-  if (piece.entity.index() >= bodies_.agv_count()) return;
-  swept_.place(piece.entity.index(), piece.planned_box);
-  if (piece.manner == Manner::Drive) ways_.begins(piece);
-}
-
-void CoverageLaw::piece_ended(const Piece& piece) {
+void CoverageLaw::had_company(const Piece& piece, std::span<const Piece* const> others) {
   const std::size_t mine = piece.entity.index();
-  if (mine >= bodies_.agv_count()) return;
-  if (!piece.has_company) return swept_.remove(mine);
-  const Box near = swept_.box_of(mine).grown(kNearMiss_m);
-  swept_.remove(mine);
-  for (const std::uint32_t i : swept_.overlapping(near)) {
-    const Piece& other = bodies_.of(EntityId{i});
-    const Interval common{std::max(piece.begin, other.begin), piece.end};
-    if (common.begin >= common.end || (piece.manner == Manner::Rest && other.manner == Manner::Rest)) continue;
-    if (mine < i) {
-      look_closer(piece, other, common);
+  if (mine >= agv_count_) return;
+  const Box near = piece.planned_box.grown(kNearMiss_m);
+  for (const Piece* const other : others) {
+    const std::size_t its = other->entity.index();
+    if (its >= agv_count_ || !near.overlaps(other->planned_box)) continue;
+    const Interval common{std::max(piece.begin, other->begin), piece.end};
+    if (common.begin >= common.end || (piece.manner == Manner::Rest && other->manner == Manner::Rest)) continue;
+    if (mine < its) {
+      look_closer(piece, *other, common);
     } else {
-      look_closer(other, piece, common);
+      look_closer(*other, piece, common);
     }
   }
 }
 
 void CoverageLaw::look_closer(const Piece& a, const Piece& b, Interval within) {
+  if (surely_apart(a, b, within, kNearMiss_m)) return;
   const auto approach = closest_approach(a, b, within, kNearMiss_m, evaluations_);
   if (!approach) return;
   const auto [at, is_new] = near_.try_emplace({a.entity, b.entity}, Near{within.end, approach->clearance_m});

@@ -4,7 +4,6 @@
 
 #include "core/base/error.hpp"
 #include "core/clearance/clearance_over_time.hpp"
-#include "core/geometry/broad_phase.hpp"
 #include "laws/judged_stretch.hpp"
 #include "laws/second_opinion.hpp"
 #include "laws/stretch.hpp"
@@ -22,12 +21,11 @@ class ExactLaw final : public Law {
   explicit ExactLaw(const Scenario& scenario)
       : agv_count_(scenario.agvs.size()),
         threshold_m_(violation_threshold_m(scenario.law)),
-        current_(scenario.body_count()),
-        bodies_(current_.size()),
-        swept_(current_.size()) {}
+        bodies_(scenario.body_count()) {}
 
   double looks_within_m() const override { return std::max(kMeasuredBelow_m, threshold_m_); }
-  void piece_started(const Piece& piece) override;
+  Pieces hears_pieces() const override { return Pieces::Ends; }
+  void had_company(const Piece& piece, std::span<const Piece* const> others) override;
   void piece_ended(const Piece& piece) override;
   void finish(SimTime end) override;
   LawFindings findings() const override;
@@ -40,54 +38,52 @@ class ExactLaw final : public Law {
   void collect(const Piece& a, const Piece& b, SimTime first, SimTime last);
   double threshold_m(const Piece& a, const Piece& b) const { return threshold_m_ - allowance_on_curves_m(a, b); }
   double clearance_at(const Piece& a, const Piece& b, SimTime t);
+  // Since when the body of this piece, its newest, has been on the floor.
+  SimTime on_floor_since(const Piece& piece) const {
+    const OnFloor& before = bodies_[piece.entity.index()];
+    return before.until == piece.begin ? before.since : piece.begin;
+  }
 
   std::size_t agv_count_;
   double threshold_m_;
   double smallest_m_ = kMeasuredBelow_m;
-  std::vector<const Piece*> current_;
-  // Since when a body is on the floor without a break, and the end of its last piece.
+  // Of a body, as of its last piece that is over: since when it was on the floor without a break, and the end.
   struct OnFloor {
     SimTime since = SimTime::min(), until = SimTime::min();
   };
   std::vector<OnFloor> bodies_;
-  BroadPhase swept_;  // boxes of current_, as planned; none between a piece and the next
   EvaluationCount evaluations_;
   EvaluationCount describing_;  // spent on violations that are found already: no cost of detection, not reported
   std::vector<Stretch> stretches_;
 };
 
-void ExactLaw::piece_started(const Piece& piece) {
-  ensure(piece.entity.index() < current_.size(), "a law hears only of the bodies of its scenario");
-  current_[piece.entity.index()] = &piece;
-  OnFloor& body = bodies_[piece.entity.index()];
-  if (body.until != piece.begin) body.since = piece.begin;
-  swept_.place(piece.entity.index(), piece.planned_box);
+void ExactLaw::had_company(const Piece& piece, std::span<const Piece* const> others) {
+  const std::size_t mine = piece.entity.index();
+  const Box near = piece.planned_box.grown(std::max(smallest_m_, threshold_m_));
+  for (const Piece* const other : others) {
+    const std::size_t its = other->entity.index();
+    if (mine >= agv_count_ && its >= agv_count_) continue;  // two obstacles cannot violate anything
+    if (!near.overlaps(other->planned_box)) continue;
+    const Interval common{std::max(piece.begin, other->begin), piece.end};
+    // The same order of the pair whichever piece ends first, so that the order of announcements leaves no trace in the
+    // arithmetic.
+    if (mine < its) {
+      settle(piece, *other, common);
+    } else {
+      settle(*other, piece, common);
+    }
+  }
 }
 
 void ExactLaw::piece_ended(const Piece& piece) {
-  const std::size_t mine = piece.entity.index();
-  bodies_[mine].until = piece.end;
-  if (!piece.has_company) return swept_.remove(mine);
-  const Box near = swept_.box_of(mine).grown(std::max(smallest_m_, threshold_m_));
-  swept_.remove(mine);
-  for (const std::size_t i : swept_.overlapping(near)) {
-    if (mine >= agv_count_ && i >= agv_count_) continue;  // two obstacles cannot violate anything
-    const Piece& other = *current_[i];
-    const Interval common{std::max(piece.begin, other.begin), piece.end};
-    // The same order of the pair whichever piece ends first, so that the order of announcements leaves no trace in the
-    // arithmetic.
-    if (mine < i) {
-      settle(piece, other, common);
-    } else {
-      settle(other, piece, common);
-    }
-  }
+  ensure(piece.entity.index() < bodies_.size(), "a law hears only of the bodies of its scenario");
+  bodies_[piece.entity.index()] = {on_floor_since(piece), piece.end};
 }
 
 void ExactLaw::settle(const Piece& a, const Piece& b, Interval within) {
   const bool instant = within.begin == within.end;
   // Unless a body has appeared at this instant, it is the last one of an interval already settled.
-  const bool appeared = std::max(bodies_[a.entity.index()].since, bodies_[b.entity.index()].since) == within.begin;
+  const bool appeared = std::max(on_floor_since(a), on_floor_since(b)) == within.begin;
   if (instant && !appeared) return;
   if (instant || (a.manner == Manner::Rest && b.manner == Manner::Rest)) {
     settle_standing(a, b, within);

@@ -24,7 +24,10 @@ class ExemptingLaw final : public Law {
   }
 
   double looks_within_m() const override { return exact_->looks_within_m(); }
-  void piece_started(const Piece& piece) override { exact_->piece_started(piece); }
+  Pieces hears_pieces() const override { return Pieces::Ends; }
+  void had_company(const Piece& piece, std::span<const Piece* const> others) override {
+    exact_->had_company(piece, others);
+  }
   void piece_ended(const Piece& piece) override {
     exact_->piece_ended(piece);
     timelines_.piece_ended(piece);

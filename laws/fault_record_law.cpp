@@ -14,7 +14,6 @@ class FaultRecordLaw final : public Law {
       : agv_count_(scenario.agvs.size()), with_obstacles_(agv_count_ + scenario.obstacles.size()) {}
 
   Pieces hears_pieces() const override { return Pieces::None; }
-  void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
     return {TraceKind::FaultStrikes, TraceKind::FaultOver, TraceKind::Appears, TraceKind::Leaves};
   }

@@ -58,12 +58,13 @@ LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, st
   return link;
 }
 
+void LinkQuality::note_sent(const TraceRecord& record) {
+  const auto sent = read<traced::Sent>(record);
+  sent_[record.entity.index()].note(sent.message_hash, sent.receiver, record.at);
+}
+
 void LinkQuality::take(const TraceRecord& record, std::int64_t second) {
-  if (record.kind == TraceKind::Sent) {
-    const auto sent = read<traced::Sent>(record);
-    sent_[record.entity.index()].note(sent.message_hash, sent.receiver, record.at);
-    return;
-  }
+  if (record.kind == TraceKind::Sent) return note_sent(record);
   const auto reception = read<traced::Reception>(record);
   if (reception.sender.index() >= agvs_ || record.entity.index() >= agvs_) return;
   Link& link = now(reception.sender.index(), record.entity.index(), second);
@@ -78,6 +79,12 @@ void LinkQuality::take(const TraceRecord& record, std::int64_t second) {
   if (sent != SimTime::min()) link.longest = std::max(link.longest, record.at - sent);
 }
 
+// Many runs never ask.
+void LinkQuality::note_let_go() {
+  for (const TraceRecord& record : sent_and_let_go_) note_sent(record);
+  sent_and_let_go_.clear();
+}
+
 void LinkQuality::take_before(SimTime end, std::int64_t second) {
   for (; next_waiting_ < waiting_.size(); ++next_waiting_) {
     TracePart& part = waiting_[next_waiting_];
@@ -90,14 +97,53 @@ void LinkQuality::take_before(SimTime end, std::int64_t second) {
     if (part.begin < part.end) break;
     part.block.reset();
   }
+  forget_taken_parts();
+}
+
+// Seldom enough to cost nothing.
+void LinkQuality::forget_taken_parts() {
   if (2 * next_waiting_ < waiting_.size()) return;
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(next_waiting_));
-  next_waiting_ = 0;  // seldom enough to cost nothing
+  next_waiting_ = 0;
+}
+
+void LinkQuality::skip_to(std::int64_t second) {
+  make_room();
+  places_.assign(agvs_, {}), broken_.assign(agvs_, 0);
+  links_.clear();
+  for (auto& places : received_) places.clear();
+  const SimTime end = kStart + std::chrono::seconds(second);
+  for (; next_waiting_ < waiting_.size(); ++next_waiting_) {
+    TracePart& part = waiting_[next_waiting_];
+    let_go_before(end, part);
+    if (part.begin < part.end) break;
+    part.block.reset();
+  }
+  forget_taken_parts();
+}
+
+// A block knows which of its records are about messages that were sent.
+void LinkQuality::let_go_before(SimTime end, TracePart& part) {
+  const std::uint32_t begin = part.begin;
+  if (part.block->at(part.end - 1) < end) {
+    part.begin = part.end;
+  } else {
+    while (part.block->at(part.begin) < end) ++part.begin;
+  }
+  for (const TraceBlock::Sent& sent : part.block->sent()) {
+    if (sent.place >= begin && sent.place < part.begin) sent_and_let_go_.push_back(part.block->record(sent.place));
+  }
+  waiting_records_ -= part.begin - begin;
+}
+
+void LinkQuality::make_room() {
+  if (places_.empty()) places_.resize(agvs_), broken_.resize(agvs_), sent_.resize(agvs_);
 }
 
 // Only links that received in the second that leaves the window, or in the one that comes into it, can have changed.
 void LinkQuality::end_second(std::int64_t second) {
-  if (places_.empty()) places_.resize(agvs_), broken_.resize(agvs_), sent_.resize(agvs_);
+  make_room();
+  note_let_go();
   const SimTime end = kStart + std::chrono::seconds(second + 1);
   take_before(end, second);
   auto& leaves = received_[slot_of(second - kQualityWindow_s)];

@@ -31,8 +31,11 @@ class LinkQuality {
   }
   std::size_t waiting() const { return waiting_records_; }  // records of seconds that are not ended, about anything
   // All that happened in the second that begins at `second` has been noted. The functions below now speak of this
-  // second and the nine before it. Requires: one second after the other, from 0 on.
+  // second and the nine before it. Requires: one second after the other, from 0 on, or from skip_to() on.
   void end_second(std::int64_t second);
+  // Lets go of what was noted before this second, but for when messages were sent. The functions below speak of ten
+  // seconds again when ten more have been ended. Requires: no second from this one on was ended.
+  void skip_to(std::int64_t second);
 
   struct Link {
     std::uint32_t receptions = 0, lost = 0;
@@ -58,8 +61,13 @@ class LinkQuality {
     Link sum;                            // over the window
     std::array<Link, kSeconds> seconds;  // by number, modulo the length
   };
+  void make_room();
   void take_before(SimTime end, std::int64_t second);
+  void let_go_before(SimTime end, TracePart& part);
+  void forget_taken_parts();
   void take(const TraceRecord& record, std::int64_t second);
+  void note_sent(const TraceRecord& record);
+  void note_let_go();
   static std::size_t slot_of(std::int64_t second) {
     return static_cast<std::size_t>((second + kSeconds) % kSeconds);  // not below -kSeconds
   }
@@ -68,12 +76,14 @@ class LinkQuality {
   void judge(Active& link);
 
   std::size_t agvs_;
-  // Whoever does not ask about the links needs none of these: they are empty until the first second is ended.
+  // Whoever does not ask about the links needs none of these: they are empty until the first second is ended, and
+  // the first four again when seconds are skipped.
   std::vector<std::vector<std::uint32_t>> places_;  // in links_, by receiver and sender; or kSilent. No row: all silent
   std::vector<Active> links_;
   std::array<std::vector<std::uint32_t>, kSeconds> received_;  // places of the links that received in a second
   std::vector<std::uint32_t> broken_;                          // by receiver: links to it out of the contract
   std::vector<SentMessages> sent_;                             // by sender
+  std::vector<TraceRecord> sent_and_let_go_;                   // not in sent_ yet
   std::vector<TracePart> waiting_;                             // in order of time
   std::size_t next_waiting_ = 0;                               // those before it were taken
   std::size_t waiting_records_ = 0;

@@ -15,6 +15,7 @@ namespace {
 constexpr Duration kSecond = std::chrono::seconds(1);
 // Records that wait: four megabytes, or 168 kilobytes for each AGV.
 constexpr std::size_t kMostWaiting = 98'304, kMostWaitingOfAgv = 4'096;
+constexpr std::size_t kPartLetGo = 8;  // of them, the eighth part at least: seldom enough
 
 // Of the instants a second apart from `next` on, the last one before `t`. Requires: next < t.
 SimTime last_of(SimTime next, SimTime t) { return next + (t - next - Duration{1}) / kSecond * kSecond; }
@@ -40,7 +41,6 @@ class NormalOperationLaw final : public Law {
         faults_(scenario) {}
 
   Pieces hears_pieces() const override { return Pieces::None; }
-  void piece_ended(const Piece&) override {}
   TraceKinds reads() const override {
     return TraceKinds{TraceKind::SafeMode,       TraceKind::OrderReleased, TraceKind::TransportDone,
                       TraceKind::ActivityBegins, TraceKind::ActivityEnds,  TraceKind::LoadMoves} |
@@ -51,13 +51,15 @@ class NormalOperationLaw final : public Law {
   void together(const TracePart& part) override {
     if (part.begin == part.end) return;
     quality_.note(part);
-    if (quality_.waiting() >= most_waiting_) seconds_before(part.block->at(part.end - 1));
+    if (quality_.waiting() >= most_waiting_) make_room(part.block->at(part.end - 1));
   }
   void hears_from(TraceSource& source) override { source_ = &source; }
   void finish(SimTime end) override;
   LawFindings findings() const override;
 
  private:
+  void make_room(SimTime t);
+  SimTime matters_from(SimTime t) const;
   void seconds_before(SimTime t);
   void nothing_goes_on();
   bool needs_quality(SimTime now) const;
@@ -134,8 +136,28 @@ void NormalOperationLaw::seconds_before(SimTime t) {
 // Whether it matters now how good the links are, and have been. If it does, and nothing happens, it does so from now
 // on.
 bool NormalOperationLaw::needs_quality(SimTime now) const {
-  return fleet_.safe > 0 || stands_still(now) || quality_.waiting() >= most_waiting_ ||
-         scenario_.law.min_transports_per_agv_hour > 0.0;
+  return fleet_.safe > 0 || stands_still(now) || scenario_.law.min_transports_per_agv_hour > 0.0;
+}
+
+// Too many records wait; `t` is that of the newest. Those that can matter no more are let go. If they are few, the
+// links are followed as well, as long as it takes.
+void NormalOperationLaw::make_room(SimTime t) {
+  seconds_before(t);
+  const std::int64_t second = (matters_from(t) - kStart) / kSecond - kQualityWindow_s;
+  if (!(scenario_.law.min_transports_per_agv_hour > 0.0) && second > (followed_ - kStart) / kSecond) {
+    quality_.skip_to(second);
+    followed_ = kStart + second * kSecond;
+  }
+  const std::size_t enough = most_waiting_ - most_waiting_ / kPartLetGo;
+  while (quality_.waiting() > enough && followed_ < next_ - kSecond) follow_links(followed_ + kSecond);
+}
+
+// From when on it can matter, at seconds from `t` on, whether the links kept the contract. An AGV is accused only if
+// they have done so for longer than the reaction takes. A fleet is accused only if they have done so for longer than it
+// stands still, which it can do from when no AGV is at work and transports are open.
+SimTime NormalOperationLaw::matters_from(SimTime t) const {
+  const bool may_stand_still = fleet_.busy == 0 && open_ > 0;
+  return std::min(t - seconds(scenario_.law.reaction_s), may_stand_still ? std::max(active_at_, faults_.last()) : t);
 }
 
 bool NormalOperationLaw::stands_still(SimTime now) const {

@@ -4,11 +4,17 @@
 
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
+#include "core/clearance/swept_region.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr double kRounding_m = 1e-6;  // whichever of two boxes is grown
+// As near as any law looks, or as the world itself: a touch.
+double farthest_look_m(std::span<const std::unique_ptr<Law>> laws) {
+  double within_m = kTouch_m;
+  for (const auto& law : laws) within_m = std::max(within_m, law->looks_within_m());
+  return within_m;
+}
 
 }  // namespace
 
@@ -17,16 +23,17 @@ World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> law
       laws_(laws),
       sink_(sink),
       bodies_(scenario.body_count()),
-      planned_(scenario.body_count()),
+      company_(scenario.body_count(), farthest_look_m(laws)),
       carried_(scenario.agvs.size()),
       loads_of_(scenario.agvs.size()),
       touched_(scenario.body_count()) {
   listeners_.to_beginnings.reserve(laws.size()), listeners_.to_ends.reserve(laws.size());
+  listeners_.to_company.reserve(laws.size());
   for (const auto& law : laws) {
-    company_m_ = std::max(company_m_, law->looks_within_m());
     const Law::Pieces pieces = law->hears_pieces();
-    if (pieces != Law::Pieces::None) listeners_.to_beginnings.push_back(law.get());
-    if (pieces == Law::Pieces::All) listeners_.to_ends.push_back(law.get());
+    if (pieces == Law::Pieces::All || pieces == Law::Pieces::Beginnings) listeners_.to_beginnings.push_back(law.get());
+    if (pieces == Law::Pieces::All || pieces == Law::Pieces::Ends) listeners_.to_ends.push_back(law.get());
+    if (law->looks_within_m() > 0.0) listeners_.to_company.push_back(law.get());
   }
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
     const AgvSetup& agv = scenario.agvs[i];
@@ -48,6 +55,10 @@ void World::put_on_floor(EntityId id, const Footprint& footprint, const Pose& po
 }
 
 void World::announce_end(const Piece& piece) {
+  if (!company_.near(piece.entity).empty() && !listeners_.to_company.empty()) {
+    const auto near = company_.pieces_near(piece.entity);
+    for (Law* law : listeners_.to_company) law->had_company(piece, near);
+  }
   for (Law* law : listeners_.to_ends) law->piece_ended(piece);
   if (sink_ != nullptr) sink_->piece_ended(piece);
 }
@@ -55,10 +66,9 @@ void World::announce_end(const Piece& piece) {
 void World::take_off_floor(EntityId id, SimTime t) {
   Body& body = bodies_[id.index()];
   body.on_floor = false;
-  planned_.remove(id.index());
-  newest_.piece.reset();
   body.piece.end = t;
   announce_end(body.piece);
+  company_.leaves(id);
 }
 
 bool World::is_free(const OrientedRectangle& place, double margin_m, SimTime t) const {
@@ -80,20 +90,9 @@ void World::begin(Body& body, const Piece& piece) {
   body.piece = piece;
   body.piece.number = pieces_++;
   body.piece.planned_box = piece.swept_box(piece.end);
-  planned_.place(piece.entity.index(), body.piece.planned_box);
-  find_company(body);
+  company_.begins(body.piece);
   for (Law* law : listeners_.to_beginnings) law->piece_started(body.piece);
   if (sink_ != nullptr) sink_->piece_started(body.piece);
-}
-
-// Of two bodies that come near each other, one began its piece later, and finds the other here.
-void World::find_company(Body& body) {
-  const auto near = planned_.overlapping(body.piece.planned_box.grown(std::max(company_m_, kTouch_m) + kRounding_m));
-  body.piece.has_company = near.size() > 1;  // it finds itself
-  newest_.piece = body.piece.number;
-  newest_.near.assign(near.begin(), near.end());
-  if (!body.piece.has_company) return;
-  for (const std::uint32_t i : near) bodies_[i].piece.has_company = true;
 }
 
 void World::continue_with(EntityId id, const Piece& next) {
@@ -107,15 +106,13 @@ void World::continue_with(EntityId id, const Piece& next) {
 void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
   const Body& mine = body(id);
   const Box reach = mine.piece.planned_box.grown(kTouch_m);
-  const auto near =
-      newest_.piece == mine.piece.number ? std::span<const std::uint32_t>(newest_.near) : planned_.overlapping(reach);
-  for (const std::uint32_t i : near) {
+  for (const std::uint32_t i : company_.near(id)) {
     const Body& other = bodies_[i];
     const EntityId other_id{i};
-    if (other_id == id || !reach.overlaps(other.piece.planned_box) || have_touched(id, other_id)) continue;
+    if (!reach.overlaps(other.piece.planned_box) || have_touched(id, other_id)) continue;
     const Interval common{std::max(mine.piece.begin, other.piece.begin),
                           std::min({mine.piece.end, other.piece.end, kStart + scenario_.horizon})};
-    if (common.begin > common.end) continue;
+    if (common.begin > common.end || surely_apart(mine.piece, other.piece, common, kTouch_m)) continue;
     if (const auto at = first_below(mine.piece, other.piece, common, kTouch_m, evaluations_)) {
       out.push_back({*at, id, other_id, mine.piece.number, other.piece.number});
     }
@@ -141,6 +138,7 @@ void World::finish(SimTime end) {
     if (!body.on_floor) continue;
     body.piece.end = std::min(body.piece.end, end);
     announce_end(body.piece);
+    company_.leaves(body.piece.entity);
   }
   for (const auto& law : laws_) law->finish(end);
 }

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/clearance/clearance_over_time.hpp"
-#include "core/geometry/broad_phase.hpp"
+#include "core/engine/company.hpp"
 #include "core/motion/activity.hpp"
 #include "core/outcome/law.hpp"
 #include "core/scenario/scenario.hpp"
@@ -78,31 +77,23 @@ class World {
 
  private:
   void begin(Body& body, const Piece& piece);
-  void find_company(Body& body);
   void announce_end(const Piece& piece);
 
   const Scenario& scenario_;
   std::span<const std::unique_ptr<Law>> laws_;
   struct Listeners {
-    std::vector<Law*> to_beginnings, to_ends;  // of pieces
+    std::vector<Law*> to_beginnings, to_ends, to_company;  // of pieces
   };
   Listeners listeners_;
   TraceSink* sink_;
   std::vector<Body> bodies_;
-  BroadPhase planned_;  // the boxes of the pieces under way
+  Company company_;  // of the pieces under way
   std::vector<Load> loads_;
   std::vector<LoadId> carried_;                 // by AGV; invalid: none
   std::vector<std::vector<LoadId>> loads_of_;   // by AGV: those of its transports, oldest first
   std::vector<LoadId> load_of_;                 // by transport; invalid: not released
   std::vector<std::vector<EntityId>> touched_;  // by body
-  double company_m_ = 0.0;                      // as near as any law looks
   std::uint64_t pieces_ = 0;
-  // The bodies near the newest piece when it began, itself among them. No piece: a body has left the floor since.
-  struct Newest {
-    std::optional<std::uint64_t> piece;
-    std::vector<std::uint32_t> near;
-  };
-  Newest newest_;
   EvaluationCount evaluations_;
 };
 

@@ -14,7 +14,7 @@ namespace fleetproof {
 // the box. A question then looks half a cell beyond its own box. Both methods give the same answers.
 class BroadPhase {
  public:
-  static constexpr std::size_t kScanned = 32;
+  static constexpr std::size_t kScanned = 64;
 
   explicit BroadPhase(std::size_t bodies, std::size_t scanned = kScanned);
 

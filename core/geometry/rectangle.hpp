@@ -60,6 +60,10 @@ struct Box {
     return low_m.x() <= other.high_m.x() && other.low_m.x() <= high_m.x() && low_m.y() <= other.high_m.y() &&
            other.low_m.y() <= high_m.y();
   }
+  bool contains(const Box& other) const {
+    return low_m.x() <= other.low_m.x() && other.high_m.x() <= high_m.x() && low_m.y() <= other.low_m.y() &&
+           other.high_m.y() <= high_m.y();
+  }
 };
 
 }  // namespace fleetproof

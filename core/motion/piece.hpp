@@ -30,9 +30,6 @@ struct Piece {
   double turn_rad = 0.0;         // Turn only: signed, left positive
   MotionProfile profile;         // Drive: metres along the curve from way_begin_m; Turn: radians
   Box planned_box;               // swept_box(end) as planned; the world sets it before it announces the piece
-  // Whether the planned box of another body may have come near to this one, as near as any law looks, while the piece
-  // lasted. The world knows it when the piece is over.
-  bool has_company = true;
 
   Pose pose_at(SimTime t) const;
   OrientedRectangle body_at(SimTime t) const;

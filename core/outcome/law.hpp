@@ -93,15 +93,19 @@ class TraceSource {
 class Law {
  public:
   virtual ~Law() = default;
-  // How far from a piece the law looks for other bodies, from box to box: nearer ones are its company (Piece). Called
-  // once, before the run.
+  // How far from a piece the law looks for other bodies, from planned box to planned box: nearer ones are its company.
+  // Called before the run. 0: it does not look.
   virtual double looks_within_m() const { return 0.0; }
-  // The pieces of which the law is told: some laws ask for records only, and some only where a body is now. Called
+  // A piece is over that has company now: pieces of other bodies that are under way, in ascending order of bodies. All
+  // that are as near as the law looks are among them, and perhaps some that are farther. Two pieces that come near each
+  // other are told of once, when the first of them is over. Called before `piece_ended`.
+  virtual void had_company(const Piece& piece, std::span<const Piece* const> others) { (void)piece, (void)others; }
+  // What else the law is told of pieces: some laws ask for records only, and some only where a body is now. Called
   // once, before the run.
-  enum class Pieces : std::uint8_t { None, Beginnings, All };
+  enum class Pieces : std::uint8_t { None, Beginnings, Ends, All };
   virtual Pieces hears_pieces() const { return Pieces::All; }
   virtual void piece_started(const Piece& piece) { (void)piece; }
-  virtual void piece_ended(const Piece& piece) = 0;
+  virtual void piece_ended(const Piece& piece) { (void)piece; }
   virtual TraceKinds reads() const { return {}; }  // called once, before the run
   // Of the records about activities that it reads: those about activities of these kinds. Called likewise.
   virtual ActivityKinds reads_about() const { return ActivityKinds::all(); }

@@ -139,7 +139,8 @@ test::Scene walk(std::uint32_t fleet, double horizon_s) {
 }
 
 LawFindings __attribute__((noinline)) replay_to(Law& law, const Recording& recording) {
-  for (const Announcement& a : recording.all) a.started ? law.piece_started(a.piece) : law.piece_ended(a.piece);
+  test::Teller teller(law, recording.scenario.body_count());
+  for (const Announcement& a : recording.all) a.started ? teller.begins(a.piece) : teller.ends(a.piece);
   law.finish(recording.end);
   return law.findings();
 }

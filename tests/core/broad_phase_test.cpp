@@ -78,6 +78,7 @@ TEST(BroadPhase, InACrowdPairsViolateAsTheyDoAlone) {
     Scenario scenario;
     scenario.agvs.resize(crowd.bodies.size());
     const auto law = find_law("exact")->make(scenario);
+    Teller teller(*law, crowd.bodies.size());
     std::vector<std::pair<Piece, bool>> all;  // in the order of announcement: by instant, ends before beginnings
     for (const std::size_t i : {a, b}) {
       for (Piece& piece : pieces[i])
@@ -85,7 +86,7 @@ TEST(BroadPhase, InACrowdPairsViolateAsTheyDoAlone) {
     }
     std::ranges::stable_sort(all, {},
                              [](const auto& p) { return std::pair(p.second ? p.first.begin : p.first.end, p.second); });
-    for (const auto& [piece, begins] : all) begins ? law->piece_started(piece) : law->piece_ended(piece);
+    for (const auto& [piece, begins] : all) begins ? teller.begins(piece) : teller.ends(piece);
     law->finish(crowd.end);
     return law->findings().violations;
   };

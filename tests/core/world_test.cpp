@@ -95,22 +95,29 @@ TEST(World, ForeseesTouchesWithWhatIsOnTheFloor) {
 
 class Counts final : public Law {
  public:
-  explicit Counts(Pieces pieces) : pieces_(pieces) {}
+  explicit Counts(Pieces pieces, double looks_within_m = 0.0) : pieces_(pieces), looks_within_m_(looks_within_m) {}
   Pieces hears_pieces() const override { return pieces_; }
+  double looks_within_m() const override { return looks_within_m_; }
+  void had_company(const Piece& piece, std::span<const Piece* const> others) override {
+    EXPECT_EQ(piece.entity, AgvId{0U});
+    for (const Piece* other : others) met.push_back(other->entity);
+  }
   void piece_started(const Piece&) override { ++begun; }
   void piece_ended(const Piece&) override { ++ended; }
   LawFindings findings() const override { return {}; }
 
   int begun = 0, ended = 0;
+  std::vector<EntityId> met;
 
  private:
   Pieces pieces_;
+  double looks_within_m_;
 };
 
 TEST(World, TellsLawsOfThePiecesThatTheyWantToHear) {
   const Scenario scenario = with_obstacle();
   std::vector<std::unique_ptr<Law>> laws;
-  for (const auto pieces : {Law::Pieces::None, Law::Pieces::Beginnings, Law::Pieces::All})
+  for (const auto pieces : {Law::Pieces::None, Law::Pieces::Beginnings, Law::Pieces::Ends, Law::Pieces::All})
     laws.push_back(std::make_unique<Counts>(pieces));
   World world(scenario, laws);
   world.continue_with(AgvId{0U}, first_drive(scenario));
@@ -118,7 +125,21 @@ TEST(World, TellsLawsOfThePiecesThatTheyWantToHear) {
   const auto counted = [&](std::size_t law) { return static_cast<const Counts&>(*laws[law]); };
   EXPECT_EQ(std::pair(counted(0).begun, counted(0).ended), std::pair(0, 0));
   EXPECT_EQ(std::pair(counted(1).begun, counted(1).ended), std::pair(4, 0));
-  EXPECT_EQ(std::pair(counted(2).begun, counted(2).ended), std::pair(4, 4));
+  EXPECT_EQ(std::pair(counted(2).begun, counted(2).ended), std::pair(0, 4));
+  EXPECT_EQ(std::pair(counted(3).begun, counted(3).ended), std::pair(4, 4));
+}
+
+// Once for each pair of pieces, and only if a law looks.
+TEST(World, TellsLawsWhichPiecesHadCompany) {
+  const Scenario scenario = with_obstacle();
+  std::vector<std::unique_ptr<Law>> laws;
+  for (const double within_m : {0.0, 2.0}) laws.push_back(std::make_unique<Counts>(Law::Pieces::None, within_m));
+  World world(scenario, laws);
+  world.continue_with(AgvId{0U}, first_drive(scenario));
+  world.finish(at_seconds(60.0));
+  const auto met = [&](std::size_t law) { return static_cast<const Counts&>(*laws[law]).met; };
+  EXPECT_EQ(met(0), std::vector<EntityId>{});
+  EXPECT_EQ(met(1), (std::vector<EntityId>{EntityId{2U}})) << "the drive, and what lies beside it";
 }
 
 }  // namespace

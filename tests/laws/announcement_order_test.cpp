@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "laws/exact_law.hpp"
+#include "tests/laws/teller.hpp"
 #include "tests/oracle/known_pairs.hpp"
 
 namespace fleetproof::oracle {
@@ -12,10 +13,11 @@ std::vector<Violation> filed(const Piece& first, const Piece& second) {
   Scenario scenario;
   scenario.agvs.resize(2);
   const auto law = make_exact_law(scenario);
-  law->piece_started(first);
-  law->piece_started(second);
-  law->piece_ended(first);
-  law->piece_ended(second);
+  test::Teller teller(*law, scenario.body_count());
+  teller.begins(first);
+  teller.begins(second);
+  teller.ends(first);
+  teller.ends(second);
   law->finish(first.end);
   return law->findings().violations;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include "core/outcome/trace_records.hpp"
@@ -94,6 +95,48 @@ TEST(LinkQuality, TheLongestDelayOfTheWindow) {
       longest_s = std::max(longest_s, 1 + i * 7 % 13);
     EXPECT_EQ(quality.link(0, 1).longest, std::chrono::seconds(longest_s)) << second;
   }
+}
+
+// Seconds are skipped now and then; delays from before are known all the same.
+TEST(LinkQuality, IsTheSameTenSecondsAfterOthersWereSkipped) {
+  std::mt19937 random(11);
+  LinkQuality always(kAgvs), skips(kAgvs);
+  std::int64_t next = 0;
+  int compared = 0, late = 0;
+  for (std::int64_t second = 0; second < 600; ++second) {
+    const SimTime begin = kStart + std::chrono::seconds(second);
+    for (std::int64_t i = 0; i < 20; ++i) {
+      const auto sender = static_cast<std::uint32_t>(random() % kAgvs),
+                 receiver = static_cast<std::uint32_t>(random() % kAgvs);
+      const auto hash = static_cast<std::uint64_t>(random() % 400);
+      const TraceRecord record =
+          i % 2 == 0 ? trace_record(begin + Duration{i}, AgvId{sender}, traced::Sent{AgvId{receiver}, hash, 0})
+                     : trace_record(
+                           begin + Duration{i}, AgvId{receiver},
+                           traced::Reception{i % 3 == 0 ? TraceKind::Lost : TraceKind::Received, AgvId{sender}, hash});
+      note(always, record);
+      note(skips, record);
+    }
+    always.end_second(second);
+    if (second % 97 == 50) skips.skip_to(next = second - 3);
+    if (second % 97 == 60) skips.skip_to(next = second + 1);
+    if (second % 97 >= 20 && second % 97 <= 60) continue;  // nobody asks
+    for (; next <= second; ++next) skips.end_second(next);
+    if (second % 97 > 60 && second % 97 < 71) continue;
+    ++compared;
+    for (std::size_t receiver = 0; receiver < kAgvs; ++receiver) {
+      for (std::size_t sender = 0; sender < kAgvs; ++sender) {
+        const auto one = always.link(sender, receiver), other = skips.link(sender, receiver);
+        ASSERT_EQ(std::tuple(one.receptions, one.lost, one.longest),
+                  std::tuple(other.receptions, other.lost, other.longest))
+            << second;
+        late += one.longest > std::chrono::seconds(30) ? 1 : 0;
+      }
+      ASSERT_EQ(always.all_in_contract(receiver), skips.all_in_contract(receiver)) << second;
+    }
+  }
+  EXPECT_GT(compared, 200);
+  EXPECT_GT(late, 200);
 }
 
 // However much a sender says in between, and although it says the same to another receiver.

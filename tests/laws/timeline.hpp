@@ -10,6 +10,7 @@
 #include "core/geometry/rotation.hpp"
 #include "core/outcome/law.hpp"
 #include "laws/laws.hpp"
+#include "tests/laws/teller.hpp"
 #include "tests/support/at_seconds.hpp"
 
 // Runs that consist of pieces only, built by hand, and how they are announced to a law.
@@ -122,7 +123,7 @@ enum class Order { ByEntity, Backwards, AllEndsFirst };
 // Announces the pieces of a scene to a law as a world does.
 class Announcer {
  public:
-  Announcer(const Scene& scene, Law& law) : law_(law), end_(scene.end) {
+  Announcer(const Scene& scene, Law& law) : law_(law), teller_(law, scene.bodies.size()), end_(scene.end) {
     for (const Timeline& body : scene.bodies) pieces_.push_back(body.until(scene.end));
     current_.resize(pieces_.size());
     announced_.resize(pieces_.size());
@@ -150,9 +151,12 @@ class Announcer {
     planned.number = number_++;
     planned.end = planned.manner == Manner::Rest ? kForever : planned.begin + planned.profile.duration();
     planned.planned_box = planned.swept_box(planned.end);
-    law_.piece_started(planned);
+    teller_.begins(planned);
   }
-  void stop(std::size_t body) { law_.piece_ended(piece(body)); }
+  void stop(std::size_t body) {
+    announced_[body].end = piece(body).end;
+    teller_.ends(announced_[body]);
+  }
 
   // A body may have several pieces that end at `now`, those of no length.
   std::vector<std::size_t> in_order(SimTime now, Order order) const {
@@ -186,6 +190,7 @@ class Announcer {
   }
 
   Law& law_;
+  Teller teller_;
   SimTime end_;
   std::vector<std::vector<Piece>> pieces_;
   std::vector<std::size_t> current_;

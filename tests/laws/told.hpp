@@ -6,6 +6,7 @@
 
 #include "core/outcome/trace_records.hpp"
 #include "laws/laws.hpp"
+#include "tests/laws/teller.hpp"
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/trace_parts.hpp"
 
@@ -16,7 +17,10 @@ class Told {
  public:
   // Every AGV stands at its start, every obstacle where it is.
   Told(const Scenario& scenario, std::string_view law)
-      : scenario_(scenario), law_(find_law(law)->make(scenario)), kinds_(law_->reads()) {
+      : scenario_(scenario),
+        law_(find_law(law)->make(scenario)),
+        teller_(*law_, scenario.body_count()),
+        kinds_(law_->reads()) {
     for (std::size_t i = 0; i < scenario.agvs.size(); ++i)
       stand(static_cast<std::uint32_t>(i), scenario.map->station(scenario.agvs[i].start).position_m, 0.0);
     for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
@@ -81,7 +85,7 @@ class Told {
   LawFindings finish(double end_s) {
     for (auto& [entity, piece] : open_) {
       piece.end = at_seconds(end_s);
-      law_->piece_ended(piece);
+      teller_.ends(piece);
     }
     law_->finish(at_seconds(end_s));
     LawFindings findings = law_->findings();
@@ -95,17 +99,18 @@ class Told {
   Told& begin(Piece piece) {
     if (const auto before = open_.find(piece.entity); before != open_.end()) {
       before->second.end = piece.begin;
-      law_->piece_ended(before->second);
+      teller_.ends(before->second);
     }
     piece.number = number_++;
     piece.planned_box = piece.swept_box(piece.end);
     open_[piece.entity] = piece;
-    law_->piece_started(open_[piece.entity]);
+    teller_.begins(open_[piece.entity]);
     return *this;
   }
 
   const Scenario& scenario_;
   std::unique_ptr<Law> law_;
+  Teller teller_;
   TraceKinds kinds_;
   std::map<EntityId, Piece> open_;
   std::uint64_t number_ = 0;
