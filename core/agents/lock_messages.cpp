@@ -89,10 +89,10 @@ void LockMessages::tell(std::uint32_t receiver, bool wants_answer) {
   send_to(receiver, message);
 }
 
-bool LockMessages::is_to_be_told(const Neighbour& n) {
+bool LockMessages::is_to_be_told(const Neighbour& n, std::int64_t now_ns) {
   if (n.told_at_ns < 0) return true;
   const double many = static_cast<double>(std::max(kFewAround, neighbours_.audience().agvs().size())) / kFewAround;
-  const double since_ns = static_cast<double>(controller_.now_ns() - n.told_at_ns) / many;
+  const double since_ns = static_cast<double>(now_ns - n.told_at_ns) / many;
   if (since_ns < kTellsNews_ns || since_ns >= kQuiet_ns) return since_ns >= kQuiet_ns;
   const bool knows_way = n.heard_us_ms >= claim_.way.since_ms(claim_.way.path().count);
   return (!knows_way && since_ns >= kTellsAgain_ns) || n.owes_acknowledgement ||

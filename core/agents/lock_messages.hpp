@@ -44,7 +44,7 @@ class LockMessages {
   // A STATE with what concerns one AGV.
   void tell(std::uint32_t receiver, bool wants_answer);
   // Whether the newest message to an AGV is so old, or there is so much news since, that it is told again.
-  bool is_to_be_told(const Neighbour& n);
+  bool is_to_be_told(const Neighbour& n, std::int64_t now_ns);
 
   // A message that says what each of them does.
   Message begin(MessageKind kind);

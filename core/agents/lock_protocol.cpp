@@ -354,6 +354,7 @@ void LockProtocol::repeat_answer(std::uint32_t agv) {
 // AGV.
 void LockProtocol::repeat_in_zones() {
   zones_->talk(true);
+  const std::int64_t now_ns = controller_.now_ns();
   const bool hears_of_all = neighbours_.audience().hears_of_all();
   const double quiet_s = std::max(kTellsAll_s, kTellsAllPerAgv_s * neighbours_.fleet_count());
   if (hears_of_all && messages_.quiet_s() >= quiet_s) messages_.broadcast_state();
@@ -362,7 +363,7 @@ void LockProtocol::repeat_in_zones() {
     const bool unasked = claim_.has_granted(n) && (hears_of_all || n.deferred_epoch == n.request_epoch);
     const bool answer = claim_.owes_answer(n) && unasked && n.answer_repeats.is_due();
     if (request) controller_.sometimes("retransmission");
-    if ((request && answer) || messages_.is_to_be_told(n)) {
+    if ((request && answer) || messages_.is_to_be_told(n, now_ns)) {
       messages_.tell(agv, false);
     } else if (request) {
       messages_.send_request(agv);
