@@ -261,7 +261,8 @@ void ArchiveWriter::publish(std::uint64_t stop_index, const MayFold& may_fold) {
   impl_->or_drop([&] { impl_->close(); });
   write_canonical_file(impl_->live_path, unfinished, stop_index, may_fold);
   try {
-    require_free_name(impl_->path, impl_->existing);
+    // `sqlite3 NAME` leaves an empty file: somebody looked for results too early.
+    if (!is_empty_file(impl_->path)) require_free_name(impl_->path, impl_->existing);
   } catch (const InputError&) {
     throw InputError(impl_->path, fmt::format("this file appeared while the campaign ran; the results are in {} and {}",
                                               unfinished, impl_->live_path));

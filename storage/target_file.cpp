@@ -74,17 +74,19 @@ void require_free_name(const std::string& path, Existing existing) {
   if (!fs::is_regular_file(status) || !is_campaign_file(path)) throw_not_ours(path);
 }
 
+bool is_empty_file(const std::string& path) {
+  std::error_code error;
+  return fs::is_regular_file(status_of(path)) && fs::file_size(path, error) == 0 && !error;
+}
+
 void require_free_live_name(const std::string& live_path, Existing existing) {
   const auto status = status_of(live_path);
   if (!fs::exists(status)) return;
   if (existing == Existing::Refuse)
     throw InputError(live_path,
                      "a campaign of this name was interrupted; remove this file to start again, or give another name");
-  std::error_code error;
-  const bool empty =
-      // the program was killed before it wrote a header
-      fs::is_regular_file(status) && fs::file_size(live_path, error) == 0;
-  if (!empty && (!fs::is_regular_file(status) || !is_campaign_file(live_path))) throw_not_ours(live_path);
+  if (is_empty_file(live_path)) return;  // the program was killed before it wrote a header
+  if (!fs::is_regular_file(status) || !is_campaign_file(live_path)) throw_not_ours(live_path);
 }
 
 void throw_cannot_make(const std::string& path, int error) {

@@ -21,6 +21,9 @@ void require_free_name(const std::string& path, Existing existing);
 // The same for the live file. Replace: an earlier live file of this program may exist, and may be empty.
 void require_free_live_name(const std::string& live_path, Existing existing);
 
+// A regular file without a byte.
+bool is_empty_file(const std::string& path);
+
 // Explains, by errno, why a file could not be created. Throws InputError, with a remedy, if the place cannot be
 // written; throws MachineError if the disk failed.
 [[noreturn]] void throw_cannot_make(const std::string& path, int error);

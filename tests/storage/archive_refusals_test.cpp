@@ -330,5 +330,14 @@ TEST(ArchiveWriter, a_file_that_appears_while_the_campaign_runs_is_not_overwritt
   }
 }
 
+TEST(ArchiveWriter, an_empty_file_that_appears_while_the_campaign_runs_gives_way) {
+  const TemporaryFolder folder;
+  ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+  samples::write_bytes(folder / "a.fp", "");
+  writer.publish(0);
+  EXPECT_FALSE(samples::bytes_of(folder / "a.fp").empty());
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.fp.unfinished"));
+}
+
 }  // namespace
 }  // namespace fleetproof
