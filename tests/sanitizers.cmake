@@ -2,7 +2,7 @@
 # enough to build and run in minutes. Everything else is label `soak` in these builds.
 file(GLOB engine_tests CONFIGURE_DEPENDS core/*_test.cpp)
 # The detector's geometry owns no memory and costs minutes here.
-list(FILTER engine_tests EXCLUDE REGEX "detector|clearance|geometry|piece|curve|motion_profile")
+list(FILTER engine_tests EXCLUDE REGEX "detector|clearance|geometry|piece|curve|motion_profile|swept_region")
 if(FLEETPROOF_SANITIZE MATCHES thread)
   set(sanitized_sources campaign/task_pool_test.cpp campaign/trials_test.cpp campaign/findings_test.cpp
     campaign/workers_test.cpp storage/archive_test.cpp)
