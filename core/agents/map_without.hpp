@@ -44,7 +44,7 @@ class MapWithout {
   struct Hop {
     std::uint32_t lane, to;
   };
-  // The hops from each station, one behind the other in memory. A search reads many, and lanes of the map are large.
+  // All hops in one array, by the station that they leave. A search reads many, and a lane of the map is much larger.
   struct Hops {
     std::span<const Hop> all;
     std::span<const std::uint32_t> first;  // by station, and one more

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLookAhead_m = 12.0;
 constexpr std::uint32_t kFewAround = 8;  // if it does not hear of all, it knows the ways of so many
-constexpr double kFar_m = 70.0;          // in a divided fleet, prices of what is further away are of others
+constexpr double kFar_m = 70.0;          // in a divided fleet, a search for a way ends there
 constexpr std::uint32_t kLookAheadLanes = 3;
 constexpr double kOnward_m = 40.0, kOnwardInZones_m = 25.0;  // what is announced beyond a stretch
 
@@ -234,7 +234,7 @@ std::uint32_t StretchPlanner::free_charger(const Path& standing, bool loaded, bo
   return best;
 }
 
-// Another AGV stands there or will, or comes by on its way. Of two on their way, one must see the charger as free.
+// By an AGV that stands there, or will soon. Of two that go to a charger, the one with the smaller number gets it.
 bool StretchPlanner::is_taken(std::uint32_t station) {
   const auto ends_there = [&](std::uint32_t lane) { return map_.lane(lane).to == station; };
   bool taken = false;

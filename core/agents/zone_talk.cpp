@@ -9,8 +9,8 @@ bool ZoneTalk::find_zones_of_request() {
   return map_.add_zones(neighbours_.self(), claim_.request, of_request_);
 }
 
-// The zones of the held path, of the request, and of the way on as far as there is room: so the AGV is a member there
-// before it requests that part.
+// Announces the zones of the held path and of the request, and those of the way on while there is room. It announces
+// these early to be a member of them before it requests the way.
 void ZoneTalk::announce() {
   const std::uint32_t self = neighbours_.self();
   ZoneSet zones;

@@ -9,9 +9,9 @@
 
 namespace fleetproof {
 
-// The pieces under way, and which of them have company: the planned box of another body comes near theirs. A body looks
-// around when it begins a piece, unless that stays within the box of its last one. What it finds holds until one of the
-// two pieces is over.
+// Which pieces under way are near each other: their planned boxes are. A body searches for others when it begins a
+// piece, unless the piece stays within the box of its last one. A pair that was found holds until one of its two pieces
+// is over.
 class Company {
  public:
   // Near are boxes that are `within_m` apart or less. Some that are a micrometre farther apart may be there, too.
@@ -21,7 +21,7 @@ class Company {
   void begins(const Piece& piece);
   void leaves(EntityId body);
 
-  // The bodies near the piece of this body, in ascending order, without itself. None if it has left.
+  // The other bodies near the piece of this body, in ascending order. Empty after the body has left the floor.
   std::span<const std::uint32_t> near(EntityId body) const { return near_[body.index()]; }
   // Their pieces. Valid until the next call.
   std::span<const Piece* const> pieces_near(EntityId body);

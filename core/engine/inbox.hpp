@@ -7,7 +7,7 @@
 
 namespace fleetproof {
 
-// The messages that an AGV has not read, by their slots in the message pool, oldest first.
+// The unread messages of an AGV, oldest first. A message is named by its slot in the message pool.
 class Inbox {
  public:
   bool empty() const { return read_ == end_; }

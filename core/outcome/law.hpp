@@ -100,8 +100,8 @@ class Law {
   // that are as near as the law looks are among them, and perhaps some that are farther. Two pieces that come near each
   // other are told of once, when the first of them is over. Called before `piece_ended`.
   virtual void had_company(const Piece& piece, std::span<const Piece* const> others) { (void)piece, (void)others; }
-  // What else the law is told of pieces: some laws ask for records only, and some only where a body is now. Called
-  // once, before the run.
+  // Whether the law is told when a piece begins, and when one ends. Some laws need neither, and some only where a body
+  // is now. Called once, before the run.
   enum class Pieces : std::uint8_t { None, Beginnings, Ends, All };
   virtual Pieces hears_pieces() const { return Pieces::All; }
   virtual void piece_started(const Piece& piece) { (void)piece; }
