@@ -24,7 +24,8 @@ AgvController::AgvController(RunContext& run, const Ports& ports)
       call_cost_(seconds(run.scenario.agent_clock.call_cost_s)),
       random_key_(stream_key(run.scenario.seed_of(Stream::Agent), Stream::Agent)),
       slices_(run.agvs.size()) {
-  for (std::size_t i = 0; i < slices_.size(); ++i) slices_[i].handle = {.part = this, .agv = AgvId{i}};
+  for (std::size_t i = 0; i < slices_.size(); ++i)
+    slices_[i].handle = {.part = this, .agv = AgvId{i}, .hears_notes = run.hears_notes()};
 }
 
 // ---- activations

@@ -18,6 +18,7 @@ struct fp_controller {
   fleetproof::AgvController* part = nullptr;
   fleetproof::AgvId agv;
   bool in_activation = false;
+  bool hears_notes = false;
   fleetproof::CallTape* tape = nullptr;   // takes the calls of the activation; null: nobody records them
   fleetproof::Duration cost{};            // of its calls
   std::uint64_t calls = 0, services = 0;  // so many
@@ -55,9 +56,9 @@ class AgvController {
   bool admit(fp_controller& handle);
   // Likewise for `random` and `now_ns`, which have a limit of their own: they neither act nor perceive.
   bool admit_service(fp_controller& handle);
-  // Likewise for notes, which do not count as calls. False if nobody hears them.
+  // Likewise for notes, which do not count as calls. Requires: somebody hears them.
   bool admit_note(AgvId agv) {
-    return run_.hears_notes() && slices_[agv.index()].handle.in_activation && ports_.declarations.admits_note(agv);
+    return slices_[agv.index()].handle.in_activation && ports_.declarations.admits_note(agv);
   }
   // So many calls of `admit_service`, and of `admit` when its limit is reached, in one.
   void admit_services(AgvId agv, std::uint64_t count);

@@ -124,21 +124,24 @@ std::int32_t note(fp_controller* controller, const char* text) {
   });
 }
 
-// ---- notes
+// ---- notes. Mostly, nobody hears them.
 
 void describe(fp_controller* controller, const char* kind) {
+  if (!controller->hears_notes) return;
   const auto text = noted(kind);
   if (text && controller->part->admit_note(controller->agv))
     controller->part->ports().declarations.describe(controller->agv, *text);
 }
 
 void declare_state(fp_controller* controller, const char* state) {
+  if (!controller->hears_notes) return;
   const auto text = noted(state);
   if (text && controller->part->admit_note(controller->agv))
     controller->part->ports().declarations.set_state(controller->agv, *text);
 }
 
 void believe(fp_controller* controller, std::uint32_t about, const fp_pose* where, std::int64_t as_of_ns) {
+  if (!controller->hears_notes) return;
   const auto pose = noted(where);
   if (pose && controller->part->admit_note(controller->agv))
     controller->part->ports().declarations.believe(controller->agv, about, *pose, as_of_ns);
