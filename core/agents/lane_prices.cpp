@@ -33,27 +33,26 @@ LanePrices::LanePrices(const MapView& map, const DriveRules& rules, std::span<co
 
 std::vector<std::byte> LanePrices::work_out(const MapView& map) {
   std::vector<Meeting> meetings;
-  std::vector<std::uint32_t> all_back;
-  meetings.reserve(map.lane_count()), all_back.reserve(map.lane_count());
+  std::vector<std::uint32_t> first_meetings;
+  meetings.reserve(map.lane_count()), first_meetings.reserve(map.lane_count() + 1);
   for (std::uint32_t id = 0; id < map.lane_count(); ++id) {
     const fp_lane& lane = map.lane(id);
-    Meeting& meeting = meetings.emplace_back();
-    meeting.extra_s = std::min(kMeetingCost_spm * lane.length_m, kLargestMeetingCost_s);
-    meeting.first = static_cast<std::uint32_t>(all_back.size());
+    const double extra_s = std::min(kMeetingCost_spm * lane.length_m, kLargestMeetingCost_s);
+    first_meetings.push_back(static_cast<std::uint32_t>(meetings.size()));
     for (const std::uint32_t back : map.lanes_from(lane.to)) {
-      if (map.lane(back).segment == lane.segment) all_back.push_back(back);
+      if (map.lane(back).segment == lane.segment) meetings.push_back({back, extra_s});
     }
-    meeting.count = static_cast<std::uint32_t>(all_back.size()) - meeting.first;
   }
+  first_meetings.push_back(static_cast<std::uint32_t>(meetings.size()));
   TableWriter tables;
-  tables.add(meetings), tables.add(all_back);
+  tables.add(meetings), tables.add(first_meetings);
   return tables.bytes();
 }
 
 void LanePrices::read(std::span<const std::byte> tables) {
   TableReader reader(tables);
   meetings_ = reader.next<Meeting>();
-  back_ = reader.next<std::uint32_t>();
+  first_meetings_ = reader.next<std::uint32_t>();
 }
 
 void LanePrices::begin(bool loaded) {
@@ -71,8 +70,8 @@ void LanePrices::begin(bool loaded) {
 
 void LanePrices::price_meetings(const Path& other) {
   for (const std::uint32_t lane : other.lanes()) {
-    const Meeting& meeting = meetings_[lane];
-    for (const std::uint32_t back : back_.subspan(meeting.first, meeting.count)) make_dearer(back, meeting.extra_s);
+    for (std::uint32_t i = first_meetings_[lane]; i < first_meetings_[lane + 1]; ++i)
+      make_dearer(meetings_[i].lane_back, meetings_[i].extra_s);
   }
 }
 

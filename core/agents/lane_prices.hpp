@@ -32,8 +32,8 @@ class LanePrices {
  private:
   // On a lane, an AGV meets those on the lanes back, which begin where it ends and have the same segment.
   struct Meeting {
+    std::uint32_t lane_back = 0;
     double extra_s = 0.0;
-    std::uint32_t first = 0, count = 0;  // of the lanes back
   };
   static std::vector<std::byte> work_out(const MapView& map);
   void read(std::span<const std::byte> tables);
@@ -41,9 +41,9 @@ class LanePrices {
   const MapView& map_;
   const DriveRules& rules_;
   std::span<const double> usual_s_;
-  std::vector<std::byte> own_;           // the tables, if they are not shared
-  std::span<const Meeting> meetings_;    // by lane
-  std::span<const std::uint32_t> back_;  // lanes back
+  std::vector<std::byte> own_;                     // the tables, if they are not shared
+  std::span<const Meeting> meetings_;              // by the lane that is driven
+  std::span<const std::uint32_t> first_meetings_;  // by lane, and one more: where its meetings begin
   std::vector<double> costs_s_;
   struct Dearer {
     std::uint32_t lane;
