@@ -9,17 +9,20 @@ namespace {
 constexpr double kRounding_m = 1e-3;
 constexpr double kSlack_m = 1.0;  // shapes are a little larger than what a body sweeps
 
-bool further_than(Vec apart_m, double distance_m) { return dot(apart_m, apart_m) > distance_m * distance_m; }
+// The same path with the same turns.
+bool is_same(const Path& a, const Path& b) {
+  return a == b && a.heading.x == b.heading.x && a.heading.y == b.heading.y;
+}
 
 }  // namespace
 
 bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b) {
   if (!parts_.key().options.shapes_decide) return share_a_station(map_, a, b);
-  // Most paths of a large fleet are far from each other.
-  const Vec apart_m = map_.position_m(a.station) - map_.position_m(b.station);
-  if (further_than(apart_m, extent_m(agv_a, a) + extent_m(agv_b, b) + clearance_m())) return false;
-  Parts of_a, of_b;
-  collect(agv_a, a, of_a);
+  const Hull& hull = hull_of(agv_a, a);
+  const Vec begin_b_m = map_.position_m(b.station);
+  if (!hull.box.comes_within(extent_m(agv_b, b) + clearance_m(), {begin_b_m, begin_b_m})) return false;
+  const Parts& of_a = hull.parts;
+  Parts of_b;
   collect(agv_b, b, of_b);
   if (of_a.count == 0) {
     if (of_b.count == 0) return closer_than(of_a.body, of_b.body, clearance_m());
@@ -46,6 +49,12 @@ bool HullGeometry::turn_conflict(std::uint32_t agv_a, std::uint32_t station, std
   return part_conflicts(parts_.of_turn(agv_a, station), of_b);
 }
 
+double HullGeometry::meets_after_m(std::uint32_t agv_a, std::uint32_t station, std::uint32_t agv_b,
+                                   const Path& b) const {
+  const double apart_m = length(map_.position_m(station) - map_.position_m(b.station));
+  return apart_m - reach_m(agv_a) - kSlack_m - extent_m(agv_b, b) - clearance_m();
+}
+
 double HullGeometry::distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path) {
   Parts parts;
   collect(agv, path, parts);
@@ -62,6 +71,16 @@ double HullGeometry::extent_m(std::uint32_t agv, const Path& path) const {
 
 bool HullGeometry::is_far(std::uint32_t number, std::uint32_t agv, const Path& path) const {
   return parts_.distance_bound_m(map_.position_m(path.station), number) > extent_m(agv, path) + clearance_m();
+}
+
+const HullGeometry::Hull& HullGeometry::hull_of(std::uint32_t agv, const Path& path) {
+  if (last_.agv == agv && is_same(last_.path, path)) return last_;
+  last_.agv = agv;
+  last_.path = path;
+  last_.parts.count = 0;
+  collect(agv, path, last_.parts);
+  last_.box = box_around(last_.parts);
+  return last_;
 }
 
 void HullGeometry::collect(std::uint32_t agv, const Path& path, Parts& parts) const {

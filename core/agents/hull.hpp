@@ -26,6 +26,8 @@ class HullGeometry {
   bool turns_conflict(std::uint32_t agv_a, std::uint32_t station_a, std::uint32_t agv_b, std::uint32_t station_b) {
     return parts_.conflict(parts_.of_turn(agv_a, station_a), parts_.of_turn(agv_b, station_b));
   }
+  // No shorter way from `station` has a hull that comes near the other path. May be negative.
+  double meets_after_m(std::uint32_t agv_a, std::uint32_t station, std::uint32_t agv_b, const Path& b) const;
   // A lower bound of the distance from `point_m` to the hull.
   double distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path);
 
@@ -50,17 +52,25 @@ class HullGeometry {
     std::uint32_t numbers[2 * kPathLanesMax];
     Shape body;
   };
+  struct Hull {
+    std::uint32_t agv = FP_NONE;
+    Path path;
+    Parts parts;
+    Box box;  // around the parts
+  };
 
   // From its first station; the hull of the path lies within.
   double extent_m(std::uint32_t agv, const Path& path) const;
   bool is_far(std::uint32_t number, std::uint32_t agv, const Path& path) const;
   void collect(std::uint32_t agv, const Path& path, Parts& parts) const;
+  const Hull& hull_of(std::uint32_t agv, const Path& path);
   Box box_around(const Parts& parts) const;
   bool part_conflicts(std::uint32_t number, const Parts& others);
 
   const MapView& map_;
   Facts facts_;
   HullParts parts_;
+  Hull last_;  // an AGV compares one path of its own with those of many others
 };
 
 }  // namespace fleetproof::agents

@@ -346,6 +346,7 @@ void HullLock::request(Stretch stretch, Purpose purpose, std::int64_t demand_ns)
     plan_after_s_ = now_s() + kRetryPlanning_s;
     return;
   }
+  if (purpose == Purpose::Transport) stretch.onward = planner_.way_on_from(stretch, errands_.goals());
   if (!options_.progress.whole_stretches) cut_after_first_lane(stretch);
   stretch_ = std::move(stretch);
   purpose_ = purpose;

@@ -53,6 +53,12 @@ struct StretchPlanner::Walk {
 
   Walk(StretchPlanner& of, const Path& standing, Budget allowed) : planner(of), budget(allowed) {
     stretch.path = standing;
+    planner.ahead_.clear();
+    for_each_on_the_way(planner.neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
+      if (!n.known) return;
+      const double after_m = planner.geometry_.meets_after_m(self(), standing.station, agv, n.status.held);
+      if (after_m <= budget.length_m) planner.ahead_.push_back({agv, &n, after_m});
+    });
   }
 
   StretchPlanner& planner;
@@ -64,6 +70,7 @@ struct StretchPlanner::Walk {
   bool best_is_roomy = false;
   std::uint32_t least_burden = ~0U;
 
+  std::uint32_t self() const { return planner.neighbours_.self(); }
   std::uint32_t station() const { return end_of(planner.map_, stretch.path).station; }
 
   // False if the budget does not allow this lane.
@@ -72,10 +79,9 @@ struct StretchPlanner::Walk {
     if (length_m > budget.length_m || here.lanes >= budget.lanes || !stretch.path.append(lane)) return false;
     stretch.legs.push_back({Leg::Kind::Drive, lane});
     ++here.lanes;
-    const std::uint32_t self = planner.neighbours_.self();
-    for_each_on_the_way(planner.neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
-      blocked = blocked || (n.known && planner.geometry_.lane_conflict(self, lane, agv, n.status.held));
-    });
+    blocked = blocked || any_within_reach([&](std::uint32_t agv, const Neighbour& n) {
+                return planner.geometry_.lane_conflict(self(), lane, agv, n.status.held);
+              });
     note_end();
     return true;
   }
@@ -86,12 +92,24 @@ struct StretchPlanner::Walk {
     note_end();
   }
 
+  template <class F>
+  bool any_within_reach(F is) const {
+    return std::ranges::any_of(planner.ahead_, [&](const Ahead& ahead) {
+      return ahead.after_m <= length_m && is(ahead.agv, *ahead.neighbour);
+    });
+  }
+
+  // Two AGVs that stand so near to each other that none of them can turn may stay for ever.
+  bool is_cramped() const {
+    return any_within_reach(
+        [&](std::uint32_t agv, const Neighbour& n) { return planner.is_cramped(station(), agv, n); });
+  }
+
   void note_end() {
     here.legs = stretch.legs.size();
     if (here.lanes == 0) return;
     std::uint32_t burden = planner.places_.burden(station());
-    // Two AGVs that stand so near to each other that none of them can turn may stay for ever.
-    const bool roomy = burden != 0 || !planner.is_cramped(station());
+    const bool roomy = burden != 0 || !is_cramped();
     if (!roomy && planner.may_turn_back(station())) burden = kCrampedBurden;
     if (burden == 0 && (best.lanes == 0 || (!blocked && (roomy || !best_is_roomy)))) {
       best = here;
@@ -140,32 +158,6 @@ StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neigh
       model_(model_of(geometry.parts().facts(), neighbours.self())),
       knows_remaining_costs_(options.one_way_aisles) {}
 
-Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
-  Stretch stretch = first_stretch(standing, budget, goals);
-  if (!stretch.empty()) stretch.onward = way_on(end_of(map_, stretch.path), goals.subspan(stretch.goals));
-  return stretch;
-}
-
-// Beyond a stretch, as far as it is worth announcing.
-std::vector<std::uint32_t> StretchPlanner::way_on(Path from, std::span<const Goal> goals) {
-  std::vector<std::uint32_t> lanes;
-  const double enough_m = neighbours_.audience().is_divided() ? kOnwardInZones_m : kOnward_m;
-  double length_m = 0.0;
-  for (const Goal& goal : goals) {
-    if (length_m >= enough_m) break;
-    search(from, goal.station);
-    for (const std::uint32_t lane : routes_.lanes(end_of_search(goal.station))) {
-      if (length_m >= enough_m) break;
-      lanes.push_back(lane);
-      length_m += map_.lane(lane).length_m;
-      from.heading = map_.end_heading(lane);
-    }
-    if (end_of_search(goal.station) != goal.station) break;
-    from.station = goal.station;
-  }
-  return lanes;
-}
-
 void StretchPlanner::search(const Path& from, std::uint32_t goal) {
   if (!knows_remaining_costs_) return routes_.search(from.station, from.heading, prices_.costs_s(), goal);
   const auto remains_s = remaining_costs_s(geometry_.parts(), model_, goal);
@@ -178,7 +170,7 @@ std::uint32_t StretchPlanner::end_of_search(std::uint32_t goal) const {
   return neighbours_.audience().is_divided() && routes_.reached() != FP_NONE ? routes_.reached() : goal;
 }
 
-Stretch StretchPlanner::first_stretch(const Path& standing, Budget budget, std::span<const Goal> goals) {
+Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
   bool loaded = carries_load(goals);
   price_lanes(loaded, kWaitingCost_s, kIdleCost_s, {});
   Walk walk(*this, standing, budget);
@@ -199,6 +191,26 @@ Stretch StretchPlanner::first_stretch(const Path& standing, Budget budget, std::
   const std::uint32_t place = best_place(end_of(map_, walk.stretch.path), false, 0.0, {});
   if (place != FP_NONE) follow(walk, place);
   return walk.take();
+}
+
+std::vector<std::uint32_t> StretchPlanner::way_on_from(const Stretch& stretch, std::span<const Goal> goals) {
+  std::vector<std::uint32_t> lanes;
+  const double enough_m = neighbours_.audience().is_divided() ? kOnwardInZones_m : kOnward_m;
+  double length_m = 0.0;
+  Path from = end_of(map_, stretch.path);
+  for (const Goal& goal : goals.subspan(stretch.goals)) {
+    if (length_m >= enough_m) break;
+    search(from, goal.station);
+    for (const std::uint32_t lane : routes_.lanes(end_of_search(goal.station))) {
+      if (length_m >= enough_m) break;
+      lanes.push_back(lane);
+      length_m += map_.lane(lane).length_m;
+      from.heading = map_.end_heading(lane);
+    }
+    if (end_of_search(goal.station) != goal.station) break;
+    from.station = goal.station;
+  }
+  return lanes;
 }
 
 Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking,
@@ -318,14 +330,6 @@ bool StretchPlanner::may_turn_back(std::uint32_t station) const {
 
 // Whether the other AGV, at the end of its way, could not turn while this AGV turns at `station`: each could lock the
 // other in.
-bool StretchPlanner::is_cramped(std::uint32_t station) {
-  bool cramped = false;
-  for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
-    cramped = cramped || (n.known && is_cramped(station, agv, n));
-  });
-  return cramped;
-}
-
 bool StretchPlanner::is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n) {
   const std::uint32_t self = neighbours_.self();
   return geometry_.turns_conflict(self, station, agv, end_of(map_, n.status.held).station);

@@ -81,8 +81,10 @@ class StretchPlanner {
   WaitingPlaces& places() { return places_; }
   double lane_time_s(std::uint32_t lane) const { return lane_times_s_[lane]; }
 
-  // A stretch from `standing` towards the goals, and the way on. Empty if there is no way to the first goal.
+  // A stretch from `standing` towards the goals. Empty if there is no way to the first goal.
   Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);
+  // The lanes beyond that stretch, as far as they are worth announcing. Requires: nothing was planned since.
+  std::vector<std::uint32_t> way_on_from(const Stretch& stretch, std::span<const Goal> goals);
   // A stretch to a place where the AGV blocks no other AGV, as far as is known. Empty if there is none. `draw` in [0,
   // 1) varies the choice. The place keeps clear of the requests of all AGVs that go first, and the way keeps clear of
   // these AGVs while they wait. If there is no such way, it may lead through other waiting AGVs: they make way in turn.
@@ -95,9 +97,12 @@ class StretchPlanner {
 
  private:
   struct Walk;
-
-  Stretch first_stretch(const Path& standing, Budget budget, std::span<const Goal> goals);
-  std::vector<std::uint32_t> way_on(Path from, std::span<const Goal> goals);
+  // An AGV that holds floor which a walk may reach, not before this length.
+  struct Ahead {
+    std::uint32_t agv;
+    const Neighbour* neighbour;
+    double after_m;
+  };
 
   // From there to a goal, at the costs of the lanes.
   void search(const Path& from, std::uint32_t goal);
@@ -107,7 +112,6 @@ class StretchPlanner {
   std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw, const GoesFirst& goes_first);
   double price_of_staying(std::uint32_t station, double limit_s, const GoesFirst& goes_first);
   bool may_turn_back(std::uint32_t station) const;
-  bool is_cramped(std::uint32_t station);
   bool is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n);
   bool is_taken(std::uint32_t station);
   bool follow(Walk& walk, std::uint32_t to);
@@ -115,6 +119,7 @@ class StretchPlanner {
   const MapView& map_;
   HullGeometry& geometry_;
   Neighbours& neighbours_;
+  std::vector<Ahead> ahead_;  // of the walk
   WaitingPlaces places_;
   DriveRules rules_;
   Routes routes_;
