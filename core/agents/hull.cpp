@@ -9,11 +9,6 @@ namespace {
 constexpr double kRounding_m = 1e-3;
 constexpr double kSlack_m = 1.0;  // shapes are a little larger than what a body sweeps
 
-// The same path with the same turns.
-bool is_same(const Path& a, const Path& b) {
-  return a == b && a.heading.x == b.heading.x && a.heading.y == b.heading.y;
-}
-
 }  // namespace
 
 bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b) {
@@ -74,7 +69,7 @@ bool HullGeometry::is_far(std::uint32_t number, std::uint32_t agv, const Path& p
 }
 
 const HullGeometry::Hull& HullGeometry::hull_of(std::uint32_t agv, const Path& path) {
-  if (last_.agv == agv && is_same(last_.path, path)) return last_;
+  if (last_.agv == agv && is_identical(last_.path, path)) return last_;
   last_.agv = agv;
   last_.path = path;
   last_.parts.count = 0;

@@ -46,7 +46,7 @@ HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing
       protocol_(map_, geometry_, neighbours_, controller_, options, options.consent.epochs_name_boot ? boot_ : 0),
       planner_(map_, geometry_, neighbours_, tells_minor_2(briefing) ? agv_of(briefing, briefing.self).vehicle_type : 0,
                options.progress),
-      right_of_way_(geometry_, neighbours_, controller_, options.progress),
+      right_of_way_(neighbours_, controller_, options.progress),
       way_(map_, agv_of(briefing, briefing.self)),
       has_chargers_(map_.has_chargers()),
       braking_s_(braking_s(agv_of(briefing, briefing.self))) {}
@@ -306,7 +306,8 @@ void HullLock::plan() {
   }
   if (now_s() < plan_after_s_) return;
   if (charging_ || way_.contains(Leg::Kind::Charge)) {
-    if (charging_ && right_of_way_.is_asked_for(protocol_.held()) && settings_.is_enough(controller_.battery_level()))
+    if (charging_ && right_of_way_.is_asked_for(protocol_.own_held()) &&
+        settings_.is_enough(controller_.battery_level()))
       plan_making_way();
   } else if (!errands_.empty()) {
     plan_transport();
@@ -324,7 +325,7 @@ void HullLock::plan_transport() {
 // An AGV without transports leaves a place that another AGV asks for. It also leaves a place that is not safe to wait
 // at.
 void HullLock::plan_making_way() {
-  const bool asked = right_of_way_.is_asked_for(protocol_.held());
+  const bool asked = right_of_way_.is_asked_for(protocol_.own_held());
   if (!asked && (planner_.places().is_safe(protocol_.held().station) || now_s() - started_s_ < 2.0)) return;
   if (asked) controller_.sometimes("makes-way");
   request(way_out(Yields::ToAll), Purpose::MakeWay);
@@ -367,12 +368,12 @@ void HullLock::reconsider() {
     return request(std::move(other), purpose);
   }
   if (protocol_.waiting_inside(protocol_.requested()) == FP_NONE) return;
-  const Yields to = right_of_way_.when_blocked(protocol_.held(), seniority_.since_ns());
+  const Yields to = right_of_way_.when_blocked(protocol_.own_held(), seniority_.since_ns());
   if (to == Yields::ToNobody) return;
   Stretch retreat = way_out(to);
   if (retreat.empty() || retreat.path == protocol_.requested()) return;
   controller_.sometimes("retreat");
-  const std::int64_t eldest_ns = right_of_way_.eldest_demand_ns(protocol_.held(), seniority_.since_ns());
+  const std::int64_t eldest_ns = right_of_way_.eldest_demand_ns(protocol_.own_held(), seniority_.since_ns());
   if (to == Yields::ToAll) seniority_.stand_back(controller_.now_ns());
   request(std::move(retreat), Purpose::MakeWay, to == Yields::ToElders ? eldest_ns : -1);
 }

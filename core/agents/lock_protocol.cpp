@@ -173,9 +173,8 @@ void LockProtocol::answer_if_asked_again(std::uint32_t sender) {
 
 LockProtocol::Answer LockProtocol::answer_to(std::uint32_t agv, Neighbour& neighbour) {
   if (!claim_.knows_place) return options_.grants.unknown_place_defers ? Answer::Defer : Answer::Grant;
-  if (!lock_is_over() && neighbours_.clashes(agv, neighbour.with_held, claim_.held, held_version_))
-    return Answer::Defer;
-  if (!claim_.requesting || !neighbours_.clashes(agv, neighbour.with_request, claim_.request, request_version_))
+  if (!lock_is_over() && neighbours_.clashes(agv, neighbour.with_held, own_held())) return Answer::Defer;
+  if (!claim_.requesting || !neighbours_.clashes(agv, neighbour.with_request, {claim_.request, request_version_}))
     return Answer::Grant;
   return comes_first(agv, neighbour) ? Answer::Defer : Answer::GrantAndStepBack;
 }

@@ -125,6 +125,7 @@ class LockProtocol {
   // meanwhile.
   void know_own_place(bool known);
   const Path& held() const { return claim_.held; }
+  OwnPath own_held() const { return {claim_.held, held_version_}; }
   bool requesting() const { return claim_.requesting; }
   const Path& requested() const { return claim_.request; }
   Epoch epoch() const { return claim_.epoch; }

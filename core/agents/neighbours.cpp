@@ -96,6 +96,7 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
     const bool same = same_held && n.status.waiting == status.waiting && n.status.blocked == status.blocked &&
                       n.status.held_up == status.held_up && n.status.out_of_order == status.out_of_order;
     if (!same) news = News::Changed;
+    if (!same || !message.repeats_way || n.status.idle != status.idle) ++changes_;
     if (!same_held || !same_way) ++n.way_changes;
     if (!same_way && ahead.count > 0) n.owes_acknowledgement = true;
     // In a divided fleet, what a former self said does not count.
@@ -109,6 +110,7 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
   if (!n.known) known_.insert(std::ranges::lower_bound(known_, sender), sender);
   n.known = true;
   const Epoch closed = status.requesting ? status.epoch - 1 : next_request(status.epoch) - 1;
+  if (n.request_is_open() && closed >= n.request_epoch) ++changes_;
   n.closed_epoch = std::max(n.closed_epoch, closed);
   if (message.has_request()) note_request(n, message, is_newest);
   if (!audience_.is_divided() || boot >= boot_of(n.status.epoch)) note_acknowledgement(n, message, now_ns);
@@ -116,6 +118,7 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
 }
 
 void Neighbours::set_own_zones(const ZoneSet& zones) {
+  ++changes_;
   audience_.set_own_zones(zones);
   for_each_known([&](std::uint32_t agv, const Neighbour& n) { audience_.note(agv, n.zones); });
 }
@@ -124,6 +127,7 @@ void Neighbours::note_request(Neighbour& neighbour, const Message& message, bool
   const Asked::Entry* const us = message.asked.of(self_);
   const Epoch epoch = message.status.epoch + (us != nullptr ? us->attempt : 0);
   if (epoch > neighbour.closed_epoch && epoch > neighbour.request_epoch) {
+    ++changes_;
     neighbour.request_epoch = epoch;
     neighbour.demand_ns = message.demand_ns;
     neighbour.request = message.request;
@@ -194,10 +198,10 @@ std::uint32_t Neighbours::first_inside(const Path& path, Inside what) {
   return found;
 }
 
-bool Neighbours::clashes(std::uint32_t agv, Neighbour::Clash& known, const Path& path, std::uint32_t version) {
+bool Neighbours::clashes(std::uint32_t agv, Neighbour::Clash& known, const OwnPath& own) {
   const Neighbour& n = of(agv);
-  if (known.request != n.request_epoch || known.version != version)
-    known = {n.request_epoch, version, geometry_.conflict(self_, path, agv, n.request)};
+  if (known.request != n.request_epoch || known.version != own.version)
+    known = {n.request_epoch, own.version, geometry_.conflict(self_, own.path, agv, n.request)};
   return known.is;
 }
 

@@ -111,6 +111,12 @@ inline std::uint32_t stamp_ms_at(std::int64_t now_ns) {
   return static_cast<std::uint32_t>(std::max<std::int64_t>(now_ns, 0) / 1'000'000) + 1;
 }
 
+// A path of this AGV, and how often it has changed.
+struct OwnPath {
+  const Path& path;
+  std::uint32_t version = 0;
+};
+
 // What another AGV does inside the hull of a path: it stands and waits, or it holds floor there.
 enum class Inside : std::uint8_t { Waiting, Holding };
 
@@ -125,6 +131,9 @@ class Neighbours {
   std::uint32_t fleet_count() const { return static_cast<std::uint32_t>(records_.size()); }
   std::uint32_t self() const { return self_; }
   double claim_limit_m() const { return claim_m_; }
+  // Grows whenever anything changes that counts for a choice of ways: who the others are, where they are or go, whether
+  // they wait or work, and what they ask for.
+  std::uint64_t changes() const { return changes_; }
   // A record stays where it is. AGVs that this one never meets have none: it is made when somebody may change it.
   Neighbour& of(std::uint32_t agv) {
     if (records_[agv] == nullptr) records_[agv] = std::make_unique_for_overwrite<Neighbour>();
@@ -187,7 +196,7 @@ class Neighbours {
   std::uint32_t first_inside(const Path& path, Inside what);
   bool is_inside(std::uint32_t agv, const Path& path, Inside what);
   // Whether the newest request of `agv` conflicts with a path of this AGV. `known`: the answer for an earlier version.
-  bool clashes(std::uint32_t agv, Neighbour::Clash& known, const Path& path, std::uint32_t version);
+  bool clashes(std::uint32_t agv, Neighbour::Clash& known, const OwnPath& own);
 
   bool is_first_boot() const { return fresh_from_ms_ == 0; }
 
@@ -213,6 +222,7 @@ class Neighbours {
   bool proofs_age_, places_spread_;
   std::uint32_t fresh_from_ms_ = 0;
   std::uint32_t next_heard_ = 0;
+  std::uint64_t changes_ = 0;
 };
 
 // Calls `f(agv, neighbour)` for each AGV that may matter to a way: the audience or, if a divided fleet is not large,

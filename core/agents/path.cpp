@@ -8,6 +8,10 @@ bool operator==(const Path& a, const Path& b) {
   return a.station == b.station && std::ranges::equal(a.lanes(), b.lanes());
 }
 
+bool is_identical(const Path& a, const Path& b) {
+  return a == b && a.heading.x == b.heading.x && a.heading.y == b.heading.y;
+}
+
 bool is_driveable(const MapView& map, const Path& path) {
   std::uint32_t at = path.station;
   if (at >= map.station_count()) return false;

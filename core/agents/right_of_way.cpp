@@ -12,7 +12,7 @@ constexpr double kPatience_s = 10.0;  // up to half of it is added, so that two 
 
 }  // namespace
 
-Yields RightOfWay::when_blocked(const Path& held, std::int64_t demand_ns) {
+Yields RightOfWay::when_blocked(const OwnPath& held, std::int64_t demand_ns) {
   const double now_s = static_cast<double>(controller_.now_ns()) * 1e-9;
   if (blocked_since_s_ < 0.0) {
     blocked_since_s_ = now_s;
@@ -24,21 +24,20 @@ Yields RightOfWay::when_blocked(const Path& held, std::int64_t demand_ns) {
   return in_the_way(held, demand_ns, to) ? to : Yields::ToNobody;
 }
 
-bool RightOfWay::is_asked_for(const Path& held) { return in_the_way(held, 0, Yields::ToAll); }
+bool RightOfWay::is_asked_for(const OwnPath& held) { return in_the_way(held, 0, Yields::ToAll); }
 
-bool RightOfWay::in_the_way(const Path& held, std::int64_t demand_ns, Yields to) {
+bool RightOfWay::in_the_way(const OwnPath& held, std::int64_t demand_ns, Yields to) {
   bool found = false;
-  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
-    found =
-        found || (goes_first(to, demand_ns, agv, n) && geometry_.conflict(neighbours_.self(), held, agv, n.request));
+  neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
+    found = found || (goes_first(to, demand_ns, agv, n) && neighbours_.clashes(agv, n.with_held, held));
   });
   return found;
 }
 
-std::int64_t RightOfWay::eldest_demand_ns(const Path& held, std::int64_t demand_ns) {
+std::int64_t RightOfWay::eldest_demand_ns(const OwnPath& held, std::int64_t demand_ns) {
   std::int64_t eldest_ns = demand_ns;
-  neighbours_.for_each([&](std::uint32_t agv, const Neighbour& n) {
-    if (n.request_is_open() && n.demand_ns < eldest_ns && geometry_.conflict(neighbours_.self(), held, agv, n.request))
+  neighbours_.for_each([&](std::uint32_t agv, Neighbour& n) {
+    if (n.request_is_open() && n.demand_ns < eldest_ns && neighbours_.clashes(agv, n.with_held, held))
       eldest_ns = n.demand_ns;
   });
   return eldest_ns;

@@ -3,10 +3,8 @@
 #include <cstdint>
 
 #include "core/agents/controller.hpp"
-#include "core/agents/hull.hpp"
 #include "core/agents/lock_options.hpp"
 #include "core/agents/neighbours.hpp"
-#include "core/agents/path.hpp"
 
 namespace fleetproof::agents {
 
@@ -18,32 +16,27 @@ enum class Yields : std::uint8_t { ToNobody, ToElders, ToAll };
 // Wrong knowledge about other AGVs costs time here, never safety.
 class RightOfWay {
  public:
-  RightOfWay(HullGeometry& geometry, Neighbours& neighbours, Controller& controller,
-             const ProgressOptions& options = {})
-      : geometry_(geometry),
-        neighbours_(neighbours),
-        controller_(controller),
-        smaller_number_first_(options.smaller_number_first) {}
+  RightOfWay(Neighbours& neighbours, Controller& controller, const ProgressOptions& options = {})
+      : neighbours_(neighbours), controller_(controller), smaller_number_first_(options.smaller_number_first) {}
 
   // Call this again and again while another waiting AGV blocks the own request. An AGV yields to older demands after a
   // few seconds. If it still stands there much later, the older demands cannot get on without its help, because they
   // themselves are in the way of younger ones: then it yields to all.
-  Yields when_blocked(const Path& held, std::int64_t demand_ns);
+  Yields when_blocked(const OwnPath& held, std::int64_t demand_ns);
   // The AGV has locked a stretch: its patience begins anew.
   void got_on() { blocked_since_s_ = -1.0; }
 
   // Whether another AGV requests floor that this AGV holds.
-  bool is_asked_for(const Path& held);
+  bool is_asked_for(const OwnPath& held);
   // Of this AGV's demand and the demands in whose way it is: the oldest. An AGV that leaves a place for an older demand
   // requests its way out with the age of that demand, so that others make way in turn.
-  std::int64_t eldest_demand_ns(const Path& held, std::int64_t demand_ns);
+  std::int64_t eldest_demand_ns(const OwnPath& held, std::int64_t demand_ns);
   // Whether an AGV that yields must keep clear of the request of `agv`.
   bool goes_first(Yields to, std::int64_t demand_ns, std::uint32_t agv, const Neighbour& neighbour) const;
 
  private:
-  bool in_the_way(const Path& held, std::int64_t demand_ns, Yields to);
+  bool in_the_way(const OwnPath& held, std::int64_t demand_ns, Yields to);
 
-  HullGeometry& geometry_;
   Neighbours& neighbours_;
   Controller& controller_;
   bool smaller_number_first_;

@@ -170,7 +170,21 @@ std::uint32_t StretchPlanner::end_of_search(std::uint32_t goal) const {
   return neighbours_.audience().is_divided() && routes_.reached() != FP_NONE ? routes_.reached() : goal;
 }
 
+// A waiting AGV asks again and again, and often nothing has changed.
 Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
+  if (!is_asked_again(standing, budget, goals)) {
+    last_answer_ = find_stretch(standing, budget, goals);
+    last_asked_ = {standing, budget, {goals.begin(), goals.end()}, neighbours_.changes()};
+  }
+  return last_answer_;
+}
+
+bool StretchPlanner::is_asked_again(const Path& standing, Budget budget, std::span<const Goal> goals) const {
+  return last_asked_ && last_asked_->changes == neighbours_.changes() && last_asked_->budget == budget &&
+         is_identical(last_asked_->standing, standing) && std::ranges::equal(last_asked_->goals, goals);
+}
+
+Stretch StretchPlanner::find_stretch(const Path& standing, Budget budget, std::span<const Goal> goals) {
   bool loaded = carries_load(goals);
   price_lanes(loaded, kWaitingCost_s, kIdleCost_s, {});
   Walk walk(*this, standing, budget);
@@ -270,6 +284,7 @@ bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
 }
 
 void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first) {
+  last_asked_.reset();
   prices_.begin(loaded);
   for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
     if (!n.known) return;

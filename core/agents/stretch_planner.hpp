@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,7 @@ struct Goal {
   std::uint32_t station = FP_NONE;
   Leg::Kind transfer = Leg::Kind::Pick;
   std::uint32_t order = FP_NONE;
+  friend bool operator==(const Goal&, const Goal&) = default;
 };
 
 // Whether an AGV with these goals ahead carries a load: the next load that it transfers is put down.
@@ -65,6 +67,7 @@ void cut_after_first_lane(Stretch& stretch);
 struct Budget {
   double length_m = 0.0;
   std::uint32_t lanes = 0;
+  friend bool operator==(const Budget&, const Budget&) = default;
 };
 
 // Chooses the next stretch. A stretch ends at a safe waiting place, so that no AGV blocks the AGV for which it waits.
@@ -97,6 +100,13 @@ class StretchPlanner {
 
  private:
   struct Walk;
+  // What the last stretch towards goals followed from.
+  struct Question {
+    Path standing;
+    Budget budget;
+    std::vector<Goal> goals;
+    std::uint64_t changes = 0;  // of the neighbours
+  };
   // An AGV that holds floor which a walk may reach, not before this length.
   struct Ahead {
     std::uint32_t agv;
@@ -104,6 +114,8 @@ class StretchPlanner {
     double after_m;
   };
 
+  bool is_asked_again(const Path& standing, Budget budget, std::span<const Goal> goals) const;
+  Stretch find_stretch(const Path& standing, Budget budget, std::span<const Goal> goals);
   // From there to a goal, at the costs of the lanes.
   void search(const Path& from, std::uint32_t goal);
   std::uint32_t end_of_search(std::uint32_t goal) const;
@@ -125,6 +137,8 @@ class StretchPlanner {
   Routes routes_;
   std::span<const double> lane_times_s_;  // by lane
   LanePrices prices_;
+  std::optional<Question> last_asked_;  // since which no lane has another price
+  Stretch last_answer_;
   std::uint32_t model_;         // of the own AGV
   bool knows_remaining_costs_;  // the usual costs are those of remaining_costs_s()
 };

@@ -30,7 +30,7 @@ class RightOfWayTest : public ::testing::Test {
   }
   Yields after(double s) {
     now_ns += static_cast<std::int64_t>(s * 1e9);
-    return right_of_way.when_blocked(standing, 50);
+    return right_of_way.when_blocked({standing}, 50);
   }
 
   testing::DrawnMap drawn = [] {
@@ -46,7 +46,7 @@ class RightOfWayTest : public ::testing::Test {
   fp_host host{};
   std::int64_t now_ns = 0;
   Controller controller{host, reinterpret_cast<fp_controller*>(&now_ns)};
-  RightOfWay right_of_way{geometry, neighbours, controller};
+  RightOfWay right_of_way{neighbours, controller};
   Path standing;
   std::uint32_t stamp = 0;
 };
@@ -81,17 +81,17 @@ TEST_F(RightOfWayTest, WhoIsNotAskedForDoesNotYield) {
   requests(2, 4, 3, 40);
   after(0.0);
   EXPECT_EQ(after(60.0), Yields::ToNobody);
-  EXPECT_FALSE(right_of_way.is_asked_for(standing));
+  EXPECT_FALSE(right_of_way.is_asked_for({standing}));
   requests(0, 3, 2, 70);
-  EXPECT_TRUE(right_of_way.is_asked_for(standing));
+  EXPECT_TRUE(right_of_way.is_asked_for({standing}));
 }
 
 TEST_F(RightOfWayTest, TheAgeOfTheOldestDemandInWhoseWayItIsIsPassedOn) {
-  EXPECT_EQ(right_of_way.eldest_demand_ns(standing, 50), 50);
+  EXPECT_EQ(right_of_way.eldest_demand_ns({standing}, 50), 50);
   requests(0, 4, 3, 10);
-  EXPECT_EQ(right_of_way.eldest_demand_ns(standing, 50), 50) << "not in its way";
+  EXPECT_EQ(right_of_way.eldest_demand_ns({standing}, 50), 50) << "not in its way";
   requests(2, 1, 2, 40);
-  EXPECT_EQ(right_of_way.eldest_demand_ns(standing, 50), 40);
+  EXPECT_EQ(right_of_way.eldest_demand_ns({standing}, 50), 40);
 }
 
 }  // namespace
