@@ -18,6 +18,7 @@ bool WayAhead::contains(Leg::Kind kind) const {
 }
 
 void WayAhead::begin(const Leg& leg, Vec heading, double now_s) {
+  all_done_s_.reset();
   current_ = leg;
   acting_ = true;
   run_ = {};
@@ -36,6 +37,7 @@ bool WayAhead::can_roll_on() const {
 }
 
 void WayAhead::end(double now_s) {
+  all_done_s_.reset();
   acting_ = next_is_given_;
   if (!next_is_given_) return;
   next_is_given_ = false;
@@ -48,7 +50,14 @@ void WayAhead::end(double now_s) {
   current_ends_s_ = run_began_s_ + time_s(run_);
 }
 
-double WayAhead::time_left_s(Vec heading, double now_s) const {
+// While a lane is driven, the present does not change when all is done.
+double WayAhead::time_left_s(Vec heading, double now_s) {
+  if (!acting_ || current_.kind != Leg::Kind::Drive) all_done_s_.reset();
+  if (!all_done_s_) all_done_s_ = work_out_end_s(heading, now_s);
+  return std::max(0.0, *all_done_s_ - now_s);
+}
+
+double WayAhead::work_out_end_s(Vec heading, double now_s) const {
   Run run = acting_ ? run_ : Run{};
   double done_s = acting_ ? run_began_s_ : now_s;
   if (acting_ && current_.kind == Leg::Kind::Drive) heading = map_.end_heading(current_.lane);
@@ -61,7 +70,7 @@ double WayAhead::time_left_s(Vec heading, double now_s) const {
     extend(run, leg.lane);
     heading = map_.end_heading(leg.lane);
   }
-  return std::max(0.0, done_s + time_s(run) - now_s);
+  return done_s + time_s(run);
 }
 
 void WayAhead::extend(Run& run, std::uint32_t lane) const {

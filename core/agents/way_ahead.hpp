@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 
 #include "core/agents/map_view.hpp"
 #include "core/agents/stretch_planner.hpp"
@@ -16,9 +17,9 @@ class WayAhead {
   // Legs that have not begun.
   bool empty() const { return legs_.empty(); }
   const Leg& next() const { return legs_.front(); }
-  void append(const Leg& leg) { legs_.push_back(leg); }
+  void append(const Leg& leg) { legs_.push_back(leg), all_done_s_.reset(); }
   // Requires: not empty, and it has not been given.
-  void drop_next() { legs_.pop_front(); }
+  void drop_next() { legs_.pop_front(), all_done_s_.reset(); }
   // Whether such a leg is under way or waits.
   bool contains(Leg::Kind kind) const;
 
@@ -34,16 +35,17 @@ class WayAhead {
   // The leg under way is over. The one that has been given is now under way.
   void end(double now_s);
   // Nothing is under way any more, and nothing will be.
-  void stop() { acting_ = next_is_given_ = false; }
+  void stop() { acting_ = next_is_given_ = false, all_done_s_.reset(); }
 
   // Until all legs are done. `heading`: of the AGV, if nothing is under way.
-  double time_left_s(Vec heading, double now_s) const;
+  double time_left_s(Vec heading, double now_s);
 
  private:
   // Lanes that are driven without a stop.
   struct Run {
     double length_m = 0.0, cruise_s = 0.0;  // cruise_s: at top speed all the way
   };
+  double work_out_end_s(Vec heading, double now_s) const;
   void extend(Run& run, std::uint32_t lane) const;
   double time_s(const Run& run) const;
 
@@ -55,6 +57,7 @@ class WayAhead {
   double current_ends_s_ = 0.0;  // expected
   Run run_;                      // up to the end of the current leg
   double run_began_s_ = 0.0;
+  std::optional<double> all_done_s_;  // worked out when it is asked for
 };
 
 }  // namespace fleetproof::agents
