@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/agents/shapes.hpp"
@@ -67,7 +68,9 @@ class Controller {
     }
   }
 
-  std::int64_t now_ns() { return host_.now_ns(handle_); }
+  std::int64_t now_ns() const { return clock_ns_ ? *clock_ns_ : host_.now_ns(handle_); }
+  // The own clock stands still during an activation. Until the next call, `now_ns` need not ask the host.
+  void read_clock() { clock_ns_ = host_.now_ns(handle_); }
   void set_timer(std::uint32_t timer, std::int64_t at_ns) {
     host_.set_timer(handle_, timer, at_ns < 0 ? 0 : at_ns);
   }  // an instant below 0 would clear the timer
@@ -103,6 +106,7 @@ class Controller {
   const fp_host& host_;
   fp_controller* handle_;
   std::uint64_t draws_;
+  std::optional<std::int64_t> clock_ns_;
   std::uint32_t declared_ = FP_NONE;
   const char* state_ = nullptr;
 };
