@@ -92,7 +92,7 @@ void Membership::note_roll(std::uint32_t registrar, const Message& message) {
     has_news_ = true;
     application.from = message.roll.next;
     application.is_sent = false;
-    application.repeats = {};
+    application.reminders = {};
     finish(application);
   }
   std::erase_if(applications_, [](const Application& application) { return application.is_done(); });
@@ -101,7 +101,7 @@ void Membership::note_roll(std::uint32_t registrar, const Message& message) {
 void Membership::append_due(bool repeat, const ZoneSet& urgent, std::vector<Due>& due) {
   has_news_ = false;
   for (Application& application : applications_)
-    append_due(application, repeat && application.repeats.is_due(application.zones.meets(urgent)), due);
+    append_due(application, repeat && application.reminders.is_due(application.zones.meets(urgent)), due);
   if (!repeat) return;
   introductions_.resize(map_.registrar_count());
   for (std::uint32_t i = 0; i < map_.registrar_count(); ++i) {

@@ -96,7 +96,7 @@ class Membership {
 
  private:
   // When something is said again. Answers take a while, and most applications are made long before they matter.
-  struct Repeats {
+  struct Reminders {
     std::uint32_t calls = 0;
     bool is_due(bool is_urgent) { return ++calls % (is_urgent ? 2 : 6) == 0; }
   };
@@ -113,7 +113,7 @@ class Membership {
     std::uint32_t since_ms = 0;
     std::uint32_t from = 0;  // the part of the roll that begins with this AGV is missing; FP_NONE: none
     bool is_sent = false;
-    Repeats repeats;
+    Reminders reminders;
     std::vector<Contact> contacts;  // those that are not known to have heard of it
 
     bool is_done() const { return from == FP_NONE && contacts.empty(); }

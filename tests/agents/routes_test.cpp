@@ -86,6 +86,25 @@ TEST(Routes, ASearchWithABoundFindsAWayThatCostsTheLeast) {
   }
 }
 
+TEST(Routes, ASearchForAGoalFarAwayEndsAtTheFirstStationThatIsFar) {
+  testing::DrawnMap street;
+  for (std::uint32_t i = 0; i < 40; ++i) street.station(5.0 * i, 0.0);
+  for (std::uint32_t i = 0; i < 39; ++i) street.segment(i, i + 1);
+  const MapView view(street.map());
+  const DriveRules rules(view, 0);
+  Routes routes(view, rules);
+  const std::vector<double> cost_s(street.map().lane_count, 1.0);
+  const std::vector<float> remains_s(40, 0.0F);
+  const auto end = [&](std::uint32_t until, double far_m) {
+    routes.search_towards(until, remains_s, 3, {1.0, 0.0}, cost_s, far_m);
+    return routes.reached();
+  };
+  EXPECT_EQ(end(39, 70.0), 3U + 14U);
+  EXPECT_EQ(routes.lanes(routes.reached()).size(), 14U);
+  EXPECT_EQ(end(12, 70.0), 12U) << "the goal is nearer";
+  EXPECT_EQ(end(39, INFINITY), 39U);
+}
+
 TEST(Routes, ShowsTheCheapestStationsFirstUntilItIsEnough) {
   TiedGrid grid;
   const MapView view(grid.map.map());
