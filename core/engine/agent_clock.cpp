@@ -18,8 +18,9 @@ std::int64_t AgentClock::shows_with_drift_ns(SimTime t) const {
 }
 
 SimTime AgentClock::when_it_shows_with_drift(std::int64_t ns) const {
-  // By the inverse of the drift, and then around it until the instant lies between.
-  const std::int64_t guess = ns - offset_ns_ - (shows_ns(at_ns(ns - offset_ns_)) - ns);
+  // Each step leaves a share of the error that is as small as the drift. Then around it until the instant lies between.
+  std::int64_t guess = ns - offset_ns_;
+  for (int step = 0; step < 4; ++step) guess -= shows_ns(at_ns(guess)) - ns;
   const auto within = [](std::int64_t instant_ns) {
     return std::clamp<std::int64_t>(instant_ns, -1, kLongestDuration.count() / 2);
   };
