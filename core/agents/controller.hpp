@@ -69,8 +69,9 @@ class Controller {
   }
 
   std::int64_t now_ns() const { return clock_ns_ ? *clock_ns_ : host_.now_ns(handle_); }
-  // The own clock stands still during an activation. Until the next call, `now_ns` need not ask the host.
-  void read_clock() { clock_ns_ = host_.now_ns(handle_); }
+  // The own clock stands still during an activation, and the event says what it shows. Until the next call, `now_ns`
+  // need not ask the host.
+  void set_clock(std::int64_t now_ns) { clock_ns_ = now_ns; }
   void set_timer(std::uint32_t timer, std::int64_t at_ns) {
     host_.set_timer(handle_, timer, at_ns < 0 ? 0 : at_ns);
   }  // an instant below 0 would clear the timer

@@ -52,7 +52,7 @@ HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing
       braking_s_(braking_s(agv_of(briefing, briefing.self))) {}
 
 void HullLock::on_event(const fp_event& event) {
-  controller_.read_clock();
+  controller_.set_clock(event.now_ns);
   switch (event.kind) {
     case FP_EVENT_START:
       start();

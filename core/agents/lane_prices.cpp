@@ -40,7 +40,7 @@ std::vector<std::byte> LanePrices::work_out(const MapView& map) {
     const double extra_s = std::min(kMeetingCost_spm * lane.length_m, kLargestMeetingCost_s);
     first_meetings.push_back(static_cast<std::uint32_t>(meetings.size()));
     for (const std::uint32_t back : map.lanes_from(lane.to)) {
-      if (map.lane(back).segment == lane.segment) meetings.push_back({back, extra_s});
+      if (map.lane(back).segment == lane.segment) meetings.push_back({back, 0, extra_s});
     }
   }
   first_meetings.push_back(static_cast<std::uint32_t>(meetings.size()));

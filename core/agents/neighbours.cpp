@@ -40,6 +40,7 @@ Path way_ahead(const MapView& map, const Status& status) {
   return ahead;
 }
 
+// Within the tolerance of hulls.
 bool is_same(const Path& a, const Path& b) { return a == b && same_heading(a.heading, b.heading); }
 
 }  // namespace

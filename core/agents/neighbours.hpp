@@ -114,7 +114,7 @@ inline std::uint32_t stamp_ms_at(std::int64_t now_ns) {
 // A path of this AGV, and how often it has changed.
 struct OwnPath {
   const Path& path;
-  std::uint32_t version = 0;
+  std::uint32_t version;
 };
 
 // What another AGV does inside the hull of a path: it stands and waits, or it holds floor there.

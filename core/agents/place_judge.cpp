@@ -141,7 +141,7 @@ void PlaceJudge::cut_off_around(std::uint32_t end) {
   for (const bool backwards : {false, true}) {
     const Side side = backwards ? kUnreached : kDoomed;
     const Side connected = backwards ? kStillReached : kStillReaches;
-    if ((sides_[end] & side) != 0) continue;
+    if ((sides_[end] & side) != 0) continue;  // what lies beyond it is, too
     const auto look = [&](std::uint32_t id) {
       if ((sides_[id] & side) != 0) return MapWithout::Look::NotBeyond;
       const bool is_connected = (sides_[id] & connected) != 0 || sure_.is_sure(id, backwards);

@@ -53,11 +53,11 @@ struct StretchPlanner::Walk {
 
   Walk(StretchPlanner& of, const Path& standing, Budget allowed) : planner(of), budget(allowed) {
     stretch.path = standing;
-    planner.ahead_.clear();
+    planner.reachable_.clear();
     for_each_on_the_way(planner.neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
       if (!n.known) return;
       const double after_m = planner.geometry_.meets_after_m(self(), standing.station, agv, n.status.held);
-      if (after_m <= budget.length_m) planner.ahead_.push_back({agv, &n, after_m});
+      if (after_m <= budget.length_m) planner.reachable_.push_back({agv, &n, after_m});
     });
   }
 
@@ -94,8 +94,8 @@ struct StretchPlanner::Walk {
 
   template <class F>
   bool any_within_reach(F is) const {
-    return std::ranges::any_of(planner.ahead_, [&](const Ahead& ahead) {
-      return ahead.after_m <= length_m && is(ahead.agv, *ahead.neighbour);
+    return std::ranges::any_of(planner.reachable_, [&](const Reachable& other) {
+      return other.after_m <= length_m && is(other.agv, *other.neighbour);
     });
   }
 

@@ -23,6 +23,7 @@ struct Leg {
   Kind kind = Kind::Drive;
   std::uint32_t lane = FP_NONE;
   std::uint32_t order = FP_NONE;  // Pick, Drop: whose load
+  friend bool operator==(const Leg&, const Leg&) = default;
 };
 constexpr const char* name_of(Leg::Kind kind) {
   switch (kind) {
@@ -108,7 +109,7 @@ class StretchPlanner {
     std::uint64_t changes = 0;  // of the neighbours
   };
   // An AGV that holds floor which a walk may reach, not before this length.
-  struct Ahead {
+  struct Reachable {
     std::uint32_t agv;
     const Neighbour* neighbour;
     double after_m;
@@ -131,13 +132,13 @@ class StretchPlanner {
   const MapView& map_;
   HullGeometry& geometry_;
   Neighbours& neighbours_;
-  std::vector<Ahead> ahead_;  // of the walk
+  std::vector<Reachable> reachable_;  // by the present walk
   WaitingPlaces places_;
   DriveRules rules_;
   Routes routes_;
   std::span<const double> lane_times_s_;  // by lane
   LanePrices prices_;
-  std::optional<Question> last_asked_;  // since which no lane has another price
+  std::optional<Question> last_asked_;  // none if lanes have had other prices since: way_on_from() needs those
   Stretch last_answer_;
   std::uint32_t model_;         // of the own AGV
   bool knows_remaining_costs_;  // the usual costs are those of remaining_costs_s()

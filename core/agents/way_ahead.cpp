@@ -37,7 +37,6 @@ bool WayAhead::can_roll_on() const {
 }
 
 void WayAhead::end(double now_s) {
-  all_done_s_.reset();
   acting_ = next_is_given_;
   if (!next_is_given_) return;
   next_is_given_ = false;
@@ -50,7 +49,7 @@ void WayAhead::end(double now_s) {
   current_ends_s_ = run_began_s_ + time_s(run_);
 }
 
-// While a lane is driven, the present does not change when all is done.
+// While a lane is driven, and when the AGV rolls on to the next one, the present does not change when all is done.
 double WayAhead::time_left_s(Vec heading, double now_s) {
   if (!acting_ || current_.kind != Leg::Kind::Drive) all_done_s_.reset();
   if (!all_done_s_) all_done_s_ = work_out_end_s(heading, now_s);

@@ -18,9 +18,9 @@ std::int64_t AgentClock::shows_with_drift_ns(SimTime t) const {
 }
 
 SimTime AgentClock::when_it_shows_with_drift(std::int64_t ns) const {
-  // Each step leaves a share of the error that is as small as the drift. Then around it until the instant lies between.
-  std::int64_t guess = ns - offset_ns_;
-  for (int step = 0; step < 4; ++step) guess -= shows_ns(at_ns(guess)) - ns;
+  // A quotient that is a few nanoseconds off, and then around it until the instant lies between.
+  const double rate = 1.0 + static_cast<double>(drift_ppb_) / static_cast<double>(kBillion);
+  const auto guess = static_cast<std::int64_t>(static_cast<double>(ns - offset_ns_) / rate);
   const auto within = [](std::int64_t instant_ns) {
     return std::clamp<std::int64_t>(instant_ns, -1, kLongestDuration.count() / 2);
   };

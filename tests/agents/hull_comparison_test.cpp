@@ -25,7 +25,7 @@ class HullComparison : public ::testing::Test {
     return path;
   }
 
-  // Part of `a` by part. Requires: it has lanes.
+  // Compares `a` part by part. Requires: it has lanes.
   bool conflict_by_parts(HullGeometry& fresh, const Path& a, const Path& b) const {
     Vec heading = a.heading;
     for (const std::uint32_t lane : a.lanes()) {
@@ -107,7 +107,9 @@ TEST_F(HullComparison, NoShorterWayMeetsTheOtherPath) {
     double length_m = 0.0;
     for (const std::uint32_t lane : a.lanes()) {
       length_m += map.lane(lane).length_m;
-      const bool meets = geometry.lane_conflict(0, lane, 1, b) || geometry.turn_conflict(0, map.lane(lane).to, 1, b);
+      const std::uint32_t end = map.lane(lane).to;
+      const bool meets = geometry.lane_conflict(0, lane, 1, b) || geometry.turn_conflict(0, end, 1, b) ||
+                         geometry.turns_conflict(0, end, 1, end_of(map, b).station);
       met += meets ? 1 : 0;
       spared += after_m > length_m ? 1 : 0;
       ASSERT_TRUE(!meets || after_m <= length_m) << i;

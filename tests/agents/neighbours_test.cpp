@@ -108,6 +108,40 @@ TEST_F(NeighboursTest, ThereIsNoRecordOfAgvsThatAreNeverHeardOf) {
   EXPECT_EQ(known.front(), 7U);
 }
 
+TEST_F(NeighboursTest, ChangesGrowWithAllThatCountsForAWay) {
+  Message m;
+  m.status.held.station = 1;
+  const auto grows = [&](std::uint32_t stamp_ms) {
+    const std::uint64_t before = neighbours.changes();
+    m.status.stamp_ms = stamp_ms;
+    EXPECT_NE(neighbours.note(1, m, 0), Neighbours::News::Refused);
+    m.repeats_way = true;
+    return neighbours.changes() > before;
+  };
+  EXPECT_TRUE(grows(10)) << "it is heard for the first time";
+  EXPECT_FALSE(grows(11)) << "it says the same";
+  for (bool Condition::*const what : {&Condition::waiting, &Condition::idle, &Condition::out_of_order}) {
+    m.status.*what = true;
+    EXPECT_TRUE(grows(++m.status.stamp_ms));
+    EXPECT_FALSE(grows(m.status.stamp_ms)) << "it says so twice";
+  }
+  m.status.waiting = false;
+  EXPECT_FALSE(grows(5)) << "that was before";
+  m.status.waiting = true;
+  m.status.requesting = true;
+  m.status.epoch = next_request(first_epoch(0));
+  m.request.station = 1;
+  m.request.append(drawn.lane_between(1, 0));
+  EXPECT_TRUE(grows(20)) << "a request";
+  EXPECT_FALSE(grows(21));
+  m.status.requesting = false;
+  EXPECT_TRUE(grows(22)) << "which is over";
+  EXPECT_FALSE(grows(23));
+  m.repeats_way = false;
+  m.status.ahead.append(drawn.lane_between(1, 0));
+  EXPECT_TRUE(grows(24)) << "it means to go on";
+}
+
 TEST_F(NeighboursTest, RequestsThatAreHistoryStayClosed) {
   Message m;
   m.kind = MessageKind::Request;

@@ -28,9 +28,10 @@ class RightOfWayTest : public ::testing::Test {
     m.request.append(drawn.lane_between(from, to));
     ASSERT_NE(neighbours.note(agv, m, 0), Neighbours::News::Refused);
   }
+  OwnPath own() const { return {standing, version}; }
   Yields after(double s) {
     now_ns += static_cast<std::int64_t>(s * 1e9);
-    return right_of_way.when_blocked({standing}, 50);
+    return right_of_way.when_blocked(own(), 50);
   }
 
   testing::DrawnMap drawn = [] {
@@ -48,7 +49,7 @@ class RightOfWayTest : public ::testing::Test {
   Controller controller{host, reinterpret_cast<fp_controller*>(&now_ns)};
   RightOfWay right_of_way{neighbours, controller};
   Path standing;
-  std::uint32_t stamp = 0;
+  std::uint32_t stamp = 0, version = 0;
 };
 
 TEST_F(RightOfWayTest, ItYieldsToAnOlderDemandAfterAWhile) {
@@ -81,17 +82,29 @@ TEST_F(RightOfWayTest, WhoIsNotAskedForDoesNotYield) {
   requests(2, 4, 3, 40);
   after(0.0);
   EXPECT_EQ(after(60.0), Yields::ToNobody);
-  EXPECT_FALSE(right_of_way.is_asked_for({standing}));
+  EXPECT_FALSE(right_of_way.is_asked_for(own()));
   requests(0, 3, 2, 70);
-  EXPECT_TRUE(right_of_way.is_asked_for({standing}));
+  EXPECT_TRUE(right_of_way.is_asked_for(own()));
+}
+
+// Whether a request is in the way is remembered until the AGV holds something else.
+TEST_F(RightOfWayTest, WhoHasMovedIsAskedForNoMore) {
+  requests(2, 1, 2, 40);
+  EXPECT_TRUE(right_of_way.is_asked_for(own()));
+  EXPECT_EQ(right_of_way.eldest_demand_ns(own(), 50), 40);
+  standing.station = 4, ++version;
+  EXPECT_FALSE(right_of_way.is_asked_for(own()));
+  EXPECT_EQ(right_of_way.eldest_demand_ns(own(), 50), 50);
+  standing.station = 1, ++version;
+  EXPECT_TRUE(right_of_way.is_asked_for(own()));
 }
 
 TEST_F(RightOfWayTest, TheAgeOfTheOldestDemandInWhoseWayItIsIsPassedOn) {
-  EXPECT_EQ(right_of_way.eldest_demand_ns({standing}, 50), 50);
+  EXPECT_EQ(right_of_way.eldest_demand_ns(own(), 50), 50);
   requests(0, 4, 3, 10);
-  EXPECT_EQ(right_of_way.eldest_demand_ns({standing}, 50), 50) << "not in its way";
+  EXPECT_EQ(right_of_way.eldest_demand_ns(own(), 50), 50) << "not in its way";
   requests(2, 1, 2, 40);
-  EXPECT_EQ(right_of_way.eldest_demand_ns({standing}, 50), 40);
+  EXPECT_EQ(right_of_way.eldest_demand_ns(own(), 50), 40);
 }
 
 }  // namespace

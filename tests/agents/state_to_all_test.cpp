@@ -58,6 +58,7 @@ TEST(StateToAll, GoesOutEveryThreeSecondsAndSeldomerInLargerFleets) {
 }
 
 TEST(StateToAll, DoesNotGoOutIfItHasNoRoomForWhatAllHaveSaid) {
+  EXPECT_GT(Teller(HeardFrom::kMax).told_all_in(60.0), 0U);
   EXPECT_EQ(Teller(HeardFrom::kMax + 1).told_all_in(60.0), 0U);
 }
 

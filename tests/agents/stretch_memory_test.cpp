@@ -10,95 +10,164 @@
 namespace fleetproof::agents {
 namespace {
 
-// A ladder: two streets with rungs, so that there is mostly a way round.
-testing::DrawnMap ladder() {
+// Three streets with rungs, some of them one-way: there is mostly a way round.
+testing::DrawnMap streets() {
   testing::DrawnMap drawn;
-  for (const double y_m : {0.0, 6.0}) {
-    for (int i = 0; i < 6; ++i) drawn.station(5.0 * i, y_m);
+  for (std::uint32_t i = 0; i < 27; ++i) drawn.station(5.0 * (i % 9), 6.0 * (i / 9));
+  for (std::uint32_t i = 0; i < 27; ++i) {
+    if (i % 9 != 8) drawn.segment(i, i + 1);
+    if (i < 18) drawn.segment(i, i + 9, i >= 9 || i % 2 == 0);
   }
-  for (std::uint32_t i = 0; i < 5; ++i) drawn.segment(i, i + 1), drawn.segment(6 + i, 7 + i);
-  for (std::uint32_t i = 0; i < 6; ++i) drawn.segment(i, 6 + i);
   return drawn;
 }
 
-class StretchMemory : public ::testing::Test {
- protected:
-  static constexpr std::uint32_t kFleet = 4;
+// What the others say: most of it is what they said before, some of it is late or doubled, and computers restart.
+class Talk {
+ public:
+  Talk(std::uint32_t fleet_count, bool in_zones)
+      : in_zones_(in_zones),
+        fleet_(drawn_.map(), fleet_count),
+        neighbours_(map_, geometry_, fleet_.briefing(0, 0), {.zones_from = in_zones ? 2.0 : fleet_count + 1.0}),
+        speakers_(fleet_count) {}
 
-  std::uint32_t drawn_below(std::uint32_t count) { return static_cast<std::uint32_t>(draw() % count); }
-  bool often() { return drawn_below(4) != 0; }
+  Neighbours& neighbours() { return neighbours_; }
+  HullGeometry& geometry() { return geometry_; }
+  const MapView& map() const { return map_; }
+  std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(draw_() % count); }
+
+  void go_on() {
+    const std::uint32_t agv = 1 + below(static_cast<std::uint32_t>(speakers_.size()) - 1);
+    const std::vector<Message>& said = speakers_[agv].said;
+    if (in_zones_ && below(10) == 0) return neighbours_.set_own_zones(any_zones());
+    if (said.empty() || below(10) < 6) return say(agv);
+    deliver(agv, said[said.size() - 1 - below(std::min(static_cast<std::uint32_t>(said.size()), 8U))]);
+  }
+
+ private:
+  struct Speaker {
+    Message now, newest_heard;
+    bool is_heard = false;
+    std::vector<Message> said;
+  };
 
   Path any_path(std::uint32_t from, std::uint32_t lanes) {
     Path path;
     path.station = from;
-    for (std::uint32_t i = 0; i < lanes; ++i) {
-      const auto leaving = map.lanes_from(end_of(map, path).station);
-      path.append(leaving[drawn_below(static_cast<std::uint32_t>(leaving.size()))]);
+    for (; lanes > 0; --lanes) {
+      const auto leaving = map_.lanes_from(end_of(map_, path).station);
+      if (!leaving.empty()) path.append(leaving[below(static_cast<std::uint32_t>(leaving.size()))]);
     }
     return path;
   }
-
-  // The AGV says something new, or mostly what it said before. Now and then its message is late.
-  void say(std::uint32_t agv) {
-    Message& m = said[agv];
-    const bool is_first = m.status.stamp_ms == 0;
-    m.status.stamp_ms = ++stamp_ms;
-    if (drawn_below(3) == 0) m.status.waiting = !m.status.waiting;
-    if (drawn_below(3) == 0) m.status.idle = !m.status.idle;
-    if (drawn_below(9) == 0) m.status.out_of_order = !m.status.out_of_order;
-    m.repeats_way = !is_first && often();
-    if (!m.repeats_way) {
-      m.status.held = any_path(drawn_below(map.station_count()), drawn_below(3));
-      m.status.ahead = any_path(end_of(map, m.status.held).station, drawn_below(4));
+  ZoneSet any_zones() {
+    ZoneSet zones;
+    for (std::uint16_t zone = 0; zone < 6; ++zone) {
+      if (below(2) == 0) zones.add(zone);
     }
-    if (drawn_below(4) == 0) m.status.requesting = !m.status.requesting;
-    m.kind = MessageKind::State;
-    if (m.status.requesting && (!was_requesting[agv] || drawn_below(4) == 0)) {
-      m.status.epoch = next_request(m.status.epoch);
-      m.request = any_path(end_of(map, m.status.held).station, 1 + drawn_below(3));
-    }
-    was_requesting[agv] = m.status.requesting;
-    ASSERT_NE(neighbours.note(agv, m, 0), Neighbours::News::Refused);
+    return zones;
   }
 
-  testing::DrawnMap drawn = ladder();
-  MapView map{drawn.map()};
-  testing::TestFleet fleet{drawn.map(), kFleet};
-  HullGeometry geometry{map, fleet.briefing(0, 0)};
-  Neighbours neighbours{map, geometry, fleet.briefing(0, 0)};
-  std::mt19937 draw{20261126};
-  std::uint32_t stamp_ms = 0;
-  std::vector<Message> said = std::vector<Message>(kFleet);
-  std::vector<bool> was_requesting = std::vector<bool>(kFleet, false);
+  void say(std::uint32_t agv) {
+    Message& m = speakers_[agv].now;
+    Status& status = m.status;
+    const bool is_first = status.stamp_ms == 0;
+    status.stamp_ms = ++stamp_ms_;
+    m.tells_zones = in_zones_;
+    if (below(6) == 0) status.waiting = !status.waiting;
+    if (below(3) == 0) status.idle = !status.idle;
+    if (below(9) == 0) status.out_of_order = !status.out_of_order;
+    if (is_first || below(6) == 0)
+      status.held = any_path(below(map_.station_count()), below(3)), status.ahead.count = 0;
+    if (is_first || below(7) == 0) status.ahead = any_path(end_of(map_, status.held).station, below(4));
+    if (is_first || below(9) == 0) m.zones = any_zones();
+    if (below(3) == 0) status.requesting = !status.requesting;
+    if (below(40) == 0) status.epoch = first_epoch(boot_of(status.epoch) + 1), status.requesting = false;
+    if (status.requesting && (number_of(status.epoch) == 0 || below(2) == 0)) {
+      status.epoch = next_request(status.epoch);
+      m.request = any_path(end_of(map_, status.held).station, 1 + below(3));
+    }
+    speakers_[agv].said.push_back(m);
+    if (below(4) != 0) deliver(agv, m);
+  }
+
+  void deliver(std::uint32_t agv, Message m) {
+    Speaker& speaker = speakers_[agv];
+    const Message& newest = speaker.newest_heard;
+    m.repeats_way = speaker.is_heard && is_identical(m.status.held, newest.status.held) &&
+                    std::ranges::equal(m.status.ahead.lanes(), newest.status.ahead.lanes()) && m.zones == newest.zones;
+    const std::uint32_t boot = boot_of(m.status.epoch), newest_boot = boot_of(newest.status.epoch);
+    ASSERT_NE(neighbours_.note(agv, m, 0), Neighbours::News::Refused);
+    if (speaker.is_heard && std::pair(boot, m.status.stamp_ms) < std::pair(newest_boot, newest.status.stamp_ms)) return;
+    speaker.newest_heard = m;
+    speaker.is_heard = true;
+  }
+
+  bool in_zones_;
+  testing::DrawnMap drawn_ = streets();
+  MapView map_{drawn_.map()};
+  testing::TestFleet fleet_;
+  HullGeometry geometry_{map_, fleet_.briefing(0, 0)};
+  Neighbours neighbours_;
+  std::vector<Speaker> speakers_;
+  std::mt19937 draw_{20261126};
+  std::uint32_t stamp_ms_ = 0;
 };
 
-TEST_F(StretchMemory, AnswersAsIfItWereAskedForTheFirstTime) {
-  StretchPlanner planner(map, geometry, neighbours, 0);
+// What one asks for changes now and then.
+struct Question {
   Path standing;
-  double budget_m = 30.0;
+  Budget budget{30.0, kPathLanesMax};
   std::vector<Goal> goals{{11, Leg::Kind::Pick}};
-  int changed = 0;
+
+  void change(Talk& talk) {
+    if (talk.below(25) == 0) standing.station = talk.below(talk.map().station_count());
+    if (talk.below(25) == 0) standing.heading = left_of(standing.heading);
+    if (talk.below(25) == 0) budget.length_m = 10.0 + 5.0 * talk.below(5);
+    if (talk.below(12) != 0) return;
+    goals.clear();
+    for (std::uint32_t count = 1 + talk.below(3); count > 0; --count) {
+      const auto kind = static_cast<Leg::Kind>(1 + talk.below(3));  // Pick, Drop or Charge
+      goals.push_back({talk.below(talk.map().station_count()), kind, talk.below(3)});
+    }
+  }
+};
+
+void expect_answers_like_fresh_planners(Talk& talk, int steps) {
+  StretchPlanner planner(talk.map(), talk.geometry(), talk.neighbours(), 0);
+  Question asked;
+  int unchanged = 0, other_ways = 0;
   Stretch before;
-  for (int step = 0; step < 60'000; ++step) {
-    if (step > 0 && drawn_below(3) == 0) say(1 + drawn_below(kFleet - 1));
-    if (drawn_below(20) == 0) standing.station = drawn_below(map.station_count());
-    if (drawn_below(20) == 0) standing.heading = {standing.heading.y, standing.heading.x};
-    if (drawn_below(20) == 0) budget_m = 10.0 + 5.0 * drawn_below(4);
-    if (drawn_below(10) == 0) goals = {{drawn_below(map.station_count()), often() ? Leg::Kind::Drop : Leg::Kind::Pick}};
-    if (drawn_below(10) == 0)
-      planner.out_of_the_way(standing, {budget_m, kPathLanesMax}, false, false, 0.5,
-                             [](std::uint32_t, const Neighbour&) { return true; });
-    const Stretch stretch = planner.towards(standing, {budget_m, kPathLanesMax}, goals);
-    StretchPlanner fresh(map, geometry, neighbours, 0);
-    const Stretch expected = fresh.towards(standing, {budget_m, kPathLanesMax}, goals);
+  for (int step = 0; step < steps; ++step) {
+    const std::uint64_t changes = talk.neighbours().changes();
+    if (talk.below(2) == 0) talk.go_on();
+    unchanged += talk.neighbours().changes() == changes ? 1 : 0;
+    asked.change(talk);
+    if (talk.below(15) == 0)
+      planner.out_of_the_way(asked.standing, asked.budget, false, false, 0.5, [](auto, const auto&) { return true; });
+    if (talk.below(15) == 0) planner.free_charger(asked.standing, false, true);
+    const Stretch stretch = planner.towards(asked.standing, asked.budget, asked.goals);
+    StretchPlanner fresh(talk.map(), talk.geometry(), talk.neighbours(), 0);
+    const Stretch expected = fresh.towards(asked.standing, asked.budget, asked.goals);
     ASSERT_TRUE(is_identical(stretch.path, expected.path)) << "step " << step;
     ASSERT_EQ(stretch.goals, expected.goals) << "step " << step;
-    ASSERT_EQ(stretch.legs.size(), expected.legs.size()) << "step " << step;
-    ASSERT_EQ(planner.way_on_from(stretch, goals), fresh.way_on_from(expected, goals)) << "step " << step;
-    changed += is_identical(stretch.path, before.path) ? 0 : 1;
+    ASSERT_TRUE(stretch.legs == expected.legs) << "step " << step;
+    ASSERT_EQ(planner.way_on_from(stretch, asked.goals), fresh.way_on_from(expected, asked.goals)) << "step " << step;
+    other_ways += is_identical(stretch.path, before.path) ? 0 : 1;
     before = stretch;
   }
-  EXPECT_GT(changed, 5000);
+  EXPECT_GT(unchanged, steps / 2);
+  EXPECT_GT(other_ways, steps / 20);
+}
+
+TEST(StretchMemory, AnswersAsIfItWereAskedForTheFirstTime) {
+  Talk talk(4, false);
+  expect_answers_like_fresh_planners(talk, 100'000);
+}
+
+TEST(StretchMemory, DoesSoInAFleetThatIsDividedIntoZones) {
+  Talk few(6, true), many(HeardFrom::kMax + 1, true);
+  expect_answers_like_fresh_planners(few, 20'000);
+  expect_answers_like_fresh_planners(many, 10'000);
 }
 
 }  // namespace

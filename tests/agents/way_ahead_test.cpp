@@ -50,6 +50,33 @@ TEST_F(WayAheadTest, ADriveUnderWayCountsUpToItsEnd) {
   EXPECT_EQ(way.time_left_s({1.0, 0.0}, 100.0), 0.0);
 }
 
+// The answer is remembered until a leg is added, ends or goes. `10 s` ago, the AGV was at rest at station 0.
+TEST_F(WayAheadTest, EveryChangeOfTheLegsCounts) {
+  const Vec along{1.0, 0.0};
+  const auto left_s = [&] { return way.time_left_s(along, 10.0) + 10.0; };
+  way.begin(drive(0), along, 0.0);
+  EXPECT_EQ(left_s(), 10.0) << "overdue";
+  for (std::uint32_t i = 1; i < 10; ++i) way.append(drive(i));
+  EXPECT_NEAR(left_s(), 13.0, 1e-9) << "20 m from rest to rest";
+  way.append({Leg::Kind::Pick});
+  EXPECT_NEAR(left_s(), 18.0, 1e-9);
+  way.give_next();
+  way.end(3.0);
+  EXPECT_NEAR(left_s(), 18.0, 1e-9) << "it rolls on";
+  way.end(4.0);
+  EXPECT_NEAR(left_s(), 10.0 + 3.0 + 16.0 / 2.0 + 5.0, 1e-9) << "it stopped: eight lanes and the load";
+  way.begin(way.next(), along, 4.0);
+  way.drop_next();
+  EXPECT_NEAR(left_s(), 4.0 + 3.0 + 16.0 / 2.0 + 5.0, 1e-9);
+  for (int i = 0; i < 7; ++i) way.drop_next();
+  EXPECT_NEAR(left_s(), 4.0 + std::sqrt(12.0) + 5.0, 1e-9) << "only the load is left";
+  way.end(8.0);
+  way.begin(drive(5), along, 9.0);
+  EXPECT_NEAR(left_s(), 9.0 + std::sqrt(12.0) + 5.0, 1e-9) << "another drive";
+  way.stop();
+  EXPECT_NEAR(left_s(), 10.0 + 5.0, 1e-9);
+}
+
 TEST_F(WayAheadTest, OnlyADriveStraightOnIsGivenInAdvanceAndOnlyOnce) {
   EXPECT_FALSE(way.can_roll_on()) << "nothing is under way";
   way.begin(drive(0), {1.0, 0.0}, 0.0);
