@@ -94,7 +94,7 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
     seconds_before(record.at);
   }
   if (record.kind == TraceKind::ActivityBegins || record.kind == TraceKind::ActivityEnds) {
-    if (!is_work(traced::activity_of(record))) return;
+    if (!keeps_busy(traced::activity_of(record))) return;
     count(fleet_.busy, fleet_.agvs[record.entity.index()].busy, record.kind == TraceKind::ActivityBegins);
     active_at_ = record.at;
     return;

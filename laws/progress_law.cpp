@@ -24,11 +24,14 @@ struct AgvState {
   std::vector<TransportId> open;       // transports released and not done
   std::optional<TransportId> carried;  // transport of the load on it
   SimTime open_since = kStart, active_at = kStart, advanced_at = kStart;
-  bool busy = false, off_floor = false;          // off: in the hands of the operator
+  bool busy = false, off_floor = false;  // off: in the hands of the operator
+  std::optional<SimTime> charging_since;
   EntityId declared;                             // the AGV for which it waits, as its agent declares
   std::uint64_t done = 0, others_done_then = 0;  // when it last advanced
 
   bool has_work() const { return !open.empty(); }
+  // Whether its transports could advance now.
+  bool is_expected() const { return has_work() && !charging_since; }
   SimTime still_since() const { return std::max(open_since, active_at); }
   SimTime without_success_since() const { return std::max(open_since, advanced_at); }
 };
@@ -65,6 +68,7 @@ class ProgressLaw final : public Law {
   using Key = std::pair<IncidentKind, EntityId>;
 
   void goes_on_with(const TraceRecord& record);
+  void charge_begins_or_ends(AgvState& agv, const TraceRecord& record);
   void order_released(const TraceRecord& record);
   void load_moves(const TraceRecord& record);
   void transport_over(TransportId transport, bool done, SimTime at);
@@ -73,7 +77,7 @@ class ProgressLaw final : public Law {
   void look_before(SimTime t);
   void look(SimTime now);
   bool is_stalled(const AgvState& agv, SimTime now) const {
-    return agv.has_work() && !agv.busy && !agv.off_floor && now - still_since(agv) >= stuck_after_;
+    return agv.is_expected() && !agv.busy && !agv.off_floor && now - still_since(agv) >= stuck_after_;
   }
   void comes_or_goes(const TraceRecord& record);
   SimTime still_since(const AgvState& agv) const { return std::max(agv.still_since(), faults_.last()); }
@@ -157,13 +161,21 @@ void ProgressLaw::goes_on_with(const TraceRecord& record) {
   AgvState& agv = agvs_[record.entity.index()];
   const ActivityKind activity = traced::activity_of(record);
   const bool begins = record.kind == TraceKind::ActivityBegins;
-  if (!begins && is_progress(activity, read<traced::ActivityEnds>(record).as_planned)) advanced(agv, record.at);
+  if (activity == ActivityKind::Charge) charge_begins_or_ends(agv, record);
   if (!is_work(activity)) return;
   agv.busy = begins;
   agv.active_at = record.at;
   motions_ += begins ? 1 : 0;
   if (begins && activity == ActivityKind::Drive)
     approach_.drive_begins(record.entity, read<traced::ActivityBegins>(record).segment());
+}
+
+void ProgressLaw::charge_begins_or_ends(AgvState& agv, const TraceRecord& record) {
+  agv.active_at = record.at;
+  if (record.kind == TraceKind::ActivityBegins) return void(agv.charging_since = record.at);
+  const Duration lasted = record.at - std::exchange(agv.charging_since, std::nullopt).value_or(record.at);
+  const bool as_planned = read<traced::ActivityEnds>(record).as_planned;
+  if (is_progress(ActivityKind::Charge, as_planned, lasted, stuck_after_)) advanced(agv, record.at);
 }
 
 // An AGV that the operator takes off the floor waits for no AGV and blocks no AGV. It starts anew where the operator
@@ -329,10 +341,9 @@ void ProgressLaw::file_waits(const std::vector<EntityId>& agvs, const std::map<E
 void ProgressLaw::look_for_livelock(SimTime now) {
   const Duration without_success = now - std::max(fleet_advanced_at_, faults_.last());
   if (without_success < 2 * stuck_after_ || motions_ == motions_then_) return;
-  const bool any_work = std::ranges::any_of(agvs_, &AgvState::has_work);
   const bool still =
       std::ranges::none_of(agvs_, [&](const AgvState& agv) { return agv.busy || now - agv.active_at < stuck_after_; });
-  if (!any_work || still) return;
+  if (still || std::ranges::none_of(agvs_, &AgvState::is_expected)) return;
   if (without_success < 2 * stuck_after_ + longest_way()) return;
   goes_on(
       {IncidentKind::Livelock, {}, {}, fleet_advanced_at_, now, static_cast<std::int64_t>(motions_ - motions_then_)});
@@ -358,7 +369,7 @@ void ProgressLaw::look_for_starvation(SimTime now) {
   for (std::size_t i = 0; i < agvs_.size(); ++i) {
     const AgvState& agv = agvs_[i];
     const std::uint64_t others_done = done_ - agv.done - agv.others_done_then;
-    if (!agv.has_work() || now - std::max(agv.without_success_since(), faults_.last()) < 2 * stuck_after_ ||
+    if (!agv.is_expected() || now - std::max(agv.without_success_since(), faults_.last()) < 2 * stuck_after_ ||
         others_done < kOvertaken * (agvs_.size() - 1))
       continue;
     goes_on({IncidentKind::Starvation,

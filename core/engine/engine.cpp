@@ -97,10 +97,12 @@ void Engine::handle(const Event& event) {
   }
 }
 
-// Transports are open, and no AGV has begun or ended an action for a long time, although no fault holds an AGV.
+// Transports are open, and no AGV has begun or ended an action for a long time, although no fault holds an AGV and none
+// charges.
 bool Engine::is_stuck() const {
   const bool excused = std::ranges::any_of(run_.agvs, [](const AgvStatus& agv) {
-    return agv.is_held_by(Halt::Reason::Breakdown) || agv.is_held_by(Halt::Reason::ProtectiveStop);
+    return agv.is_held_by(Halt::Reason::Breakdown) || agv.is_held_by(Halt::Reason::ProtectiveStop) ||
+           (agv.activity && agv.activity->kind == ActivityKind::Charge);
   });
   return run_.transports_are_open() && !excused && run_.now - run_.last_progress >= run_.scenario.stuck_after;
 }

@@ -11,24 +11,29 @@ namespace fleetproof {
 //
 // question                                    | who asks                              | definition
 // --------------------------------------------|---------------------------------------|------------------------------
-// Does the AGV do anything now?               | every other question                  | is_work
+// Does the AGV do anything now?               | every other question                  | is_work; the laws and the
+//                                             |                                       |   engine: keeps_busy
 // Is the fleet frozen? (run "stuck",          | engine at the end of a run, operator, | no work began or ended for
 //   operator, deadlock, standstill)           | laws progress and normal-operation    |   `stuck_after`
 // Does the fleet move without any result?     | law progress (livelock, starvation)   | no transport advanced
 //   Movement alone is no progress.            |                                       |   (advances_transport), no
-//                                             |                                       |   charge ended (is_progress)
+//                                             |                                       |   charge ended (is_progress);
+//                                             |                                       |   who charges is not asked
 // Is there anything left to do?               | all of them                           | open_transports
 // How much does the fleet get done?           | gates, reports, law normal-operation  | transports_per_agv_hour
 //
 // A frozen fleet is found by its lack of work and not by its lack of results: the time that a transport takes depends
 // on the layout, the time in which an AGV begins something does not.
 
-// Activities by which an AGV serves its transports. An AGV that parks or charges may stay so for as long as it likes; a
-// transmission is no activity of the AGV's body.
+// Activities by which an AGV serves its transports. A transmission is no activity of the AGV's body.
 constexpr bool is_work(ActivityKind kind) {
   return kind == ActivityKind::Drive || kind == ActivityKind::Turn || kind == ActivityKind::Settle ||
          kind == ActivityKind::Pick || kind == ActivityKind::Drop;
 }
+
+// Activities that end by themselves. A charge ends when the battery is full, at the latest; an AGV that parks may stay
+// so for as long as it likes.
+constexpr bool keeps_busy(ActivityKind kind) { return is_work(kind) || kind == ActivityKind::Charge; }
 
 // Whether a transport advances when its load passes to `to`: an AGV has taken the load up, or nothing is left to do
 // because the load is out of the warehouse. The delivery itself is a record of its own (TraceKind::TransportDone). A
@@ -37,9 +42,11 @@ constexpr bool advances_transport(const Holder& to) {
   return to.kind == Holder::Kind::Agv || to.kind == Holder::Kind::ClearedAway;
 }
 
-// Whether the end of an activity is progress in itself: a charge that was not cut short. The AGV has what it came for,
-// and it can go on with its transports.
-constexpr bool is_progress(ActivityKind ended, bool as_planned) { return ended == ActivityKind::Charge && as_planned; }
+// Whether the end of an activity is progress in itself: a charge to the end, or one that was cut short after
+// `stuck_after` or later. The AGV has what it came for, and it can go on with its transports.
+constexpr bool is_progress(ActivityKind ended, bool as_planned, Duration lasted, Duration stuck_after) {
+  return ended == ActivityKind::Charge && (as_planned || lasted >= stuck_after);
+}
 
 // Transports that were released and are neither done nor impossible because their load was cleared away.
 constexpr std::uint64_t open_transports(const Counters& counters) {

@@ -60,6 +60,18 @@ TEST(AtAStandstill, WithoutTheOperatorItLasts) {
   EXPECT_TRUE(seen.outcome.stuck);
 }
 
+TEST(AtAStandstill, ARunThatEndsWhileAnAgvChargesIsNotStuck) {
+  Scenario scenario = head_on(300.0);
+  for (const bool charges : {true, false}) {
+    scenario.agvs[0].battery = 0.1;
+    const Helped seen =
+        run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+          if (charges && b.self == 0 && e.kind == FP_EVENT_START) host.charge(c, FP_HERE);
+        });
+    EXPECT_EQ(seen.outcome.stuck, !charges);
+  }
+}
+
 TEST(AtAStandstill, WhereNoRestartHelpsTheyTakeTurnsAndTheRunIsStuck) {
   Scenario scenario = head_on(170.0);
   scenario.operator_help = comes_after(10.0);

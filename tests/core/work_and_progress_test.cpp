@@ -12,6 +12,13 @@ TEST(Work, IsWhatServesATransport) {
   for (const ActivityKind kind : {Park, Charge, Transmit}) EXPECT_FALSE(is_work(kind)) << name_of(kind);
 }
 
+TEST(Work, KeepsAnAgvBusyAndSoDoesACharge) {
+  using enum ActivityKind;
+  for (const ActivityKind kind : {Drive, Turn, Settle, Pick, Drop, Charge})
+    EXPECT_TRUE(keeps_busy(kind)) << name_of(kind);
+  for (const ActivityKind kind : {Park, Transmit}) EXPECT_FALSE(keeps_busy(kind)) << name_of(kind);
+}
+
 TEST(Progress, IsMadeByTakingALoadUpAndByLosingIt) {
   EXPECT_TRUE(advances_transport({Holder::Kind::Agv, 0}));
   EXPECT_TRUE(advances_transport({Holder::Kind::ClearedAway, 0}));
@@ -19,12 +26,14 @@ TEST(Progress, IsMadeByTakingALoadUpAndByLosingIt) {
   EXPECT_FALSE(advances_transport({Holder::Kind::Floor, 0}));
 }
 
-TEST(Progress, IsMadeByAChargeToTheEndAndByNoMovement) {
+TEST(Progress, IsMadeByAChargeToTheEndOrALongOneAndByNoMovement) {
   using enum ActivityKind;
-  EXPECT_TRUE(is_progress(Charge, true));
-  EXPECT_FALSE(is_progress(Charge, false)) << "cut short";
+  const Duration long_enough = seconds(120.0), short_time = seconds(119.0);
+  EXPECT_TRUE(is_progress(Charge, true, short_time, long_enough));
+  EXPECT_TRUE(is_progress(Charge, false, long_enough, long_enough));
+  EXPECT_FALSE(is_progress(Charge, false, short_time, long_enough)) << "cut short";
   for (const ActivityKind kind : {Drive, Turn, Settle, Pick, Drop, Park, Transmit})
-    EXPECT_FALSE(is_progress(kind, true)) << name_of(kind);
+    EXPECT_FALSE(is_progress(kind, true, long_enough, long_enough)) << name_of(kind);
 }
 
 TEST(OpenTransports, AreThoseNeitherDoneNorImpossible) {

@@ -134,6 +134,17 @@ TEST_F(NormalOperation, AFleetThatStandsWithOpenTransportsIsAccused) {
   EXPECT_THAT(run(60.0, 3, 1.5, nothing), IsEmpty()) << "no order is open";
 }
 
+TEST_F(NormalOperation, AFleetThatChargesStandsForAReason) {
+  scenario_.stuck_after = seconds(20.0);
+  for (const bool charges : {true, false}) {
+    const auto found = run(60.0, 3, 1.5, [&](Told& told, int second) {
+      if (second == 3) told.released(3.0, 0, 0);
+      if (second == 5) told.begins(5.0, 0, charges ? ActivityKind::Charge : ActivityKind::Park);
+    });
+    EXPECT_EQ(found.empty(), charges);
+  }
+}
+
 TEST_F(NormalOperation, TooFewTransportsAreAccusedOnlyIfAFloorIsSet) {
   scenario_.stuck_after = seconds(1000.0);
   const auto order = [](Told& told, int second) {

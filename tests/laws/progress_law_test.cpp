@@ -184,6 +184,48 @@ TEST_F(Progress, AChargeToTheEndIsProgressAndOneThatIsCutShortIsNot) {
   }
 }
 
+// Twenty minutes, until the agent breaks off. Then the AGV works on, or stands.
+TEST_F(Progress, WhoChargesForLongIsNotAccusedUntilItHasCharged) {
+  for (const bool works_on : {true, false}) {
+    Told law = told();
+    both_released(law);
+    for (std::uint32_t agv = 0; agv < 2; ++agv)
+      law.begins(5.0, agv, ActivityKind::Drive)
+          .ends(9.0, agv, ActivityKind::Drive)
+          .begins(10.0, agv, ActivityKind::Charge);
+    for (std::uint32_t agv = 0; agv < 2; ++agv) law.ends(1210.0, agv, ActivityKind::Charge, false);
+    for (double t_s = 1211.0; works_on && t_s < 1400.0; t_s += 20.0)
+      law.begins(t_s, 0, ActivityKind::Drive).ends(t_s + 10.0, 0, ActivityKind::Drive);
+    const auto found = law.finish(works_on ? 1400.0 : 2000.0).incidents;
+    if (works_on) {
+      EXPECT_THAT(found, IsEmpty());
+    } else {
+      ASSERT_FALSE(found.empty());
+      EXPECT_EQ(found[0].kind, Deadlock);
+      EXPECT_EQ(found[0].first, at_seconds(1210.0));
+    }
+  }
+}
+
+// One charges while the other one carries: it is not overtaken.
+TEST_F(Progress, WhoChargesIsNotStarving) {
+  scenario_.agvs[1].transports.resize(9, scenario_.agvs[1].transports[0]);
+  for (const bool charges : {true, false}) {
+    Told law = told();
+    released(law, 1.0, 0, 0, 3);
+    for (std::uint32_t i = 1; i < 9; ++i) released(law, 1.0, 1, i, 0);
+    if (charges) law.begins(2.0, 0, ActivityKind::Charge);
+    for (std::uint32_t i = 1; i < 9; ++i) {
+      const double t_s = 60.0 * i;
+      law.begins(t_s, 1, ActivityKind::Pick).load_on_agv(t_s + 5.0, 1, i).ends(t_s + 5.0, 1, ActivityKind::Pick);
+      law.begins(t_s + 9.0, 1, ActivityKind::Drop).load_at_station(t_s + 10.0, 1, i, 5);
+      law.ends(t_s + 10.0, 1, ActivityKind::Drop).done(t_s + 10.0, 1, i);
+    }
+    const auto found = law.finish(500.0).incidents;
+    EXPECT_EQ(found.empty(), charges);
+  }
+}
+
 TEST_F(Progress, WhoPicksNowAndThenIsNoLivelock) {
   scenario_.agvs[0].transports.resize(3, scenario_.agvs[0].transports[0]);
   scenario_.agvs[1].transports.clear();
