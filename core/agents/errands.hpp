@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +27,11 @@ class Errands {
 
   bool empty() const { return goals_.empty(); }
   std::span<const Goal> goals() const { return goals_; }
+  // The goals before the next pick.
+  std::span<const Goal> of_the_load_on_board() const {
+    const auto pick = std::ranges::find(goals_, Leg::Kind::Pick, &Goal::transfer);
+    return goals().first(static_cast<std::size_t>(pick - goals_.begin()));
+  }
   bool next_is(Leg::Kind transfer) const { return !goals_.empty() && goals_.front().transfer == transfer; }
   void reached(std::uint32_t count) { goals_.erase(goals_.begin(), goals_.begin() + count); }
   // Goes to this charger before everything else, instead of to another charger.

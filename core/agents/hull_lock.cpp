@@ -199,6 +199,14 @@ void HullLock::release_early() {
   if (!options_.holding.lanes_to_their_end && now_s() >= way_.current_ends_s() - kEarly_s) release_lane();
 }
 
+// Before a pick where it stands or will stand. True: not yet, or there is a charger to go to.
+bool HullLock::charges_first() {
+  if (!is_battery_low()) return false;
+  if (way_.acting() || !way_.empty()) return true;
+  look_at_battery();
+  return errands_.next_is(Leg::Kind::Charge);
+}
+
 void HullLock::look_at_battery() {
   const double level = controller_.battery_level();
   if (level >= settings_.charge_to) charging_ = false;
@@ -253,10 +261,6 @@ void HullLock::roll_on() {
   if (protocol_.may_drive_next(lane) && controller_.move(map_.action_segment(lane))) way_.give_next();
 }
 
-// The AGV starts without a load, and the warehouse keeps only bodies without loads apart. The floor under its load is
-// its own when it has locked its way from there.
-bool HullLock::must_lock_first() const { return !has_locked_ && !way_.empty() && way_.next().kind == Leg::Kind::Pick; }
-
 void HullLock::begin(Leg leg) {
   bool accepted = false;
   switch (leg.kind) {
@@ -301,6 +305,7 @@ void HullLock::plan() {
   const Path end = end_of(map_, protocol_.held());
   while (!errands_.empty() && errands_.goals().front().station == end.station &&
          map_.may_stay(end.station, end.heading)) {
+    if (errands_.next_is(Leg::Kind::Pick) && charges_first()) return;
     const Goal here = errands_.goals().front();
     way_.append({here.transfer, FP_NONE, here.order});
     errands_.reached(1);
@@ -332,8 +337,6 @@ void HullLock::plan_making_way() {
   request(way_out(Yields::ToAll), Purpose::MakeWay);
 }
 
-Stretch HullLock::way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), errands_.goals()); }
-
 Stretch HullLock::way_out(Yields to) {
   if (!options_.progress.makes_way) return {};
   const auto goes_first = [&](std::uint32_t agv, const Neighbour& n) {
@@ -348,7 +351,7 @@ void HullLock::request(Stretch stretch, Purpose purpose, std::int64_t demand_ns)
     plan_after_s_ = now_s() + kRetryPlanning_s;
     return;
   }
-  if (purpose == Purpose::Transport) stretch.onward = planner_.way_on_from(stretch, errands_.goals());
+  if (purpose == Purpose::Transport) stretch.onward = planner_.way_on_from(stretch, goals_now());
   if (!options_.progress.whole_stretches) cut_after_first_lane(stretch);
   stretch_ = std::move(stretch);
   purpose_ = purpose;
@@ -377,10 +380,6 @@ void HullLock::reconsider() {
   const std::int64_t eldest_ns = right_of_way_.eldest_demand_ns(protocol_.own_held(), seniority_.since_ns());
   if (to == Yields::ToAll) seniority_.stand_back(controller_.now_ns());
   request(std::move(retreat), Purpose::MakeWay, to == Yields::ToElders ? eldest_ns : -1);
-}
-
-Budget HullLock::budget() const {
-  return {neighbours_.claim_limit_m() - length_m(map_, protocol_.held()), kPathLanesMax - protocol_.held().count};
 }
 
 void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,

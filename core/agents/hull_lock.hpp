@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/agents/agent_type.hpp"
@@ -49,6 +50,12 @@ class HullLock {
   void set_out_of_order(bool out);
   void release_early();
   void release_lane();
+  bool is_battery_low() { return has_chargers_ && settings_.is_low(controller_.battery_level()); }
+  // With a low battery, it plans no further than it has a load on board: it may charge before it picks another one.
+  std::span<const Goal> goals_now() {
+    return errands_.next_is(Leg::Kind::Drop) && is_battery_low() ? errands_.of_the_load_on_board() : errands_.goals();
+  }
+  bool charges_first();
   void look_at_battery();
   void drive_to_charger(bool urgent);
   // Does everything that can be done now: acts, locks, plans, asks.
@@ -64,9 +71,11 @@ class HullLock {
   // In a divided fleet, it waits longer: with many AGVs, the way round is long to work out.
   bool is_time_to_reconsider() { return !neighbours_.audience().is_divided() || ++ticks_waited_ % 3 == 0; }
   void request(Stretch stretch, Purpose purpose, std::int64_t demand_ns = -1);
-  Stretch way_on();
+  Stretch way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), goals_now()); }
   Stretch way_out(Yields to);
-  bool must_lock_first() const;
+  // The AGV starts without a load, and the warehouse keeps only bodies without loads apart. The floor under its load is
+  // its own when it has locked its way from there.
+  bool must_lock_first() const { return !has_locked_ && !way_.empty() && way_.next().kind == Leg::Kind::Pick; }
   bool is_waiting() const { return !way_.acting() && (way_.empty() || must_lock_first()); }
   bool is_idle() const { return is_waiting() && errands_.empty(); }
   // For people who look at a trace.
@@ -75,7 +84,9 @@ class HullLock {
     if (way_.acting()) return name_of(way_.current().kind);
     return charging_ ? "charging" : protocol_.requesting() ? "requesting" : is_idle() ? "idle" : "waiting";
   }
-  Budget budget() const;
+  Budget budget() const {
+    return {neighbours_.claim_limit_m() - length_m(map_, protocol_.held()), kPathLanesMax - protocol_.held().count};
+  }
   double now_s() { return static_cast<double>(controller_.now_ns()) * 1e-9; }
 
   LockOptions options_;

@@ -1,6 +1,8 @@
 // hull-lock and its battery: when it drives to a charger, and when it leaves the charger to another AGV.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/agents/agent_type.hpp"
 #include "tests/agents/junction.hpp"
 
@@ -15,8 +17,8 @@ using testing::TestFleet;
 struct Corridor {
   static constexpr std::uint32_t kCharger = 4;
 
-  Corridor() {
-    for (int i = 0; i < 4; ++i) drawn.station(8.0 * i, 0);
+  explicit Corridor(std::uint32_t purposes = FP_ROUTING) {
+    for (int i = 0; i < 4; ++i) drawn.station(8.0 * i, 0, purposes);
     for (std::uint32_t i = 0; i < 3; ++i) drawn.segment(i, i + 1);
     drawn.station(8, 4, FP_CHARGING);
     drawn.segment(1, kCharger);
@@ -63,6 +65,33 @@ double battery_at_the_first_pick(double battery, double restart_at_s, std::uint3
 TEST(Charging, ItLooksAtTheBatteryBeforeItSetsOutEvenAfterARestart) {
   EXPECT_GT(battery_at_the_first_pick(0.2, 0.0, 3), 0.8);
   EXPECT_GT(battery_at_the_first_pick(0.2, 1.0, 3), 0.8);
+}
+
+// Its battery gets low while it picks a load. The next load waits where it puts this one down.
+double battery_at_the_next_pick(std::uint32_t where) {
+  Corridor corridor(FP_STORAGE);
+  const TestFleet fleet(corridor.drawn.map(), 1);
+  FakeWarehouse warehouse(corridor.drawn, fleet, {0}, kHullLock, {}, 1);
+  warehouse.battery(0, 1.0);
+  warehouse.order(0, 0.1, 0, 3);
+  warehouse.order(0, 0.1, 3, where);
+  warehouse.order(0, 0.1, where, 2);
+  std::int64_t picks = 0;
+  double level = 0.0;
+  warehouse.after_activation = [&](std::uint32_t) {
+    const auto now = std::ranges::count(warehouse.calls(), FP_CALL_PICK, [](const auto& call) { return call.second; });
+    if (now == 2 && picks == 1) warehouse.battery(0, 0.25);
+    if (now == 3 && picks == 2) level = warehouse.battery_of(0);
+    picks = now;
+  };
+  warehouse.run(400.0);
+  EXPECT_EQ(warehouse.drops(), 3U);
+  return level;
+}
+
+TEST(Charging, ItChargesBeforeItPicksWhereItHasJustDropped) {
+  EXPECT_GT(battery_at_the_next_pick(0), 0.8);
+  EXPECT_GT(battery_at_the_next_pick(1), 0.8) << "where it must not wait, it would go on at once";
 }
 
 TEST(Charging, AnAlmostEmptyAgvChargesWithItsLoad) {
