@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "core/base/outside_text.hpp"
 #include "reports/wording.hpp"
 
@@ -64,10 +66,14 @@ Section sensitivity_section(const ReportInput& input) {
   Section section{"Which planted faults these worlds detect", {}, {}};
   const auto& [record, trouble] = input.sensitivity;
   if (!record) {
-    section.remarks.push_back({trouble.empty() ? "Not measured. Agents with known faults can be tried in these worlds "
-                                                 "(fleetproof sensitivity CAMPAIGN)."
-                                               : "Not known: " + printable(trouble, 400),
-                               ""});
+    const auto name = std::filesystem::path(sensitivity_path(input.archive_path)).filename();
+    section.remarks.push_back(
+        {trouble.empty()
+             ? fmt::format("Not measured. Agents with known faults can be tried in these worlds (fleetproof "
+                           "sensitivity CAMPAIGN); a report looks for {} beside its campaign file.",
+                           printable(name.string(), 200))
+             : "Not known: " + printable(trouble, 400),
+         ""});
     return section;
   }
   section.table = sensitivity_table(*record);
