@@ -110,11 +110,17 @@ class LevelReader {
     return found.IsDefined() && found.IsSequence() && found.size() == 2 ? found[1] : found;
   }
 
-  // Whether the attribute exists and is not false, empty or 0.
-  static bool is_set(const YAML::Node& words, const char* word) {
+  // Whether the attribute exists and is true. One without a value is not.
+  bool is_set(const YAML::Node& words, const char* word) const {
+    const auto value = parameter(words, word);
+    return value.IsDefined() && !value.IsNull() && yaml_.truth(value, word);
+  }
+
+  // Whether the attribute names something, such as the dispenser at a vertex. A word for false names nothing.
+  static bool names_something(const YAML::Node& words, const char* word) {
     const auto value = parameter(words, word);
     if (!value.IsDefined() || value.IsNull()) return false;
-    return !value.IsScalar() || (value.Scalar() != "false" && !value.Scalar().empty() && value.Scalar() != "0");
+    return !value.IsScalar() || (!value.Scalar().empty() && said_truth(value.Scalar()).value_or(true));
   }
 
   // The attributes of a vertex or lane: its last item, if that is a map.
@@ -181,14 +187,14 @@ class LevelReader {
     }
     const Vec2 position = raw_position(vertex) * scale_m_;
     station.position_m = {position.x(), down_ ? 0.0 - position.y() : position.y()};
-    const auto give = [&](const char* word, Purpose purpose) {
-      if (is_set(words, word)) station.purposes = station.purposes | purpose;
+    const auto give = [&](bool given, Purpose purpose) {
+      if (given) station.purposes = station.purposes | purpose;
     };
-    give("is_charger", Purpose::Charging);
-    give("is_parking_spot", Purpose::Parking);
-    give("pickup_dispenser", Purpose::Storage);
-    give("dropoff_ingestor", Purpose::Storage);
-    if (is_set(words, "lift_cabin") || is_set(words, "lift"))
+    give(is_set(words, "is_charger"), Purpose::Charging);
+    give(is_set(words, "is_parking_spot"), Purpose::Parking);
+    give(names_something(words, "pickup_dispenser"), Purpose::Storage);
+    give(names_something(words, "dropoff_ingestor"), Purpose::Storage);
+    if (names_something(words, "lift_cabin") || names_something(words, "lift"))
       warn(node, fmt::format("vertex {} lies in a lift; here it is part of the floor", in_quotes(station.name)));
     const StationId id{layout_.stations.size()};
     layout_.stations.push_back(std::move(station));

@@ -125,6 +125,40 @@ TEST(Rmf, ScalesOfOtherKinds) {
             "one of them");
 }
 
+TEST(Rmf, TrueAndFalseAreReadInEverySpellingOfYaml) {
+  const auto with = [](const std::string& word) {
+    const auto text = replaced(replaced(kBuilding, "{bidirectional: [4, true]", "{bidirectional: [4, " + word + "]"),
+                               "{is_charger: [4, true]", "{is_charger: [4, " + word + "]");
+    const auto layout = import(text).layout;
+    EXPECT_EQ(layout.segments[0].bidirectional, layout.stations[0].purposes.has(Purpose::Charging)) << word;
+    return layout.segments[0].bidirectional;
+  };
+  for (const char* word : {"true", "True", "TRUE", "yes", "Yes", "YES", "on", "On", "ON", "1"})
+    EXPECT_TRUE(with(word)) << word;
+  for (const char* word : {"false", "False", "FALSE", "no", "No", "NO", "off", "Off", "OFF", "0", "~"})
+    EXPECT_FALSE(with(word)) << word;
+  const auto spots = [](const std::string& word) {
+    const auto graph = replaced(kNavGraph, "is_parking_spot: false", "is_parking_spot: " + word);
+    return import(graph).layout.stations[2].purposes.has(Purpose::Parking);
+  };
+  EXPECT_TRUE(spots("Yes")) << "without the number of a type";
+  EXPECT_FALSE(spots("False"));
+}
+
+TEST(RmfErrors, WhatIsNeitherTrueNorFalseIsNamed) {
+  const auto with = [](const std::string& value) {
+    return independent::refusal(import, replaced(kBuilding, "bidirectional: [4, true]", "bidirectional: " + value));
+  };
+  EXPECT_EQ(with("[4, maybe]"), "b.yaml:6: bidirectional is \"maybe\"; expected true or false");
+  EXPECT_EQ(with("tRUE"), "b.yaml:6: bidirectional is \"tRUE\"; expected true or false");
+  EXPECT_EQ(with("[4, '']"), "b.yaml:6: bidirectional is \"\"; expected true or false");
+  EXPECT_EQ(with("[4, 2]"), "b.yaml:6: bidirectional is \"2\"; expected true or false");
+  EXPECT_EQ(with("[4, true, 7]"), "b.yaml:6: bidirectional is a list; expected true or false");
+  EXPECT_EQ(with("{a: 1}"), "b.yaml:6: bidirectional is a map; expected true or false");
+  EXPECT_EQ(independent::refusal(import, replaced(kBuilding, "is_charger: [4, true]", "is_charger: [4, n]")),
+            "b.yaml:13: is_charger is \"n\"; expected true or false");
+}
+
 TEST(RmfErrors, NamePlaceValueAndRemedy) {
   const auto break_at = [](const std::string& from, const std::string& to) {
     return independent::refusal(import, replaced(kBuilding, from, to));
