@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <charconv>
+#include <set>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -32,6 +33,15 @@ YAML::Node YamlText::list(const YAML::Node& map, const char* key, std::string_vi
   if (!found.IsDefined()) refuse(map, fmt::format("{} has no \"{}\"; add them", what, key));
   if (!found.IsSequence()) refuse(found, fmt::format("{} is {}; expected a list", key, shown(found)));
   return found;
+}
+
+void YamlText::refuse_second_keys(const YAML::Node& map) const {
+  if (!map.IsMap()) return;
+  std::set<std::string> keys;
+  for (const auto entry : map) {
+    if (entry.first.IsScalar() && !keys.insert(entry.first.Scalar()).second)
+      refuse(entry.first, fmt::format("the key {} is there twice; remove one of them", shown(entry.first)));
+  }
 }
 
 double YamlText::number(const YAML::Node& node, std::string_view what) const {

@@ -24,6 +24,8 @@ class YamlText {
   // `what` names the list, number or index in an error.
   YAML::Node item(const YAML::Node& list, std::size_t index, std::string_view what) const;
   YAML::Node list(const YAML::Node& map, const char* key, std::string_view what) const;
+  // Refuses a key that the map has twice: YAML forbids it, and each program reads another one of the two.
+  void refuse_second_keys(const YAML::Node& map) const;
   double number(const YAML::Node& node, std::string_view what) const;
   bool truth(const YAML::Node& node, std::string_view what) const;
   std::size_t index_below(std::size_t count, const YAML::Node& node, std::string_view what) const;
