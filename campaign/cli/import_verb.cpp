@@ -101,6 +101,7 @@ int import_file(ImportWords words) {
   expect_vehicles(words);
   std::vector<std::string> warnings;
   const Layout layout = import_layout(entry, words.file, choice, warnings);
+  for (const auto& [place, sentence] : choice.purposes.unheard()) warnings.push_back(place + ": " + sentence);
   for (const std::string& warning : warnings) talk("warning: {}\n", warning);
   talk("{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(), layout.segments.size(),
        warnings.size());

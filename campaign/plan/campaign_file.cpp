@@ -27,6 +27,7 @@ class CampaignReader {
     purposes_ = read_purposes(root);
     fields(root, file_.plan);
     root.finish();
+    refuse_unheard(purposes_);
     std::ranges::sort(file_.plan.held_streams);
   }
 

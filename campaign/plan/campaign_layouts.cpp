@@ -126,9 +126,13 @@ PurposeWords read_purposes(TomlTable& root) {
   for (const auto& word : table->keys()) {
     std::string purposes;
     table->get(word, purposes);
-    words.push_back(purpose_word(word, purposes, table->place(word)));
+    words.add(purpose_word(word, purposes, table->place(word)));
   }
   return words;
+}
+
+void refuse_unheard(const PurposeWords& words) {
+  if (const auto unheard = words.unheard(); !unheard.empty()) throw InputError(unheard[0].place, unheard[0].sentence);
 }
 
 std::string beside(const std::string& campaign_path, const std::string& word) {

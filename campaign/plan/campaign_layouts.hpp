@@ -19,6 +19,9 @@ void read_layouts(TomlTable& factors, std::string_view key, const std::string& c
 // The table [purposes]: what words of layout files mean. Empty if the file has none.
 PurposeWords read_purposes(TomlTable& root);
 
+// Throws InputError at the first word that stands in none of the layouts that were read with them.
+void refuse_unheard(const PurposeWords& words);
+
 // The path of a file that a campaign file names.
 std::string beside(const std::string& campaign_path, const std::string& word);
 

@@ -14,12 +14,12 @@
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
-#include "core/scenario/vehicle_fields.hpp"
 #include "generators/formats/heading.hpp"
 #include "generators/formats/opentcs_drawing.hpp"
 #include "generators/formats/opentcs_left_out.hpp"
 #include "generators/formats/opentcs_positions.hpp"
 #include "generators/formats/opentcs_purposes.hpp"
+#include "generators/formats/opentcs_speeds.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
@@ -41,8 +41,7 @@ class ModelReader {
   Layout read() {
     pugi::xml_document document;
     xml_.load(document);
-    const auto model = document.child("model");
-    if (!model) throw InputError(std::string(source_), "has no <model>; expected an openTCS plant model");
+    const auto model = only_model(document);
     layout_.name = model.attribute("name").as_string("openTCS model");
     check_version(model);
     if (model.child("element")) {
@@ -52,6 +51,11 @@ class ModelReader {
     }
     drawing_ = read_drawing(xml_, model, warnings_);
     for (const auto point : model.children("point")) add_point(point);
+    if (!spelled_twice_.empty())
+      warn(model,
+           fmt::format("{} points have a coordinate twice, as positionX or Y and as xPosition or yPosition, with "
+                       "different values ({}); positionX and positionY count",
+                       spelled_twice_.size(), name_list({spelled_twice_.begin(), spelled_twice_.end()})));
     if (layout_.stations.empty()) xml_.refuse(model, "the model is empty: it has no <point>");
     for (const auto path : model.children("path")) add_path(path);
     if (layout_.segments.empty()) xml_.refuse(model, "the model has no <path> that may be driven; add or unlock some");
@@ -63,6 +67,7 @@ class ModelReader {
     fit_floor(layout_, 3.0);
     refuse_problems(model);
     compare_lengths(model);
+    for (const auto& sentence : speeds_.sentences(layout_)) warn(model, sentence);
     note_headings(model);
     note_left_out(xml_, model, warnings_);
     settle_twins(layout_, choice_.twins, source_, warnings_);
@@ -72,6 +77,17 @@ class ModelReader {
  private:
   void warn(const pugi::xml_node& node, std::string_view sentence) {
     warnings_.push_back(fmt::format("{}: {}", xml_.place(node), sentence));
+  }
+
+  pugi::xml_node only_model(const pugi::xml_document& document) const {
+    const auto model = document.child("model");
+    if (!model) throw InputError(std::string(source_), "has no <model>; expected an openTCS plant model");
+    for (const auto other : document.children()) {
+      if (other.type() == pugi::node_element && other != model)
+        xml_.refuse(other, fmt::format("{} is a second element at the top of the file; XML has one there: remove it",
+                                       in_quotes(other.name())));
+    }
+    return model;
   }
 
   void check_version(const pugi::xml_node& model) {
@@ -84,20 +100,32 @@ class ModelReader {
     }
   }
 
-  std::string name_of_new(const pugi::xml_node& node, std::set<std::string>& taken) {
-    auto name = xml_.text(node, "name");
+  // A name that becomes one of the layout.
+  std::string name_of_new(const pugi::xml_node& node) {
+    auto name = text_of_new(node);
     if (const char* fault = fault_of_name(name)) xml_.refuse(node, fmt::format("name {}: {}", in_quotes(name), fault));
-    if (!taken.insert(name).second)
+    return name;
+  }
+
+  std::string text_of_new(const pugi::xml_node& node) {
+    auto name = xml_.text(node, "name");
+    if (!taken_[node.name()].insert(name).second)
       xml_.refuse(node, fmt::format("a second <{}> is named {}; rename one", node.name(), in_quotes(name)));
     return name;
   }
 
+  double coordinate_mm(const pugi::xml_node& point, const char* name, const char* old_name) {
+    const bool has_old = xml_.has(point, old_name), has_new = xml_.has(point, name);
+    const double value_mm = xml_.number(point, has_old && !has_new ? old_name : name);
+    if (has_old && has_new && xml_.number(point, old_name) != value_mm) spelled_twice_.insert(xml_.text(point, "name"));
+    return value_mm;
+  }
+
   void add_point(const pugi::xml_node& point) {
     Station station;
-    station.name = name_of_new(point, point_names_);
-    const bool old_spelling = !xml_.has(point, "positionX") && xml_.has(point, "xPosition");
-    const double x_mm = xml_.number(point, old_spelling ? "xPosition" : "positionX"),
-                 y_mm = xml_.number(point, old_spelling ? "yPosition" : "positionY");
+    station.name = name_of_new(point);
+    const double x_mm = coordinate_mm(point, "positionX", "xPosition"),
+                 y_mm = coordinate_mm(point, "positionY", "yPosition");
     station.position_m = Vec2(x_mm, y_mm) / 1000.0;
     const std::string_view type = point.attribute("type").value();
     station.heading = heading_of(point);
@@ -140,61 +168,30 @@ class ModelReader {
     if (const auto found = stations_.find(name); found != stations_.end()) return found->second;
     std::vector<std::string_view> known;
     for (const auto& station : layout_.stations) known.push_back(station.name);
+    xml_.refuse(node, fmt::format("{} of <{}> is {}, but there is no such point{}", attribute, node.name(),
+                                  in_quotes(name), remedy(name, known)));
+  }
+
+  static std::string remedy(const std::string& name, const std::vector<std::string_view>& known) {
     const auto nearest = nearest_name(name, known);
-    xml_.refuse(node,
-                fmt::format("{} of <{}> is {}, but there is no such point{}", attribute, node.name(), in_quotes(name),
-                            nearest ? "; did you mean " + in_quotes(*nearest) + "?" : "; add it or correct the name"));
+    return nearest ? "; did you mean " + in_quotes(*nearest) + "?" : "; add it or correct the name";
   }
 
   void add_path(const pugi::xml_node& path) {
     Segment segment;
-    segment.name = name_of_new(path, path_names_);
+    segment.name = name_of_new(path);
     segment.from = station_in(path, "sourcePoint");
     segment.to = station_in(path, "destinationPoint");
-    if (path.attribute("locked").as_bool())
+    if (xml_.truth(path, "locked"))
       return warn(path, fmt::format("locked path {} is left out", in_quotes(segment.name)));
     if (segment.from == segment.to)
       xml_.refuse(path, fmt::format("path {} leads from a point to itself; leave it out", in_quotes(segment.name)));
     bend(path, segment);
-    if (!say_travel(path, segment))
+    if (!speeds_.say_travel(path, segment))
       return warn(path, fmt::format("path {} is left out: both of its velocities are 0", in_quotes(segment.name)));
     layout_.segments.push_back(std::move(segment));
     paths_.push_back(path);
   }
-
-  // A path is driven forward from source to destination, and backward from destination to source, each unless its
-  // velocity is 0. False if both are.
-  bool say_travel(const pugi::xml_node& path, Segment& segment) const {
-    const auto forward = velocity_mps(path, "maxVelocity"), backward = velocity_mps(path, "maxReverseVelocity");
-    const bool reverses = backward.value_or(0.0) > 0.0;
-    if (forward.value_or(1.0) > 0.0) {
-      segment.speed_limit_mps = limit_mps(forward.value_or(0.0));
-      segment.bidirectional = reverses;
-      if (!reverses) return true;
-      segment.back_travel = Travel::Backward;
-      segment.back_speed_limit_mps = limit_mps(*backward);
-      return true;
-    }
-    if (!reverses) return false;
-    std::swap(segment.from, segment.to);
-    std::ranges::reverse(segment.control_points_m);
-    segment.travel = Travel::Backward;
-    segment.speed_limit_mps = limit_mps(*backward);
-    return true;
-  }
-
-  std::optional<double> velocity_mps(const pugi::xml_node& path, const char* name) const {
-    const auto velocity = path.attribute(name);
-    if (!velocity) return std::nullopt;
-    double velocity_mmps = 0.0;
-    if (!read_number(velocity.value(), velocity_mmps) || !(velocity_mmps >= 0.0))
-      xml_.refuse(path,
-                  fmt::format("{} is {}; expected a whole number of mm/s, or 0", name, in_quotes(velocity.value())));
-    return velocity_mmps / 1000.0;
-  }
-
-  // A limit above all vehicles is none.
-  static double limit_mps(double velocity_mps) { return velocity_mps <= kFastest ? velocity_mps : 0.0; }
 
   void bend(const pugi::xml_node& path, Segment& segment) {
     const auto& drawn = drawing_.paths.at(segment.name);
@@ -249,7 +246,7 @@ class ModelReader {
   }
 
   void add_location_type(const pugi::xml_node& type) {
-    const auto name = xml_.text(type, "name");
+    const auto name = text_of_new(type);
     const auto [purposes, source, overruled] = purpose_of(words_of(type, type), choice_.purposes);
     const std::string_view by = source == nullptr ? "nothing" : source;
     if (by == "nothing")
@@ -268,13 +265,15 @@ class ModelReader {
   }
 
   void add_location(const pugi::xml_node& location) {
-    const auto name = xml_.text(location, "name"), type = xml_.text(location, "type");
+    const auto name = text_of_new(location), type = xml_.text(location, "type");
     const auto found = location_types_.find(type);
     if (found == location_types_.end()) {
-      xml_.refuse(location, fmt::format("type of location {} is {}, but there is no such location type",
-                                        in_quotes(name), in_quotes(type)));
+      std::vector<std::string_view> known;
+      for (const auto& entry : location_types_) known.push_back(entry.first);
+      xml_.refuse(location, fmt::format("type of location {} is {}, but there is no such location type{}",
+                                        in_quotes(name), in_quotes(type), remedy(type, known)));
     }
-    const bool locked = location.attribute("locked").as_bool();
+    const bool locked = xml_.truth(location, "locked");
     if (locked)
       warn(location, fmt::format("location {} is locked; points linked to it keep their purposes", in_quotes(name)));
     if (!location.child("link"))
@@ -289,7 +288,7 @@ class ModelReader {
 
   // Of the paths that are read. Points and locations in it are told as left out.
   void add_block(const pugi::xml_node& block) {
-    SegmentBlock made{name_of_new(block, block_names_), BlockKind::OneVehicle};
+    SegmentBlock made{name_of_new(block), BlockKind::OneVehicle};
     const std::string_view type = block.attribute("type").as_string("SINGLE_VEHICLE_ONLY");
     if (type == "SAME_DIRECTION_ONLY") made.kind = BlockKind::SameDirection;
     if (type != "SAME_DIRECTION_ONLY" && type != "SINGLE_VEHICLE_ONLY")
@@ -356,10 +355,12 @@ class ModelReader {
   std::vector<std::string>& warnings_;
   const ReadChoice& choice_;
   OpenTcsDrawing drawing_;
+  OpenTcsSpeeds speeds_{xml_};
   Layout layout_;
-  std::vector<pugi::xml_node> paths_;  // by segment, as long as no two of them are merged
-  std::vector<std::string> headed_;    // names of points
-  std::set<std::string> point_names_, path_names_, block_names_;
+  std::vector<pugi::xml_node> paths_;                   // by segment, as long as no two of them are merged
+  std::vector<std::string> headed_;                     // names of points
+  std::map<std::string, std::set<std::string>> taken_;  // names, by element
+  std::set<std::string> spelled_twice_;                 // names of points
   std::map<std::string, StationId> stations_;
   std::map<std::string, pugi::xml_node> location_types_;
   std::map<std::string, std::vector<std::string>> straightened_;  // names of paths, by their connection

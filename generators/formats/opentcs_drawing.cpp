@@ -43,7 +43,10 @@ class DrawingReader {
     if (!layout) return;
     scale_mm_ = {xml_.number(layout, "scaleX"), xml_.number(layout, "scaleY")};
     if (!(scale_mm_.minCoeff() > 0.0))
-      xml_.refuse(layout, fmt::format("scale {} x {} is not positive", scale_mm_.x(), scale_mm_.y()));
+      xml_.refuse(
+          layout,
+          fmt::format("scale {} x {} is not positive; give the millimetres of a unit of the drawing (openTCS: {} x {})",
+                      scale_mm_.x(), scale_mm_.y(), kDefaultScale_mm, kDefaultScale_mm));
   }
 
   // The property of the element that draws `node` in versions 0.0.2 and 0.0.3; null if there is none.

@@ -3,12 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "generators/text/name_list.hpp"
 
 namespace fleetproof {
+namespace {
+
+constexpr std::size_t kListed = 12;  // texts of files in a sentence
+
+bool same_word(std::string_view a, std::string_view b) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::ranges::equal(a, b, {}, small, small);
+}
+
+}  // namespace
 
 std::string purposes_text(Purposes purposes) {
   std::string text;
@@ -39,7 +51,7 @@ PurposeWord purpose_word(std::string_view word, std::string_view purposes, const
     throw InputError(place, fmt::format("{} is said to be for {}; expected routing, storage, charging or parking{}",
                                         in_quotes(word), in_quotes(purposes), name_hint(purposes, kPurposeNames)));
   }
-  return {std::string(word), *known | Purpose::Routing};
+  return {std::string(word), *known | Purpose::Routing, place};
 }
 
 PurposeWords purpose_words_of(std::string_view text, const std::string& place) {
@@ -51,18 +63,42 @@ PurposeWords purpose_words_of(std::string_view text, const std::string& place) {
       throw InputError(
           place, fmt::format("{} is not a word with its purpose; expected \"PACK=storage,...\"", in_quotes(pair)));
     }
-    words.push_back(purpose_word(pair.substr(0, sign), pair.substr(sign + 1), place));
+    words.add(purpose_word(pair.substr(0, sign), pair.substr(sign + 1), place));
     text.remove_prefix(std::min(pair.size() + 1, text.size()));
   }
   return words;
 }
 
-std::optional<Purposes> said_of(const PurposeWords& words, std::string_view text) {
-  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  for (const auto& [word, purposes] : words) {
-    if (std::ranges::equal(word, text, {}, small, small)) return purposes;
+void PurposeWords::add(PurposeWord word) {
+  for (const auto& other : words_) {
+    if (same_word(other.word, word.word))
+      throw InputError(word.place, fmt::format("{} is there twice; remove one of them", in_quotes(word.word)));
   }
-  return std::nullopt;
+  words_.push_back(std::move(word));
 }
+
+std::optional<Purposes> PurposeWords::said_of(std::string_view text) const {
+  if (words_.empty() || text.empty()) return std::nullopt;
+  texts_->emplace(text);
+  const auto found = std::ranges::find_if(words_, [&](const PurposeWord& word) { return same_word(word.word, text); });
+  return found == words_.end() ? std::nullopt : std::optional(found->purposes);
+}
+
+std::vector<PurposeWords::Unheard> PurposeWords::unheard() const {
+  const std::vector<std::string> texts(texts_->begin(), texts_->end());
+  const std::vector<std::string_view> known(texts.begin(), texts.end());
+  std::vector<Unheard> found;
+  for (const auto& [word, purposes, place] : words_) {
+    if (std::ranges::any_of(texts, [&](const std::string& text) { return same_word(text, word); })) continue;
+    const auto nearest = nearest_name(word, known);
+    found.push_back({place, fmt::format("{} is no word of the layouts{}", in_quotes(word),
+                                        nearest         ? "; did you mean " + in_quotes(*nearest) + "?"
+                                        : texts.empty() ? ", which have none; remove it"
+                                                        : "; their words: " + name_list(texts, kListed))});
+  }
+  return found;
+}
+
+std::optional<Purposes> said_of(const PurposeWords& words, std::string_view text) { return words.said_of(text); }
 
 }  // namespace fleetproof

@@ -32,7 +32,9 @@ class LevelReader {
   Layout read() {
     if (!root_.IsMap() || !root_["levels"].IsDefined())
       throw InputError(yaml_.source(), "has no \"levels\"; expected an Open-RMF building or nav graph");
+    yaml_.refuse_second_keys(root_);
     const auto level = choose_level();
+    yaml_.refuse_second_keys(level);
     const auto vertices = yaml_.list(level, "vertices", "the level"), lanes = yaml_.list(level, "lanes", "the level");
     for (const auto vertex : vertices) vertices_.push_back(vertex);
     if (vertices_.empty()) yaml_.refuse(vertices, "the level is empty: it has no vertex");
@@ -76,6 +78,7 @@ class LevelReader {
     const auto levels = root_["levels"];
     if (!levels.IsMap() || levels.size() == 0)
       yaml_.refuse(levels, "levels is not a map of levels; expected levels: {L1: ...}");
+    yaml_.refuse_second_keys(levels);
     std::vector<std::string> names;
     for (const auto entry : levels) {
       if (!entry.first.IsScalar() || !entry.second.IsMap())
@@ -110,16 +113,39 @@ class LevelReader {
     return found.IsDefined() && found.IsSequence() && found.size() == 2 ? found[1] : found;
   }
 
-  // Whether the attribute exists and is not false, empty or 0.
-  static bool is_set(const YAML::Node& words, const char* word) {
+  // Whether the attribute exists and is true. One without a value is not.
+  bool is_set(const YAML::Node& words, const char* word) const {
     const auto value = parameter(words, word);
-    if (!value.IsDefined() || value.IsNull()) return false;
-    return !value.IsScalar() || (value.Scalar() != "false" && !value.Scalar().empty() && value.Scalar() != "0");
+    return value.IsDefined() && !value.IsNull() && yaml_.truth(value, word);
   }
 
-  // The attributes of a vertex or lane: its last item, if that is a map.
-  static YAML::Node words_of(const YAML::Node& list) {
-    return list.IsSequence() && list.size() > 2 ? list[list.size() - 1] : YAML::Node(YAML::NodeType::Undefined);
+  // Whether the attribute names something, such as the dispenser at a vertex. A word for false names nothing.
+  static bool names_something(const YAML::Node& words, const char* word) {
+    const auto value = parameter(words, word);
+    if (!value.IsDefined() || value.IsNull()) return false;
+    return !value.IsScalar() || (!value.Scalar().empty() && said_truth(value.Scalar()).value_or(true));
+  }
+
+  // The attributes of a vertex or lane: its last item, if that is a map. An item after them, or in their place, is
+  // refused: it would hide them. `what` shows all items.
+  YAML::Node words_of(const YAML::Node& list, std::size_t most, std::string_view what) const {
+    if (!list.IsSequence() || list.size() <= 2) return YAML::Node(YAML::NodeType::Undefined);
+    const std::size_t last = list.size() - 1;
+    for (std::size_t i = 2; i <= last; ++i) {
+      if (list[i].IsMap() ? i == last : i + 1 < most || (i + 1 == most && list[i].IsNull())) continue;
+      const std::size_t wrong = list[i].IsMap() ? i + 1 : i;
+      yaml_.refuse(list,
+                   fmt::format("item {} is {}; expected {}, and nothing else", wrong + 1, shown(list[wrong]), what));
+    }
+    yaml_.refuse_second_keys(list[last]);
+    return list[last];
+  }
+  YAML::Node words_of_lane(const YAML::Node& lane) const {
+    return words_of(lane, 3, "a lane [FROM, TO, {ATTRIBUTES}]");
+  }
+  YAML::Node words_of_vertex(const YAML::Node& vertex) const {
+    return is_nav_graph_ ? words_of(vertex, 3, "a vertex [X, Y, {ATTRIBUTES}]")
+                         : words_of(vertex, 5, "a vertex [X, Y, Z, NAME, {ATTRIBUTES}]");
   }
 
   void read_scale(const YAML::Node& level) {
@@ -142,7 +168,8 @@ class LevelReader {
       for (const auto measurement : measurements) {
         const auto a = vertex_index(measurement, 0, "a measurement"), b = vertex_index(measurement, 1, "a measurement");
         const double pixels = (raw_position(a) - raw_position(b)).norm();
-        const auto distance = parameter(yaml_.item(measurement, 2, "a measurement"), "distance");
+        const auto words = words_of(measurement, 3, "a measurement [FROM, TO, {ATTRIBUTES}]");
+        const auto distance = parameter(words, "distance");
         if (!distance.IsDefined())
           yaml_.refuse(measurement, "the measurement has no distance; add {distance: [3, METRES]}");
         const double metres = yaml_.number(distance, "distance");
@@ -166,7 +193,7 @@ class LevelReader {
   StationId station_of(std::size_t vertex) {
     if (const auto found = stations_.find(vertex); found != stations_.end()) return found->second;
     const auto& node = vertices_[vertex];
-    const auto words = words_of(node);
+    const auto words = words_of_vertex(node);
     Station station;
     const auto name = is_nav_graph_ ? parameter(words, "name") : node.size() > 3 ? node[3] : YAML::Node();
     station.name = name.IsDefined() && name.IsScalar() ? name.Scalar() : "";
@@ -181,14 +208,14 @@ class LevelReader {
     }
     const Vec2 position = raw_position(vertex) * scale_m_;
     station.position_m = {position.x(), down_ ? 0.0 - position.y() : position.y()};
-    const auto give = [&](const char* word, Purpose purpose) {
-      if (is_set(words, word)) station.purposes = station.purposes | purpose;
+    const auto give = [&](bool given, Purpose purpose) {
+      if (given) station.purposes = station.purposes | purpose;
     };
-    give("is_charger", Purpose::Charging);
-    give("is_parking_spot", Purpose::Parking);
-    give("pickup_dispenser", Purpose::Storage);
-    give("dropoff_ingestor", Purpose::Storage);
-    if (is_set(words, "lift_cabin") || is_set(words, "lift"))
+    give(is_set(words, "is_charger"), Purpose::Charging);
+    give(is_set(words, "is_parking_spot"), Purpose::Parking);
+    give(names_something(words, "pickup_dispenser"), Purpose::Storage);
+    give(names_something(words, "dropoff_ingestor"), Purpose::Storage);
+    if (names_something(words, "lift_cabin") || names_something(words, "lift"))
       warn(node, fmt::format("vertex {} lies in a lift; here it is part of the floor", in_quotes(station.name)));
     const StationId id{layout_.stations.size()};
     layout_.stations.push_back(std::move(station));
@@ -201,7 +228,7 @@ class LevelReader {
   // `place`: in the list of lanes.
   void add_lane(const YAML::Node& lane, std::size_t place) {
     const auto from = vertex_index(lane, 0, "a lane"), to = vertex_index(lane, 1, "a lane");
-    const auto words = words_of(lane);
+    const auto words = words_of_lane(lane);
     const auto graph = parameter(words, "graph_idx");
     if (!is_nav_graph_ &&
         (graph.IsDefined() ? yaml_.number(graph, "graph_idx") : 0.0) != static_cast<double>(choice_.graph_idx)) {

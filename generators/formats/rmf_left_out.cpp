@@ -77,7 +77,7 @@ std::string value_of(const YAML::Node& node) {
   if (!value.IsDefined() || is_empty(value)) return "";
   if (!value.IsScalar()) return "...";
   const auto text = value.Scalar();
-  return text == "false" || text == "0" || text == "0.0" ? "" : text;
+  return text == "0.0" || !said_truth(text).value_or(true) ? "" : text;
 }
 
 class LevelWalk {

@@ -60,6 +60,13 @@ double XmlText::number(const pugi::xml_node& node, const char* attribute) const 
   return value;
 }
 
+bool XmlText::truth(const pugi::xml_node& node, const char* attribute) const {
+  const std::string_view word = node.attribute(attribute).as_string("false");
+  if (word != "true" && word != "1" && word != "false" && word != "0")
+    refuse(node, fmt::format("{} of <{}> is {}; expected true or false", attribute, node.name(), in_quotes(word)));
+  return word == "true" || word == "1";
+}
+
 bool read_number(std::string_view text, double& value) {
   const auto first = text.find_first_not_of(kSpace);
   if (first == std::string_view::npos) return false;

@@ -27,6 +27,8 @@ class XmlText {
   // Throws InputError if the attribute is missing or, for a number, not finite.
   std::string text(const pugi::xml_node& node, const char* attribute) const;
   double number(const pugi::xml_node& node, const char* attribute) const;
+  // A boolean of XML: true, 1, false or 0. False if there is no such attribute. Throws InputError for other values.
+  bool truth(const pugi::xml_node& node, const char* attribute) const;
 
  private:
   std::string_view text_, source_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,12 +24,19 @@ class YamlText {
   // `what` names the list, number or index in an error.
   YAML::Node item(const YAML::Node& list, std::size_t index, std::string_view what) const;
   YAML::Node list(const YAML::Node& map, const char* key, std::string_view what) const;
+  // Refuses a key that the map has twice: YAML forbids it, and each program reads another one of the two.
+  void refuse_second_keys(const YAML::Node& map) const;
   double number(const YAML::Node& node, std::string_view what) const;
+  bool truth(const YAML::Node& node, std::string_view what) const;
   std::size_t index_below(std::size_t count, const YAML::Node& node, std::string_view what) const;
 
  private:
   std::string_view source_;
 };
+
+// Words for true and false as files have them: true, yes, on, 1 and their opposites, in small letters, in capitals or
+// with one capital. None for every other text.
+std::optional<bool> said_truth(std::string_view text);
 
 // A value as an error prints it.
 std::string shown(const YAML::Node& node);

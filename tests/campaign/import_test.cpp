@@ -107,6 +107,41 @@ TEST_F(ImportTest, TakesWordsForPurposes) {
               HasSubstr("--purposes: has no meaning for format \"csv\"; it belongs to lif, opentcs"));
 }
 
+TEST_F(ImportTest, NamesWordsThatTheFileDoesNotHave) {
+  write("m.xml", kDeadEnd);
+  const auto told = [&](const std::string& words) { return run("import m.xml --purposes '" + words + "'").err; };
+  EXPECT_THAT(told("Dokc 7=storage"),
+              HasSubstr("warning: --purposes: \"Dokc 7\" is no word of the layouts; did you mean \"Dock 7\"?\n"));
+  EXPECT_THAT(told("Dock 7=storage,PACK=parking"),
+              HasSubstr("warning: --purposes: \"PACK\" is no word of the layouts; their words: \"Dock 7\"\n"));
+  EXPECT_THAT(told("dock 7=storage"), testing::Not(HasSubstr("is no word")));
+  EXPECT_THAT(told("Dock 7=storage,dock 7=parking"),
+              HasSubstr("error: --purposes: \"dock 7\" is there twice; remove one of them"));
+  ASSERT_EQ(run("import m.xml -o l.lif.json").exit_code, 0);
+  EXPECT_THAT(run("import l.lif.json --purposes 'pack=storage'").err,
+              HasSubstr("--purposes: \"pack\" is no word of the layouts, which have none; remove it"));
+}
+
+// A word of one of several layouts is enough.
+TEST_F(ImportTest, CampaignsRefuseWordsThatNoLayoutHas) {
+  write("m.xml", kDeadEnd);
+  write("plain.csv", "id,x,y\na,0,0\nb,9,0\nfrom,to,bidirectional\na,b,true\n");
+  const auto checked = [&](const std::string& layouts, const std::string& words) {
+    write("c.toml", "horizon_s = 20\n[factors]\nagents = [\"reckless\"]\nlayouts = [" + layouts +
+                        "]\nfleet_sizes = [1]\n[purposes]\n" + words);
+    return run("check c.toml");
+  };
+  const std::string core = "{ file = \"m.xml\", core_only = true }";
+  const auto both = checked("\"plain.csv\", " + core + ", \"aisle-grid\"", "\"dock 7\" = \"storage\"\n");
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  const auto off = checked("\"plain.csv\", " + core, "\"Dock 7\" = \"storage\"\n\"Dock 77\" = \"storage\"\n");
+  EXPECT_EQ(off.exit_code, 2);
+  EXPECT_THAT(off.err, HasSubstr("c.toml:8:13: \"Dock 77\" is no word of the layouts; did you mean \"Dock 7\"?"));
+  const auto none = checked("\"plain.csv\"", "\"Dock 7\" = \"storage\"\n");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("c.toml:7:12: \"Dock 7\" is no word of the layouts, which have none; remove it"));
+}
+
 TEST_F(ImportTest, CampaignsTakeWordsAndCores) {
   write("m.xml", kDeadEnd);
   const auto checked = [&](const std::string& layout, const std::string& tables) {

@@ -1,5 +1,6 @@
 #include "generators/formats/opentcs.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -168,6 +169,44 @@ TEST(OpenTcs, EachPathKeepsItsSpeedLimit) {
                 .find("maxVelocity is \"fast\"; expected a whole number of mm/s, or 0"),
             std::string::npos);
   EXPECT_NE(independent::refusal(import, limited("-5", "0")).find("maxVelocity is \"-5\""), std::string::npos);
+}
+
+TEST(OpenTcs, NamesVelocitiesThatAreNoLimitOrTakeVeryLong) {
+  const auto told = [](const std::string& velocities) {
+    const auto warnings = import(replaced(kModel, "name=\"ab\"", "name=\"ab\" " + velocities)).warnings;
+    return warnings.size() == 2 ? warnings[1] : std::to_string(warnings.size()) + " warnings";
+  };
+  EXPECT_EQ(told("maxVelocity=\"100000\""), "1 warnings");
+  EXPECT_EQ(told("maxVelocity=\"100001\""),
+            "m.xml:1: 1 paths have a velocity above 100 m/s, which counts as no limit (\"ab\")");
+  EXPECT_EQ(told("maxReverseVelocity=\"1e9\" maxVelocity=\"1e9\""),
+            "m.xml:1: 1 paths have a velocity above 100 m/s, which counts as no limit (\"ab\")");
+  EXPECT_EQ(told("maxVelocity=\"7\""), "1 warnings") << "4 m in 571 s";
+  const std::string slow =
+      "m.xml:1: an AGV takes longer than 10 minutes for 1 paths (\"ab\"), and 67 minutes for the slowest, \"ab\"; "
+      "check "
+      "maxVelocity and maxReverseVelocity, which are in mm/s";
+  EXPECT_EQ(told("maxVelocity=\"1\""), slow);
+  EXPECT_EQ(told("maxVelocity=\"1000\" maxReverseVelocity=\"1\""), slow);
+  EXPECT_EQ(told("maxReverseVelocity=\"1\""), slow) << "forward without a limit";
+}
+
+TEST(OpenTcs, ACoordinateInTwoSpellingsIsNamedIfTheyDiffer) {
+  const auto with = [](const std::string& old) {
+    return import(replaced(kModel, "<point name=\"a\"", "<point name=\"a\" " + old));
+  };
+  const auto plain = import(kModel);
+  for (const auto& axis : {0, 1}) {
+    const double at_mm = plain.layout.stations[0].position_m[axis] * 1000.0;
+    const std::string key = axis == 0 ? "xPosition" : "yPosition";
+    EXPECT_EQ(with(fmt::format("{}=\"{}\"", key, at_mm)).warnings.size(), 1U);
+    const auto differs = with(fmt::format("{}=\"{}\"", key, at_mm + 1.0));
+    EXPECT_EQ(differs.layout.stations[0].position_m, plain.layout.stations[0].position_m);
+    EXPECT_EQ(
+        differs.warnings[0],
+        "m.xml:1: 1 points have a coordinate twice, as positionX or Y and as xPosition or yPosition, with different "
+        "values (\"a\"); positionX and positionY count");
+  }
 }
 
 TEST(OpenTcs, APathIsDrivenBackwardFromItsDestination) {

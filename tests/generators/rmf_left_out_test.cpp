@@ -133,6 +133,16 @@ TEST_P(RmfThing, ChangesTheImportOrYieldsASentence) {
 
 INSTANTIATE_TEST_SUITE_P(All, RmfThing, testing::ValuesIn(kThings));
 
+TEST(RmfThings, WhatIsFalseIsNotNamed) {
+  for (const char* word : {"false", "False", "NO", "off", "0"}) {
+    const auto added = "is_holding_point: [4, " + std::string(word) + "], pickup_dispenser: " + word + ", ";
+    const Thing thing{"VERTEX", added.c_str(), ""};
+    const Import with = import(filled(kBuilding, &thing)), without = import(filled(kBuilding, nullptr));
+    EXPECT_EQ(with.sentences, without.sentences) << word;
+    EXPECT_EQ(with.layout, without.layout) << word;
+  }
+}
+
 TEST(RmfThings, AVertexAboveTheFloorIsNamed) {
   const Thing high{"ZED", "1.5", ""};
   EXPECT_NE(import(filled(kBuilding, &high)).sentences.find("1 vertices lie above or below the floor (\"v1\")"),

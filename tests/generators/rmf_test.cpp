@@ -125,6 +125,40 @@ TEST(Rmf, ScalesOfOtherKinds) {
             "one of them");
 }
 
+TEST(Rmf, TrueAndFalseAreReadInEverySpellingOfYaml) {
+  const auto with = [](const std::string& word) {
+    const auto text = replaced(replaced(kBuilding, "{bidirectional: [4, true]", "{bidirectional: [4, " + word + "]"),
+                               "{is_charger: [4, true]", "{is_charger: [4, " + word + "]");
+    const auto layout = import(text).layout;
+    EXPECT_EQ(layout.segments[0].bidirectional, layout.stations[0].purposes.has(Purpose::Charging)) << word;
+    return layout.segments[0].bidirectional;
+  };
+  for (const char* word : {"true", "True", "TRUE", "yes", "Yes", "YES", "on", "On", "ON", "1"})
+    EXPECT_TRUE(with(word)) << word;
+  for (const char* word : {"false", "False", "FALSE", "no", "No", "NO", "off", "Off", "OFF", "0", "~"})
+    EXPECT_FALSE(with(word)) << word;
+  const auto spots = [](const std::string& word) {
+    const auto graph = replaced(kNavGraph, "is_parking_spot: false", "is_parking_spot: " + word);
+    return import(graph).layout.stations[2].purposes.has(Purpose::Parking);
+  };
+  EXPECT_TRUE(spots("Yes")) << "without the number of a type";
+  EXPECT_FALSE(spots("False"));
+}
+
+TEST(RmfErrors, WhatIsNeitherTrueNorFalseIsNamed) {
+  const auto with = [](const std::string& value) {
+    return independent::refusal(import, replaced(kBuilding, "bidirectional: [4, true]", "bidirectional: " + value));
+  };
+  EXPECT_EQ(with("[4, maybe]"), "b.yaml:6: bidirectional is \"maybe\"; expected true or false");
+  EXPECT_EQ(with("tRUE"), "b.yaml:6: bidirectional is \"tRUE\"; expected true or false");
+  EXPECT_EQ(with("[4, '']"), "b.yaml:6: bidirectional is \"\"; expected true or false");
+  EXPECT_EQ(with("[4, 2]"), "b.yaml:6: bidirectional is \"2\"; expected true or false");
+  EXPECT_EQ(with("[4, true, 7]"), "b.yaml:6: bidirectional is a list; expected true or false");
+  EXPECT_EQ(with("{a: 1}"), "b.yaml:6: bidirectional is a map; expected true or false");
+  EXPECT_EQ(independent::refusal(import, replaced(kBuilding, "is_charger: [4, true]", "is_charger: [4, n]")),
+            "b.yaml:13: is_charger is \"n\"; expected true or false");
+}
+
 TEST(RmfErrors, NamePlaceValueAndRemedy) {
   const auto break_at = [](const std::string& from, const std::string& to) {
     return independent::refusal(import, replaced(kBuilding, from, to));
@@ -142,6 +176,45 @@ TEST(RmfErrors, NamePlaceValueAndRemedy) {
             "b.yaml: has no \"levels\"; expected an Open-RMF building or nav graph");
   EXPECT_EQ(independent::refusal(import, ""), "b.yaml: has no \"levels\"; expected an Open-RMF building or nav graph");
   EXPECT_TRUE(independent::refusal(import, "a: [1, \n").starts_with("b.yaml:2:1: not YAML: "));
+}
+
+TEST(RmfErrors, AKeyThatIsThereTwiceIsNamed) {
+  const auto twice = [](const std::string& text, const std::string& from, const std::string& to) {
+    return independent::refusal(import, replaced(text, from, to));
+  };
+  const auto named = [](int line, const std::string& key) {
+    return "b.yaml:" + std::to_string(line) + ": the key \"" + key + "\" is there twice; remove one of them";
+  };
+  EXPECT_EQ(twice(kBuilding, "{bidirectional: [4, true]", "{speed_limit: [3, 1], bidirectional: [4, true]"),
+            named(6, "speed_limit"));
+  EXPECT_EQ(twice(kBuilding, "{is_charger", "{is_charger: [4, false], is_charger"), named(13, "is_charger"));
+  EXPECT_EQ(twice(kBuilding, "{distance", "{distance: [3, 1], distance"), named(10, "distance"));
+  EXPECT_EQ(twice(kBuilding, "name: depot\n", "name: depot\nname: shed\n"), named(2, "name"));
+  EXPECT_EQ(twice(kBuilding, "    measurements:", "    lanes: []\n    measurements:"), named(9, "lanes"));
+  EXPECT_EQ(twice(kBuilding, "  L1:\n", "  L1: {}\n  L1:\n"), named(5, "L1"));
+  EXPECT_EQ(twice(kNavGraph, "{name: dock", "{name: other, name: dock"), named(9, "name"));
+}
+
+TEST(RmfErrors, WhatHidesTheAttributesIsNamed) {
+  const auto with = [](const std::string& text, const std::string& from, const std::string& to) {
+    return independent::refusal(import, replaced(text, from, to));
+  };
+  const std::string lane = "; expected a lane [FROM, TO, {ATTRIBUTES}], and nothing else";
+  EXPECT_EQ(with(kBuilding, "[1, 2, {bidirectional: [4, false], graph_idx: [2, 0], speed_limit: [3, 0.5]}]",
+                 "[1, 2, {bidirectional: [4, false]}, 7]"),
+            "b.yaml:7: item 4 is \"7\"" + lane);
+  EXPECT_EQ(with(kBuilding, "[0, 1, {", "[0, 1, junk, {"), "b.yaml:6: item 3 is \"junk\"" + lane);
+  EXPECT_EQ(with(kNavGraph, "[1, 2, {}]", "[1, 2, bidirectional]"), "b.yaml:7: item 3 is \"bidirectional\"" + lane);
+  EXPECT_EQ(with(kNavGraph, "[1, 2, {}]", "[1, 2, {}, {}]"), "b.yaml:7: item 4 is a map" + lane);
+  EXPECT_EQ(with(kNavGraph, "[1, 2, {}]", "[1, 2, ~]"), "accepted");
+  const std::string vertex = "; expected a vertex [X, Y, Z, NAME, {ATTRIBUTES}], and nothing else";
+  EXPECT_EQ(with(kBuilding, "{pickup_dispenser: [1, rack]}]", "{pickup_dispenser: [1, rack]}, 5]"),
+            "b.yaml:15: item 6 is \"5\"" + vertex);
+  EXPECT_EQ(with(kBuilding, "[40, 60, 0, dock,", "[40, 60, 0, dock, far,"), "b.yaml:15: item 5 is \"far\"" + vertex);
+  EXPECT_EQ(with(kNavGraph, "{name: dock, is_charger: true}]", "{name: dock, is_charger: true}, 1]"),
+            "b.yaml:9: item 4 is \"1\"; expected a vertex [X, Y, {ATTRIBUTES}], and nothing else");
+  EXPECT_EQ(with(kBuilding, "{distance: [3, 5]}", "{distance: [3, 5]}, 9"),
+            "b.yaml:10: item 4 is \"9\"; expected a measurement [FROM, TO, {ATTRIBUTES}], and nothing else");
 }
 
 TEST(RmfErrors, CanBePrintedWhateverTheFileHolds) {

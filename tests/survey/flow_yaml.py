@@ -11,8 +11,8 @@ def scalar(text):
         return text[1:-1].replace('\\"', '"').replace("\\\\", "\\")
     if text[:1] == "'":
         return text[1:-1].replace("''", "'")
-    if text in ("true", "false"):
-        return text == "true"
+    if text in ("true", "True", "TRUE", "false", "False", "FALSE"):
+        return text.lower() == "true"
     if text in ("", "~", "null"):
         return None
     for number in (int, float):

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scenario/layout.hpp"
+
+namespace pugi {
+class xml_node;
+}
+
+namespace fleetproof {
+
+class XmlText;
+
+// The velocities of the paths of an openTCS plant model: from which end and how fast each path is driven.
+class OpenTcsSpeeds {
+ public:
+  // Requires: the text outlives the object.
+  explicit OpenTcsSpeeds(const XmlText& xml) : xml_(xml) {}
+
+  // A path is driven forward from source to destination, and backward from destination to source, each unless its
+  // velocity is 0. False if both are. A velocity above that of every vehicle is no limit.
+  bool say_travel(const pugi::xml_node& path, Segment& segment);
+
+  // What is odd about the velocities: the paths whose velocity is no limit, and those that take very long.
+  // Requires: the curves of the layout are sound.
+  std::vector<std::string> sentences(const Layout& layout) const;
+
+ private:
+  const XmlText& xml_;
+  std::vector<std::string> unlimited_;  // names of paths
+};
+
+}  // namespace fleetproof
