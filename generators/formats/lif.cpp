@@ -17,6 +17,7 @@
 #include "generators/formats/heading.hpp"
 #include "generators/formats/lif_layouts.hpp"
 #include "generators/formats/lif_left_out.hpp"
+#include "generators/formats/lif_spots.hpp"
 #include "generators/formats/lif_turns.hpp"
 #include "generators/formats/lif_types.hpp"
 #include "generators/formats/nurbs.hpp"
@@ -70,6 +71,7 @@ class LifReader {
     types_ = LifTypes(nodes_, edges);
     for (const auto& edge : edges) add_edge(edge);
     if (layout_.segments.empty()) layout.refuse("the layout has no edge that can be driven; add some");
+    spots_.share_purposes(layout_);
     if (const auto stations = layout.find("stations")) {
       for (const auto& station : stations->items()) note_station(station);
     }
@@ -80,6 +82,7 @@ class LifReader {
                                "modelled: here AGVs drive them nose first",
                                told_.sideways.size(), name_list(told_.sideways)));
     note_types(layout);
+    spots_.join(layout_, nodes_, warnings_);
     fit_floor(layout_, 3.0);
     refuse_problems(layout);
     note_headings(layout);
@@ -128,7 +131,7 @@ class LifReader {
 
   void add_node(const JsonReader& node) {
     Station station;
-    station.name = name_in(node.at("nodeId"), node_names_);
+    station.name = name_in(node.at("nodeId"), taken_.nodes);
     const auto position = node.at("nodePosition");
     station.position_m = {position.at("x").number(), position.at("y").number()};
     const auto rules = rules_by_type(node);
@@ -177,11 +180,10 @@ class LifReader {
 
   void add_edge(const JsonReader& edge) {
     Segment segment;
-    segment.name = name_in(edge.at("edgeId"), edge_names_);
+    segment.name = name_in(edge.at("edgeId"), taken_.edges);
     const auto from = station_in(edge.at("startNodeId")), to = station_in(edge.at("endNodeId"));
     if (!from || !to)
       return warn(edge, fmt::format("edge {} leads to another layout and is left out", in_quotes(segment.name)));
-    if (*from == *to) edge.at("endNodeId").refuse("the edge leads from a node to itself; leave it out");
     segment.from = *from;
     segment.to = *to;
     const auto types = rules_by_type(edge);
@@ -192,6 +194,13 @@ class LifReader {
       return warn(edge, fmt::format("no AGV may drive edge {}: no type of vehicle has a rule at it and at both of its "
                                     "nodes, with a load or without one; it is left out",
                                     in_quotes(segment.name)));
+    if (LifSpots::stays(edge, layout_.stations[from->index()].position_m, layout_.stations[to->index()].position_m)) {
+      spots_.add(edge, *from, *to, permissions->empty());
+      return turns_.add(edge, *from, *to, false);
+    }
+    if (*from == *to)
+      edge.at("endNodeId").refuse("the edge leads from a node back to itself; put another node on its trajectory");
+    types_.count(*permissions);
     segment.permissions = std::move(*permissions);
     std::optional<JsonReader> trajectory;
     for (const auto& type : types) {
@@ -324,11 +333,15 @@ class LifReader {
   const ReadChoice& choice_;
   Layout layout_;
   std::vector<JsonReader> nodes_, edges_;  // by station and by segment, as long as no two segments are merged
-  std::set<std::string> node_names_, edge_names_, elsewhere_;
+  struct {
+    std::set<std::string> nodes, edges;
+  } taken_;
+  std::set<std::string> elsewhere_;
   std::map<std::string, StationId> stations_;
   std::map<std::size_t, Purposes> stated_;  // by station: given in the description of the station
   LifTypes types_{{}, {}};
   LifTurns turns_;
+  LifSpots spots_;
   struct {
     std::size_t of_types = 0;                      // edges
     std::vector<std::string> sideways, both_ways;  // names of edges
