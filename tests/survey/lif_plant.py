@@ -71,8 +71,8 @@ def firsts_of(edge):
     """Which end of the AGV goes first; sideways travel is taken as forward."""
     firsts = set()
     for entry in rules_of(edge) or [{}]:
-        half_turns = round(abs(entry.get("vehicleOrientation", 0.0)) / pi)
-        firsts.add(BACKWARD if along(entry) and half_turns % 2 else FORWARD)
+        ways = [angle for angle in orientations(entry) if along(entry, angle)]
+        firsts |= {BACKWARD if round(abs(angle) / pi) % 2 else FORWARD for angle in ways or [0.0]}
     return firsts
 
 
@@ -117,11 +117,22 @@ def forbids(edge, key):
 
 
 def is_sideways(edge):
-    return not all(along(entry) for entry in rules_of(edge))
+    return not all(any(along(entry, angle) for angle in orientations(entry)) for entry in rules_of(edge))
 
 
-def along(entry):
-    half_turns = abs(entry.get("vehicleOrientation", 0.0)) / pi
+def orientations(entry):
+    """One in LIF 1.0; a list of those among which one chooses in its successor. What is no list of angles says
+    nothing."""
+    angles = [entry["vehicleOrientation"]] if "vehicleOrientation" in entry else []
+    for key in ("vehicleOrientations", "mobileRobotOrientations"):
+        listed = entry.get(key)
+        if isinstance(listed, list) and all(isinstance(a, (int, float)) and abs(a) <= 1e4 for a in listed):
+            angles += listed
+    return angles or [0.0]
+
+
+def along(entry, angle):
+    half_turns = abs(angle) / pi
     return entry.get("orientationType", "TANGENTIAL") == "TANGENTIAL" and abs(half_turns - round(half_turns)) < 0.005
 
 
