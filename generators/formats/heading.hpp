@@ -7,8 +7,10 @@
 
 namespace fleetproof {
 
+inline constexpr double kLargestHeading_rad = 1e4;  // of an angle in a file
+
 // The heading of an angle in a file. An angle within 0.002 rad of a quarter turn is that quarter turn: files round
-// 1.5707963 to 1.57. Requires: |angle_rad| <= 1e4.
+// 1.5707963 to 1.57. Requires: |angle_rad| <= kLargestHeading_rad.
 Vec2 heading_at(double angle_rad);
 
 // An AGV stands at a station as it arrives. If a lane arrives there within 1 degree of the heading that the station

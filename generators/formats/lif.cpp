@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <set>
 
@@ -17,6 +16,8 @@
 #include "generators/formats/heading.hpp"
 #include "generators/formats/lif_layouts.hpp"
 #include "generators/formats/lif_left_out.hpp"
+#include "generators/formats/lif_spots.hpp"
+#include "generators/formats/lif_travel.hpp"
 #include "generators/formats/lif_turns.hpp"
 #include "generators/formats/lif_types.hpp"
 #include "generators/formats/nurbs.hpp"
@@ -48,9 +49,6 @@ Purposes purposes_of_actions(const std::vector<JsonReader>& rules, const Purpose
   return purposes;
 }
 
-constexpr double kLargestAngle_rad = 1e4;
-constexpr double kHalfTurns = 0.005;  // tolerance of an orientation, in half turns
-
 class LifReader {
  public:
   LifReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
@@ -60,7 +58,7 @@ class LifReader {
   Layout read() {
     auto chosen = choose_layout(JsonReader(root_, source_), choice_.level);
     if (!chosen.sentence.empty()) warnings_.push_back(chosen.sentence);
-    elsewhere_ = std::move(chosen.elsewhere);
+    ids_.elsewhere = std::move(chosen.elsewhere);
     const JsonReader& layout = chosen.layout;
     layout.read("layoutId", layout_.name);
     layout.read("layoutName", layout_.name);
@@ -70,16 +68,14 @@ class LifReader {
     types_ = LifTypes(nodes_, edges);
     for (const auto& edge : edges) add_edge(edge);
     if (layout_.segments.empty()) layout.refuse("the layout has no edge that can be driven; add some");
+    spots_.share_purposes(layout_);
     if (const auto stations = layout.find("stations")) {
       for (const auto& station : stations->items()) note_station(station);
     }
     for (const auto& [index, purposes] : stated_) layout_.stations[index].purposes = purposes;
     note_left_out(JsonReader(root_, source_), layout, choice_.purposes, warnings_);
-    if (!told_.sideways.empty())
-      warn(layout, fmt::format("{} edges turn the AGV sideways or by a heading on the map ({}); sideways travel is not "
-                               "modelled: here AGVs drive them nose first",
-                               told_.sideways.size(), name_list(told_.sideways)));
     note_types(layout);
+    spots_.join(layout_, nodes_, warnings_);
     fit_floor(layout_, 3.0);
     refuse_problems(layout);
     note_headings(layout);
@@ -109,11 +105,7 @@ class LifReader {
     if (told_.of_types > 0)
       tell(fmt::format("{} edges have a speed limit for each type of vehicle; the lowest is taken for all",
                        told_.of_types));
-    if (!told_.both_ways.empty())
-      tell(
-          fmt::format("{} edges are driven forward by some types of vehicles and backward by others ({}); here every "
-                      "type may do both",
-                      told_.both_ways.size(), name_list(told_.both_ways)));
+    for (const auto& sentence : travel_.sentences()) tell(sentence);
     if (!told_.torn.empty())
       tell(fmt::format("{} nodes ask each type of vehicle for another heading ({}); here an AGV stands as it arrives",
                        told_.torn.size(), name_list(told_.torn)));
@@ -128,7 +120,7 @@ class LifReader {
 
   void add_node(const JsonReader& node) {
     Station station;
-    station.name = name_in(node.at("nodeId"), node_names_);
+    station.name = name_in(node.at("nodeId"), ids_.nodes);
     const auto position = node.at("nodePosition");
     station.position_m = {position.at("x").number(), position.at("y").number()};
     const auto rules = rules_by_type(node);
@@ -152,7 +144,7 @@ class LifReader {
     for (const auto& rule : rules) {
       const auto theta = rule.find("theta");
       if (!theta) continue;
-      if (!(std::abs(theta->number()) <= kLargestAngle_rad)) theta->refuse("expected an angle in radians");
+      if (!(std::abs(theta->number()) <= kLargestHeading_rad)) theta->refuse("expected an angle in radians");
       const Vec2 asked = heading_at(theta->number());
       if (heading && *heading != asked) {
         told_.torn.push_back(name);
@@ -167,7 +159,7 @@ class LifReader {
   std::optional<StationId> station_in(const JsonReader& id) {
     const auto name = id.text();
     if (const auto found = stations_.find(name); found != stations_.end()) return found->second;
-    if (elsewhere_.contains(name)) return std::nullopt;
+    if (ids_.elsewhere.contains(name)) return std::nullopt;
     std::vector<std::string_view> known;
     for (const auto& station : layout_.stations) known.push_back(station.name);
     const auto nearest = nearest_name(name, known);
@@ -177,11 +169,10 @@ class LifReader {
 
   void add_edge(const JsonReader& edge) {
     Segment segment;
-    segment.name = name_in(edge.at("edgeId"), edge_names_);
+    segment.name = name_in(edge.at("edgeId"), ids_.edges);
     const auto from = station_in(edge.at("startNodeId")), to = station_in(edge.at("endNodeId"));
     if (!from || !to)
       return warn(edge, fmt::format("edge {} leads to another layout and is left out", in_quotes(segment.name)));
-    if (*from == *to) edge.at("endNodeId").refuse("the edge leads from a node to itself; leave it out");
     segment.from = *from;
     segment.to = *to;
     const auto types = rules_by_type(edge);
@@ -192,14 +183,20 @@ class LifReader {
       return warn(edge, fmt::format("no AGV may drive edge {}: no type of vehicle has a rule at it and at both of its "
                                     "nodes, with a load or without one; it is left out",
                                     in_quotes(segment.name)));
+    if (LifSpots::stays(edge, layout_.stations[from->index()].position_m, layout_.stations[to->index()].position_m)) {
+      spots_.add(edge, *from, *to, permissions->empty());
+      return turns_.add(edge, *from, *to, false);
+    }
+    if (*from == *to)
+      edge.at("endNodeId").refuse("the edge leads from a node back to itself; put another node on its trajectory");
+    types_.count(*permissions);
     segment.permissions = std::move(*permissions);
     std::optional<JsonReader> trajectory;
     for (const auto& type : types) {
       if (!trajectory) trajectory = type.find("trajectory");
     }
     limit_speed(types, segment);
-    say_travel(types, segment);
-    turns_.add(edge, segment.from, segment.to, !told_.sideways.empty() && told_.sideways.back() == segment.name);
+    turns_.add(edge, segment.from, segment.to, travel_.add(types, segment));
     if (trajectory) bend(*trajectory, segment);
     layout_.segments.push_back(std::move(segment));
     edges_.push_back(edge);
@@ -217,32 +214,6 @@ class LifReader {
     const auto [lowest, highest] = std::ranges::minmax(limits_mps);
     if (std::isfinite(lowest)) segment.speed_limit_mps = lowest;
     told_.of_types += lowest < highest ? 1 : 0;
-  }
-
-  // Whether the types drive it forward, backward, or some one way and some the other.
-  void say_travel(const std::vector<JsonReader>& types, Segment& segment) {
-    bool forward = false, backward = false;
-    std::map<std::vector<std::string>, std::set<bool>> ways;  // by type: whether forward
-    for (const auto& type : types) {
-      const auto orientation = type.find("vehicleOrientation");
-      const double rad = orientation ? orientation->number() : 0.0;
-      if (!(std::abs(rad) <= kLargestAngle_rad)) orientation->refuse("expected an angle in radians");
-      std::string reference = "TANGENTIAL";
-      type.read("orientationType", reference);
-      const double turns = std::abs(rad) / std::numbers::pi;  // half turns
-      const auto whole = static_cast<std::int64_t>(turns + 0.5);
-      const bool along = std::abs(turns - static_cast<double>(whole)) < kHalfTurns;
-      if (reference != "TANGENTIAL" || !along) {
-        told_.sideways.push_back(segment.name);
-        forward = true;
-      } else {
-        (whole % 2 == 0 ? forward : backward) = true;
-        ways[types_of(type)].insert(whole % 2 == 0);
-      }
-    }
-    if (forward && backward && std::ranges::any_of(ways, [](const auto& way) { return way.second.size() == 1; }))
-      told_.both_ways.push_back(segment.name);
-    if (backward) segment.travel = forward ? Travel::Either : Travel::Backward;
   }
 
   static Nurbs nurbs_of(const JsonReader& trajectory) {
@@ -324,15 +295,18 @@ class LifReader {
   const ReadChoice& choice_;
   Layout layout_;
   std::vector<JsonReader> nodes_, edges_;  // by station and by segment, as long as no two segments are merged
-  std::set<std::string> node_names_, edge_names_, elsewhere_;
+  struct {
+    std::set<std::string> nodes, edges, elsewhere;
+  } ids_;
   std::map<std::string, StationId> stations_;
   std::map<std::size_t, Purposes> stated_;  // by station: given in the description of the station
   LifTypes types_{{}, {}};
+  LifTravel travel_;
   LifTurns turns_;
+  LifSpots spots_;
   struct {
-    std::size_t of_types = 0;                      // edges
-    std::vector<std::string> sideways, both_ways;  // names of edges
-    std::vector<std::string> torn;                 // names of nodes
+    std::size_t of_types = 0;       // edges
+    std::vector<std::string> torn;  // names of nodes
   } told_;
 };
 

@@ -14,7 +14,6 @@ constexpr Topic kNotes{"{0} kinds of names and notes for people are left out ({1
 constexpr Topic kActions{"{0} types of actions are left out ({1})"};
 constexpr Topic kDetails{
     "{0} kinds of details of actions are left out ({1}); here an action takes the time of its task"};
-constexpr Topic kSideways{"{0} edges list orientations of robots ({1}); they are left out"};
 constexpr Topic kTurns{"{0} edges have rules for turning ({1}); here an AGV turns at stations only, at its own speed"};
 constexpr Topic kLifts{"{0} edges and stations give the height of a lift or load ({1}); here the floor is flat"};
 constexpr Topic kLoads{"{0} edges are for sets of loads ({1}); here all loads are alike"};
@@ -69,7 +68,8 @@ constexpr Rule kRules[] = {
     {"edges/types/typeId/manufacturer", &kNotes, Named::ByKey},
     {"edges/types/typeId/seriesName"},
     {"edges/types/vehicleOrientation"},
-    {"edges/types/mobileRobotOrientations", &kSideways},
+    {"edges/types/vehicleOrientations"},
+    {"edges/types/mobileRobotOrientations"},
     {"edges/types/orientationType"},
     {"edges/types/rotationAllowed", &kTurns, Named::ByOwner, "false"},
     {"edges/types/rotationAtStartNodeAllowed"},

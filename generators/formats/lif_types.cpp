@@ -84,7 +84,7 @@ void LifTypes::note(const JsonReader& element) {
 }
 
 std::optional<std::vector<Permission>> LifTypes::permissions(const JsonReader& edge, const JsonReader& from,
-                                                             const JsonReader& to) {
+                                                             const JsonReader& to) const {
   const auto rules = rules_by_type(edge);
   std::vector<Permission> found;
   for (const auto& name : names_.empty() ? std::vector<std::string>{""} : names_) {
@@ -93,14 +93,16 @@ std::optional<std::vector<Permission>> LifTypes::permissions(const JsonReader& e
       found.push_back({name, loads.state()});
   }
   if (found.empty()) return std::nullopt;
-  ++edges_;
   const bool alike = std::ranges::all_of(found, [&](const Permission& one) { return one.load == found[0].load; });
-  if (!alike || found.size() < names_.size()) {
-    ++restricted_;
-    return found;
-  }
+  if (!alike || found.size() < names_.size()) return found;
   if (found[0].load == LoadState::Any) return std::vector<Permission>{};
   return std::vector<Permission>{{"", found[0].load}};
+}
+
+void LifTypes::count(const std::vector<Permission>& permissions) {
+  ++edges_;
+  const auto is_named = [](const Permission& one) { return !one.vehicle_type.empty(); };
+  restricted_ += std::ranges::any_of(permissions, is_named) ? 1 : 0;
 }
 
 std::string LifTypes::sentence() const {

@@ -27,7 +27,9 @@ class LifTypes {
   // As a segment has it: empty if every type that the layout names may drive it, with a load and without one. None: no
   // AGV may.
   std::optional<std::vector<Permission>> permissions(const JsonReader& edge, const JsonReader& from,
-                                                     const JsonReader& to);
+                                                     const JsonReader& to) const;
+  // An edge that became a segment with these permissions.
+  void count(const std::vector<Permission>& permissions);
 
   // What happens to the names of types, as a sentence; empty if the layout names none.
   std::string sentence() const;

@@ -24,6 +24,9 @@ TEST_F(Survey, FindsWhatIsImported) {
   // parking; drives with limits, backward, with permissions, in blocks; stations with headings, without turning.
   for (const char* row : {"today.xml | 5 | 8 | 57.18 | 2 | 1 | 1 | 7 | 3 | 0 | 5 | 1 | 0 |",
                           "rules.lif.json | 5 | 10 | 55.35 | 3 | 1 | 0 | 1 | 2 | 3 | 0 | 1 | 1 |",
+                          "turn_on_a_spot.lif.json | 2 | 2 | 10.00 | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 0 |",
+                          "turntable.lif.json | 5 | 7 | 48.00 | 2 | 1 | 0 | 0 | 2 | 5 | 0 | 1 | 1 |",
+                          "two@upper.lif.json | 3 | 5 | 35.00 | 0 | 0 | 0 | 2 | 2 | 2 | 0 | 0 | 0 |",
                           "house@L2@1.building.yaml | 5 | 8 | 43.90 | 2 | 1 | 1 | 2 | 1 | 0 | 2 | 0 | 0 |",
                           "tables.csv | 4 | 7 | 47.85 | 1 | 1 | 1 | 4 | 3 | 5 | 5 | 1 | 1 |",
                           "cells.map | 17 | 44 | 52.80 | 2 | 0 | 0 |"})
@@ -46,6 +49,9 @@ TEST_F(Survey, NoticesOneThingThatIsOff) {
       {"today.xml", R"(s/10\.2/10.6/)", "m, imported with"},
       {"rules.lif.json", R"(s/"vehicle_type": "fork", "load": "loaded"/"vehicle_type": "fork"/)", "('fork', 'loaded')"},
       {"rules.lif.json", R"(s/, "turning": false//)", "station rack is (['storage'], None, False)"},
+      {"turntable.lif.json", R"(s/"storage", "charging"/"storage"/)", "station table out is (['charging', 'storage']"},
+      {"turntable.lif.json", R"(s/"from": "stiff", "to": "table out"/"from": "apart", "to": "table out"/)",
+       "drive ('stiff', 'table out', 'backward'"},
       {"graph.yaml", R"(s/"storage", "parking"/"storage"/)", "station p3"},
   };
   for (const auto& [name, edit, difference] : changes) {

@@ -84,8 +84,10 @@ constexpr const char* kModel = R"(<model version="6.0.0" name="tiny">
 constexpr const char* kLif =
     R"({"metaInformation": {"lifVersion": "1.0.0"}, "origins": [{"layouts": [{"layoutId": "L", "nodes": [
 {"nodeId": "a", "nodePosition": {"x": 0, "y": 0}, "mobileRobotTypeNodeProperties": [{"actions": [{"actionType": "pick"}]}]},
-{"nodeId": "b", "nodePosition": {"x": 6, "y": 0}, "nodeDescription": "purposes: parking"}],
+{"nodeId": "b", "nodePosition": {"x": 6, "y": 0}, "nodeDescription": "purposes: parking"},
+{"nodeId": "c", "nodePosition": {"x": 6, "y": 0}}],
 "edges": [
+{"edgeId": "bc", "startNodeId": "b", "endNodeId": "c", "vehicleTypeEdgeProperties": [{"rotationAllowed": true}]},
 {"edgeId": "ab", "startNodeId": "a", "endNodeId": "b", "mobileRobotTypeEdgeProperties": [{"maxSpeed": 1, "trajectory":
  {"degree": 2, "knotVector": [0,0,0,0.5,1,1,1], "controlPoints": [{"x":0,"y":0},{"x":2,"y":1,"weight":2},{"x":4,"y":1},{"x":6,"y":0}]}}]},
 {"edgeId": "ba", "startNodeId": "b", "endNodeId": "a", "vehicleTypeEdgeProperties": [{"trajectory":

@@ -77,7 +77,10 @@ const Thing kThings[] = {
     // the successor of LIF 1.0
     {kNode, R"("mobileRobotTypeNodeProperties": [{"mobileRobotTypes": [{"manufacturer": "m", "seriesName": "s"}]}])"},
     {kNodeType, R"("allowedDeviationXY": {"a": 1, "b": 1, "theta": 0})"},
-    {kEdgeType, R"("mobileRobotOrientations": [0])"},
+    {kEdgeType, R"("mobileRobotOrientations": [3.14])"},
+    {kEdgeType, R"("mobileRobotOrientations": ["forward"])"},
+    {kEdgeType, R"("vehicleOrientations": [0, 3.14])"},
+    {kEdgeType, R"("vehicleOrientations": [0, 1])"},
     {kEdgeType, R"("reachOrientationBeforeEntering": true)"},
     {kEdgeType, R"("maximumSpeed": 1)"},
     {kEdgeType, R"("maximumRotationSpeed": 1)"},
@@ -127,8 +130,9 @@ INSTANTIATE_TEST_SUITE_P(All, LifThing, testing::ValuesIn(kThings));
 
 TEST(LifThings, ValuesThatSayNothingYieldNoSentence) {
   const auto count = import(kFile).sentences.size();
-  for (const char* key : {R"("orientationType": "TANGENTIAL")", R"("reentryAllowed": true)",
-                          R"("vehicleOrientation": 0)", R"("vehicleOrientation": 0.0)"}) {
+  for (const char* key :
+       {R"("orientationType": "TANGENTIAL")", R"("reentryAllowed": true)", R"("vehicleOrientation": 0)",
+        R"("vehicleOrientation": 0.0)", R"("mobileRobotOrientations": [0])"}) {
     auto text = kFile;
     text.insert(text.find(kEdgeType), std::string(key) + ", ");
     EXPECT_EQ(import(text).sentences.size(), count) << key;

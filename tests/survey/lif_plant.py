@@ -5,6 +5,7 @@ from math import dist, pi
 from plant import ANY, BACKWARD, EMPTY, FORWARD, LOADED, Drive, Plant, Station, course, path_length
 
 ON_THE_NODE_M = 0.05
+ONE_PLACE_M = 0.001
 
 
 def given(entry, *keys):
@@ -70,8 +71,8 @@ def firsts_of(edge):
     """Which end of the AGV goes first; sideways travel is taken as forward."""
     firsts = set()
     for entry in rules_of(edge) or [{}]:
-        half_turns = round(abs(entry.get("vehicleOrientation", 0.0)) / pi)
-        firsts.add(BACKWARD if along(entry) and half_turns % 2 else FORWARD)
+        ways = [angle for angle in orientations(entry) if along(entry, angle)]
+        firsts |= {BACKWARD if round(abs(angle) / pi) % 2 else FORWARD for angle in ways or [0.0]}
     return firsts
 
 
@@ -116,12 +117,51 @@ def forbids(edge, key):
 
 
 def is_sideways(edge):
-    return not all(along(entry) for entry in rules_of(edge))
+    return not all(any(along(entry, angle) for angle in orientations(entry)) for entry in rules_of(edge))
 
 
-def along(entry):
-    half_turns = abs(entry.get("vehicleOrientation", 0.0)) / pi
+def orientations(entry):
+    """One in LIF 1.0; a list of those among which one chooses in its successor. What is no list of angles says
+    nothing."""
+    angles = [entry["vehicleOrientation"]] if "vehicleOrientation" in entry else []
+    for key in ("vehicleOrientations", "mobileRobotOrientations"):
+        listed = entry.get(key)
+        if isinstance(listed, list) and all(isinstance(a, (int, float)) and abs(a) <= 1e4 for a in listed):
+            angles += listed
+    return angles or [0.0]
+
+
+def along(entry, angle):
+    half_turns = abs(angle) / pi
     return entry.get("orientationType", "TANGENTIAL") == "TANGENTIAL" and abs(half_turns - round(half_turns)) < 0.005
+
+
+def place_of(node):
+    return node["nodePosition"]["x"], node["nodePosition"]["y"]
+
+
+def stays(edge, nodes):
+    """An edge of no length: an AGV turns there, from one node to another at the same place."""
+    here = place_of(nodes[edge["startNodeId"]])
+    places = [place_of(nodes[edge["endNodeId"]])]
+    for entry in rules_of(edge):
+        places += [(p["x"], p["y"]) for p in (entry.get("trajectory") or {"controlPoints": []})["controlPoints"]]
+    return all(dist(here, place) <= ONE_PLACE_M for place in places)
+
+
+def spots_of(nodes, turns):
+    """Node -> the first of the nodes that are one station with it."""
+    first = {name: name for name in nodes}
+    for edge in turns:
+        both = {first[edge["startNodeId"]], first[edge["endNodeId"]]}
+        least = min(both, key=list(nodes).index)
+        first = {name: least if its in both else its for name, its in first.items()}
+    return first
+
+
+def turns_on(edge):
+    return any(entry.get("rotationAllowed") or not entry.get("reachOrientationBeforeEntering", True)
+               for entry in rules_of(edge))
 
 
 def layouts_of(root):
@@ -139,39 +179,51 @@ def read(path, level=None):
     nodes = {node["nodeId"]: node for node in chosen["nodes"]}
     edges = [edge for edge in chosen["edges"] if edge["startNodeId"] in nodes and edge["endNodeId"] in nodes]
     everyone = named_types([*chosen["nodes"], *chosen["edges"]]) or {""}
+    driven = [edge for edge in edges if who(edge, nodes, everyone) is not None]
+    turns = [edge for edge in driven if stays(edge, nodes)]
+    spot = spots_of(nodes, turns)
     plant = Plant()
-    for name, node in nodes.items():
-        place = node["nodePosition"]
-        plant.add(Station(name, place["x"], place["y"], purposes_of(node), heading_of(node)))
-    kept = []
-    for edge in edges:
-        add_edge(plant, edge, nodes, everyone, kept)
     for name in nodes:
-        plant.stations[name].turning = turning_of(name, kept)
+        if spot[name] == name:
+            joined = [other for other in nodes if spot[other] == name]
+            plant.add(station_of(joined, nodes, driven, [edge for edge in turns if edge["startNodeId"] in joined]))
+    for edge in edges:
+        plant.stations[spot[edge["endNodeId"]]].purposes |= purposes_of(edge)
+    for edge in driven:
+        if edge not in turns:
+            add_edge(plant, edge, spot, who(edge, nodes, everyone))
     for station in chosen.get("stations", []):
         for name in station["interactionNodeIds"]:
-            if name in nodes and not plant.stations[name].purposes:
-                plant.stations[name].purposes.add("storage")
+            if name in nodes and not plant.stations[spot[name]].purposes:
+                plant.stations[spot[name]].purposes.add("storage")
     plant.settle_headings()
     return plant
 
 
-def add_edge(plant, edge, nodes, everyone, kept):
-    start, end = edge["startNodeId"], edge["endNodeId"]
-    plant.stations[end].purposes |= purposes_of(edge)
-    who = permissions(edge, (nodes[start], nodes[end]), everyone)
-    if who is None:
-        return
-    kept.append(edge)
+def station_of(joined, nodes, driven, turns):
+    """Of nodes at one place: AGVs turn there if they may at one of the nodes, or on an edge between them."""
+    headings = {heading_of(nodes[name]) for name in joined} - {None}
+    return Station(joined[0], *place_of(nodes[joined[0]]), set().union(*(purposes_of(nodes[name]) for name in joined)),
+                   headings.pop() if len(headings) == 1 else None,
+                   any(turning_of(name, driven) for name in joined) or any(map(turns_on, turns)))
+
+
+def who(edge, nodes, everyone):
+    """None: no AGV may drive here."""
+    return permissions(edge, (nodes[edge["startNodeId"]], nodes[edge["endNodeId"]]), everyone)
+
+
+def add_edge(plant, edge, spot, permitted_to):
+    start, end = spot[edge["startNodeId"]], spot[edge["endNodeId"]]
     ends = [(plant.stations[name].x, plant.stations[name].y) for name in (start, end)]
     drawn = next((entry["trajectory"] for entry in rules_of(edge) if "trajectory" in entry), None)
     length = spline_length(drawn, ends) if drawn else dist(*ends)
-    if length is not None and length < 0.01:
+    if length is not None and length < 0.01 or start == end:
         plant.faults.append(edge["edgeId"])
     limits = [given(entry, "maxSpeed", "maximumSpeed") for entry in rules_of(edge)]
     lowest = min((value for value in limits if value is not None), default=None)
     for first in firsts_of(edge):
-        plant.drives.append(Drive(start, end, length, first, lowest, who, course=course(way_of(drawn, ends))))
+        plant.drives.append(Drive(start, end, length, first, lowest, permitted_to, course=course(way_of(drawn, ends))))
 
 
 def way_of(trajectory, ends):

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scenario/layout.hpp"
+#include "generators/text/json_value.hpp"
+
+namespace fleetproof {
+
+// Edges of no length in a LIF layout: an AGV turns on the spot, from one node to another at the same place. Here the
+// nodes that such edges join are one station, which is named after the first of them.
+class LifSpots {
+ public:
+  // Whether an AGV stays where it is on this edge, which leads from one of these places to the other.
+  static bool stays(const JsonReader& edge, const Vec2& from_m, const Vec2& to_m);
+
+  // An edge on which an AGV stays. Stations are as yet those of the nodes. `for_all`: whether every AGV may use it.
+  void add(const JsonReader& edge, StationId from, StationId to, bool for_all);
+
+  // Gives the nodes of each spot the purposes of all of them.
+  void share_purposes(Layout& layout);
+
+  // Makes one station of the nodes of each spot, and takes the others out of `nodes`, too, which is by station. Adds
+  // the sentences that say so.
+  void join(Layout& layout, std::vector<JsonReader>& nodes, std::vector<std::string>& warnings);
+
+ private:
+  struct Turn {
+    std::size_t node = 0;
+    bool on_edge = false, for_all = false, limited = false;
+  };
+  struct Spot {
+    std::vector<std::size_t> nodes;  // ascending
+    bool turns = false, for_all = true, limited = false;
+  };
+  std::size_t first_of(std::size_t node);
+  std::map<std::size_t, Spot> spots();
+  // Each spot has one station; `spots` is by that station.
+  void tell(const Layout& layout, const std::map<std::size_t, Spot>& spots, std::vector<std::string>& warnings) const;
+
+  std::map<std::size_t, std::size_t> earlier_;  // by node: an earlier one of the same spot; the first: itself
+  std::vector<Turn> turns_;
+  std::string place_;  // of the first edge
+};
+
+}  // namespace fleetproof

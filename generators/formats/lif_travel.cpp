@@ -1,0 +1,118 @@
+#include "generators/formats/lif_travel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "generators/formats/heading.hpp"
+#include "generators/formats/lif_types.hpp"
+#include "generators/text/name_list.hpp"
+
+namespace fleetproof {
+namespace {
+
+constexpr double kHalfTurns = 0.005;  // tolerance of an orientation, in half turns
+
+// Of an orientation along the edge: whether the nose goes first. None: it is aside.
+std::optional<bool> is_forward(double rad) {
+  const double turns = std::abs(rad) / std::numbers::pi;  // half turns
+  const auto whole = static_cast<std::int64_t>(turns + 0.5);
+  if (std::abs(turns - static_cast<double>(whole)) >= kHalfTurns) return std::nullopt;
+  return whole % 2 == 0;
+}
+
+std::optional<double> angle_of(const JsonReader& reader) {
+  const auto& scalar = reader.value().scalar;
+  if (reader.value().shape != JsonValue::Shape::Scalar || reader.is_text() ||
+      std::holds_alternative<std::nullptr_t>(scalar) || std::holds_alternative<bool>(scalar))
+    return std::nullopt;
+  const double rad = reader.number();
+  return std::abs(rad) <= kLargestHeading_rad ? std::optional(rad) : std::nullopt;
+}
+
+// None: this is no list of angles.
+std::optional<std::vector<double>> angles_of(const JsonReader& list) {
+  if (list.value().shape != JsonValue::Shape::Array) return std::nullopt;
+  std::vector<double> angles_rad;
+  for (const auto& item : list.items()) {
+    const auto rad = angle_of(item);
+    if (!rad) return std::nullopt;
+    angles_rad.push_back(*rad);
+  }
+  return angles_rad.empty() ? std::nullopt : std::optional(std::move(angles_rad));
+}
+
+}  // namespace
+
+std::vector<double> LifTravel::orientations(const JsonReader& rule, const std::string& edge) {
+  std::vector<double> found_rad;
+  if (const auto one = rule.find("vehicleOrientation")) {
+    found_rad.push_back(one->number());
+    if (!(std::abs(found_rad[0]) <= kLargestHeading_rad)) one->refuse("expected an angle in radians");
+  }
+  for (const char* key : {"vehicleOrientations", "mobileRobotOrientations"}) {
+    const auto list = rule.find(key);
+    if (!list) continue;
+    const auto angles_rad = angles_of(*list);
+    if (!angles_rad) {
+      if (unread_.empty() || unread_.back() != edge) unread_.push_back(edge);
+      continue;
+    }
+    found_rad.insert(found_rad.end(), angles_rad->begin(), angles_rad->end());
+  }
+  if (found_rad.empty()) found_rad.push_back(0.0);
+  return found_rad;
+}
+
+bool LifTravel::add(const std::vector<JsonReader>& rules, Segment& segment) {
+  std::map<std::vector<std::string>, std::set<bool>> ways;  // by type: whether forward
+  bool forward = false, backward = false, sideways = false, also_sideways = false;
+  for (const auto& rule : rules) {
+    std::string reference = "TANGENTIAL";
+    rule.read("orientationType", reference);
+    bool along = false, aside = false;
+    for (const double rad : orientations(rule, segment.name)) {
+      const auto nose_first = reference == "TANGENTIAL" ? is_forward(rad) : std::nullopt;
+      (nose_first ? along : aside) = true;
+      if (!nose_first) continue;
+      (*nose_first ? forward : backward) = true;
+      ways[types_of(rule)].insert(*nose_first);
+    }
+    forward |= !along;
+    sideways |= !along;
+    also_sideways |= along && aside;
+  }
+  if (sideways) sideways_.push_back(segment.name);
+  if (also_sideways) also_sideways_.push_back(segment.name);
+  if (forward && backward && std::ranges::any_of(ways, [](const auto& way) { return way.second.size() == 1; }))
+    both_ways_.push_back(segment.name);
+  if (backward) segment.travel = forward ? Travel::Either : Travel::Backward;
+  return sideways;
+}
+
+std::vector<std::string> LifTravel::sentences() const {
+  std::vector<std::string> found;
+  const auto tell = [&](const std::vector<std::string>& edges, std::string_view sentence) {
+    const std::size_t count = edges.size();
+    const auto list = name_list(edges);
+    if (count > 0) found.push_back(fmt::vformat(sentence, fmt::make_format_args(count, list)));
+  };
+  tell(sideways_,
+       "{0} edges turn the AGV sideways or by a heading on the map ({1}); sideways travel is not modelled: here AGVs "
+       "drive them nose first");
+  tell(also_sideways_,
+       "{0} edges let AGVs drive sideways, too ({1}); sideways travel is not modelled: here AGVs drive them forward or "
+       "backward, as they also may");
+  tell(both_ways_,
+       "{0} edges are driven forward by some types of vehicles and backward by others ({1}); here every type may do "
+       "both");
+  tell(unread_, "{0} edges list orientations that are no angles in radians ({1}); they are left out");
+  return found;
+}
+
+}  // namespace fleetproof
