@@ -18,6 +18,7 @@
 #include "generators/formats/lif_left_out.hpp"
 #include "generators/formats/lif_spots.hpp"
 #include "generators/formats/lif_travel.hpp"
+#include "generators/formats/lif_tree.hpp"
 #include "generators/formats/lif_turns.hpp"
 #include "generators/formats/lif_types.hpp"
 #include "generators/formats/nurbs.hpp"
@@ -53,7 +54,7 @@ class LifReader {
  public:
   LifReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
             const ReadChoice& choice)
-      : root_(parse_json(text, source)), source_(source), warnings_(warnings), choice_(choice) {}
+      : root_(parse_lif_tree(text, source)), source_(source), warnings_(warnings), choice_(choice) {}
 
   Layout read() {
     auto chosen = choose_layout(JsonReader(root_, source_), choice_.level);

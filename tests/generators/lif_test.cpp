@@ -238,6 +238,32 @@ TEST(LifErrors, NamePlaceValueAndRemedy) {
   EXPECT_EQ(refusal("[]"), "l.json:1: top level: \"layouts\" is missing; add it");
 }
 
+TEST(Lif, AKeyThatIsNullIsMissing) {
+  auto text = sample(kThere,
+                     ", \"maxSpeed\": null, \"trajectory\": null, \"rotationAtStartNodeAllowed\": null, "
+                     "\"vehicleOrientation\": null, \"loadRestriction\": null, \"corridor\": null");
+  text = replaced(text, "\"edges\": [", "\"stations\": null, \"layoutName\": null, \"edges\": [");
+  text = replaced(text, "\"nodeId\": \"a\",", "\"nodeId\": \"a\", \"nodeDescription\": null, \"traffic\": null,");
+  text = replaced(text, "{\"vehicleTypeId\": \"v\"}", "{\"vehicleTypeId\": \"v\", \"theta\": null, \"actions\": null}");
+  const auto read = import(text);
+  EXPECT_TRUE(read.warnings.empty()) << read.warnings[0];
+  EXPECT_EQ(to_text(read.layout), to_text(import(sample(kThere)).layout));
+}
+
+TEST(LifErrors, AKeyThatIsNeededAndNullIsRefused) {
+  const auto refused = [](const std::string& from, const std::string& to) {
+    return refusal(replaced(sample(kThere), from, to));
+  };
+  EXPECT_EQ(refused("\"x\": 6", "\"x\": null"),
+            "l.json:5: /layouts/0/nodes/1/nodePosition/x: null is refused: expected a number");
+  for (const std::string key :
+       {"nodeId", "edgeId", "startNodeId", "vehicleTypeId", "knotVector", "actionType", "nodes"}) {
+    EXPECT_NE(refused("\"" + key + "\": ", "\"" + key + "\": null, \"given\": ").find(key + ": null is refused"),
+              std::string::npos)
+        << key;
+  }
+}
+
 TEST(LifErrors, CutAndDamagedFilesAreReadOrRefused) {
   const auto text = sample(kThere, trajectory(2, "0,0,0,0.5,1,1,1",
                                               R"({"x":6,"y":0},{"x":4,"y":1,"weight":2},{"x":2,"y":1},{"x":0,"y":0})"));

@@ -168,9 +168,13 @@ def layouts_of(root):
     return [layout for holder in root.get("origins", [root]) for layout in holder.get("layouts", [])]
 
 
+def without_nulls(pairs):
+    return {key: value for key, value in pairs if value is not None}
+
+
 def read(path, level=None):
     with open(path, encoding="utf-8-sig") as file:
-        layouts = layouts_of(json.load(file))
+        layouts = layouts_of(json.load(file, object_pairs_hook=without_nulls))
     found = [layout for layout in layouts
              if level is None or level in (layout.get("layoutId"), layout.get("layoutLevelId"))]
     if len(found) != 1:
