@@ -27,7 +27,7 @@ class Errands {
 
   bool empty() const { return goals_.empty(); }
   std::span<const Goal> goals() const { return goals_; }
-  // The goals before the next pick.
+  // What is left to do before another load is picked: deliver the one on board, and charge.
   std::span<const Goal> of_the_load_on_board() const {
     const auto pick = std::ranges::find(goals_, Leg::Kind::Pick, &Goal::transfer);
     return goals().first(static_cast<std::size_t>(pick - goals_.begin()));

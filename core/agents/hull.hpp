@@ -26,8 +26,8 @@ class HullGeometry {
   bool turns_conflict(std::uint32_t agv_a, std::uint32_t station_a, std::uint32_t agv_b, std::uint32_t station_b) {
     return parts_.conflict(parts_.of_turn(agv_a, station_a), parts_.of_turn(agv_b, station_b));
   }
-  // A lower bound of the length of a way from `station` whose hull comes near the other one, or who turns at its end
-  // near that hull or near a turn at the end of the other path. May be negative.
+  // A way from `station` that is shorter than this keeps clear of the other path: its hull, and a turn at its end, of
+  // the other hull and of a turn at the end of the other path. May be negative.
   double meets_after_m(std::uint32_t agv_a, std::uint32_t station, std::uint32_t agv_b, const Path& b) const;
   // A lower bound of the distance from `point_m` to the hull.
   double distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path);

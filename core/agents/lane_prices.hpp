@@ -32,7 +32,7 @@ class LanePrices {
  private:
   // On a lane, an AGV meets those on the lanes back, which begin where it ends and have the same segment.
   struct Meeting {
-    std::uint32_t lane_back = 0, unused = 0;
+    std::uint32_t lane_back = 0, unused = 0;  // no byte is left open: the table is copied as bytes
     double extra_s = 0.0;
   };
   static std::vector<std::byte> work_out(const MapView& map);

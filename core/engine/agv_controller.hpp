@@ -18,7 +18,7 @@ struct fp_controller {
   fleetproof::AgvController* part = nullptr;
   fleetproof::AgvId agv;
   bool in_activation = false;
-  bool hears_notes = false;
+  bool hears_notes = false;               // as RunContext::hears_notes
   fleetproof::CallTape* tape = nullptr;   // takes the calls of the activation; null: nobody records them
   fleetproof::Duration cost{};            // of its calls
   std::uint64_t calls = 0, services = 0;  // so many

@@ -11,14 +11,14 @@ namespace fleetproof {
 //
 // question                                    | who asks                              | definition
 // --------------------------------------------|---------------------------------------|------------------------------
-// Does the AGV do anything now?               | every other question                  | is_work; the laws and the
-//                                             |                                       |   engine: keeps_busy
+// Does the AGV do anything now?               | every other question                  | is_work
 // Is the fleet frozen? (run "stuck",          | engine at the end of a run, operator, | no work began or ended for
-//   operator, deadlock, standstill)           | laws progress and normal-operation    |   `stuck_after`
+//   operator, deadlock, standstill)           | laws progress and normal-operation    |   `stuck_after`; all but the
+//                                             |                                       |   operator excuse who charges
 // Does the fleet move without any result?     | law progress (livelock, starvation)   | no transport advanced
 //   Movement alone is no progress.            |                                       |   (advances_transport), no
-//                                             |                                       |   charge ended (is_progress);
-//                                             |                                       |   who charges is not asked
+//                                             |                                       |   charge ended (is_progress),
+//                                             |                                       |   and not everybody charges
 // Is there anything left to do?               | all of them                           | open_transports
 // How much does the fleet get done?           | gates, reports, law normal-operation  | transports_per_agv_hour
 //

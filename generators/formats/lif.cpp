@@ -33,7 +33,7 @@ namespace fleetproof {
 namespace {
 
 Purposes purpose_of_action(std::string_view type, const PurposeWords& own) {
-  if (const auto said = said_of(own, type)) return *said;
+  if (const auto said = own.said_of(type)) return *said;
   if (type == "pick" || type == "drop") return Purpose::Storage;
   return type == "startCharging" ? Purposes(Purpose::Charging) : Purposes::from_bits(0);
 }

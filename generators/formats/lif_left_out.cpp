@@ -172,7 +172,7 @@ class LifWalk {
         if (key != "actionType") things_.add(kDetails, action.place(), key);
       }
       const auto type = action.at("actionType").text();
-      if (said_of(own_, type)) continue;
+      if (own_.said_of(type)) continue;
       if (type != "pick" && type != "drop" && type != "startCharging") things_.add(kActions, action.place(), type);
     }
   }

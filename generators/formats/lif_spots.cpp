@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/base/outside_text.hpp"
@@ -21,27 +22,22 @@ std::string label_of(const Layout& layout, const std::vector<std::size_t>& nodes
   return others.empty() ? first : first + " with " + name_list(others, others.size());
 }
 
-// One station of the stations of a spot, in its first place. `turns`: an AGV may turn on an edge between them.
-void unite(Layout& layout, const std::vector<std::size_t>& nodes, bool turns) {
-  Station& first = layout.stations[nodes[0]];
+// For which they ask, each once.
+std::vector<Vec2> headings_of(const Layout& layout, const std::vector<std::size_t>& nodes) {
   std::vector<Vec2> headings;
   for (const auto node : nodes) {
-    const Station& station = layout.stations[node];
-    turns |= station.turning;
-    if (station.heading && std::ranges::find(headings, *station.heading) == headings.end())
-      headings.push_back(*station.heading);
+    const auto& heading = layout.stations[node].heading;
+    if (heading && std::ranges::find(headings, *heading) == headings.end()) headings.push_back(*heading);
   }
-  first.turning = turns;
-  first.heading = headings.size() == 1 ? std::optional(headings[0]) : std::nullopt;
+  return headings;
 }
 
-bool ask_for_several_headings(const Layout& layout, const std::vector<std::size_t>& nodes) {
-  std::optional<Vec2> asked;
-  return std::ranges::any_of(nodes, [&](std::size_t node) {
-    const auto& heading = layout.stations[node].heading;
-    if (heading && !asked) asked = heading;
-    return heading && *heading != *asked;
-  });
+// Makes the first station stand for all. `turns`: an AGV may turn on an edge between them.
+void unite(Layout& layout, const std::vector<std::size_t>& nodes, bool turns) {
+  const auto headings = headings_of(layout, nodes);
+  Station& first = layout.stations[nodes[0]];
+  first.turning = turns || std::ranges::any_of(nodes, [&](auto node) { return layout.stations[node].turning; });
+  first.heading = headings.size() == 1 ? std::optional(headings[0]) : std::nullopt;
 }
 
 }  // namespace
@@ -148,12 +144,10 @@ void LifSpots::tell(const Layout& layout, const std::map<std::size_t, Spot>& spo
   };
   const auto turn = [&](const Spot& spot) { return spot.turns || turning_nodes(spot) > 0; };
   say("{0} stations have edges of no length, on which AGVs turn on the spot ({1}); nodes that such an edge joins are "
-      "one "
-      "station here, which has the name of the first, and an AGV goes on from each of its edges to each other",
+      "one station here, which has the name of the first, and an AGV goes on from each of its edges to each other",
       turn);
   say("{0} stations have edges of no length, and no edge lets an AGV turn there ({1}); nodes that such an edge joins "
-      "are "
-      "one station here, which has the name of the first",
+      "are one station here, which has the name of the first",
       [&](const Spot& spot) { return !turn(spot); });
   say("edges of no length at {0} stations are for some AGVs or loads only ({1}); here every AGV may turn there, with a "
       "load and without one",
@@ -163,7 +157,7 @@ void LifSpots::tell(const Layout& layout, const std::map<std::size_t, Spot>& spo
         return turn(spot) && turning_nodes(spot) < static_cast<std::ptrdiff_t>(spot.nodes.size());
       });
   say("the nodes of {0} stations ask for several headings ({1}); here an AGV stands as it arrives",
-      [&](const Spot& spot) { return ask_for_several_headings(layout, spot.nodes); });
+      [&](const Spot& spot) { return headings_of(layout, spot.nodes).size() > 1; });
   say("edges of no length have a speed limit at {0} stations ({1}); it is left out",
       [](const Spot& spot) { return spot.limited; });
 }

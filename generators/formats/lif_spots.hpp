@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +9,8 @@
 
 namespace fleetproof {
 
-// Edges of no length in a LIF layout: an AGV turns on the spot, from one node to another at the same place. Here the
-// nodes that such edges join are one station, which is named after the first of them.
+// LIF has edges of no length: on them, an AGV turns where it stands, from one node to another at the same place. Here
+// the nodes that such edges join are one station, which has the name of the first.
 class LifSpots {
  public:
   // Whether an AGV stays where it is on this edge, which leads from one of these places to the other.

@@ -20,7 +20,7 @@ class LifTravel {
   std::vector<std::string> sentences() const;
 
  private:
-  // The orientations of one type, in radians; none given: forward.
+  // Which orientations a rule allows, in radians. A rule that gives none means 0: nose first.
   std::vector<double> orientations(const JsonReader& rule, const std::string& edge);
 
   std::vector<std::string> sideways_, also_sideways_, both_ways_, unread_;  // names of edges

@@ -35,13 +35,13 @@ std::optional<Purposes> either(std::optional<Purposes> a, std::optional<Purposes
 }  // namespace
 
 bool says_purpose(const std::string& operation, const PurposeWords& own) {
-  return said_of(own, operation) || known_in(operation);
+  return own.said_of(operation) || known_in(operation);
 }
 
 LocationPurpose purpose_of(const LocationWords& words, const PurposeWords& own) {
-  std::optional<Purposes> by_user = either(said_of(own, words.name), said_of(own, words.symbol)), by_operations;
+  std::optional<Purposes> by_user = either(own.said_of(words.name), own.said_of(words.symbol)), by_operations;
   for (const auto& operation : words.operations) {
-    by_user = either(by_user, said_of(own, operation));
+    by_user = either(by_user, own.said_of(operation));
     by_operations = either(by_operations, known_in(operation));
   }
   if (by_user) return {*by_user, "user"};

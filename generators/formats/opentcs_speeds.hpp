@@ -13,7 +13,7 @@ namespace fleetproof {
 
 class XmlText;
 
-// The velocities of the paths of an openTCS plant model: from which end and how fast each path is driven.
+// Reads the velocities of an openTCS plant model. They say in which directions each path is driven, and how fast.
 class OpenTcsSpeeds {
  public:
   // Requires: the text outlives the object.

@@ -99,6 +99,4 @@ std::vector<PurposeWords::Unheard> PurposeWords::unheard() const {
   return found;
 }
 
-std::optional<Purposes> said_of(const PurposeWords& words, std::string_view text) { return words.said_of(text); }
-
 }  // namespace fleetproof

@@ -55,6 +55,4 @@ PurposeWords purpose_words_of(std::string_view text, const std::string& place);
 // One of them: `purposes` is "storage parking".
 PurposeWord purpose_word(std::string_view word, std::string_view purposes, const std::string& place);
 
-std::optional<Purposes> said_of(const PurposeWords& words, std::string_view text);
-
 }  // namespace fleetproof
