@@ -90,7 +90,8 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   add_default_gates(file.plan, is_plugin);
   constexpr std::size_t kTold = 3;
   for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) talk("warning: {}\n", file.warnings[i]);
-  if (file.warnings.size() > kTold) talk("warning: {} more of this kind\n", file.warnings.size() - kTold);
+  if (file.warnings.size() > kTold)
+    talk("warning: {} more; fleetproof import shows all of one layout\n", file.warnings.size() - kTold);
   return file;
 }
 

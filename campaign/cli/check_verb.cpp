@@ -47,6 +47,10 @@ void tell_rejections(const CampaignPlan& plan) {
       counts.worlds_rejected, text.empty() ? "" : ": ", text);
   if (counts.pairs_wanted > 0) put("; {} of {} pairs made to meet", counts.pairs_made, counts.pairs_wanted);
   put("\n");
+  if (counts.worlds_without_storage > 0)
+    put("orders of {} worlds lead between stations that are not for storage: AGVs cannot pick at one storage station "
+        "and drop at another\n",
+        counts.worlds_without_storage);
 }
 
 void check_campaign(const std::string& path) {

@@ -212,10 +212,15 @@ std::vector<std::uint32_t> StretchPlanner::way_on_from(const Stretch& stretch, s
   const double enough_m = neighbours_.audience().is_divided() ? kOnwardInZones_m : kOnward_m;
   double length_m = 0.0;
   Path from = end_of(map_, stretch.path);
-  for (const Goal& goal : goals.subspan(stretch.goals)) {
+  const auto ahead = goals.subspan(stretch.goals);
+  for (std::size_t next = 0; next < ahead.size(); ++next) {
+    const Goal& goal = ahead[next];
     if (length_m >= enough_m) break;
+    if (rules_.any()) price_lanes(carries_load(ahead.subspan(next)), kWaitingCost_s, kIdleCost_s, {});
     search(from, goal.station);
-    for (const std::uint32_t lane : routes_.lanes(end_of_search(goal.station))) {
+    const auto way = routes_.lanes(end_of_search(goal.station));
+    if (way.empty() && from.station != goal.station) break;
+    for (const std::uint32_t lane : way) {
       if (length_m >= enough_m) break;
       lanes.push_back(lane);
       length_m += map_.lane(lane).length_m;
@@ -309,7 +314,7 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
   double best_s = INFINITY;
   const auto look_at = [&](std::uint32_t station, double way_s) {
     if (way_s >= std::min(best_s, kNoWayCost_s)) return true;
-    if (station == standing.station) return false;
+    if (station == standing.station || (rules_.any() && !leads_on(station))) return false;
     double cost_s = way_s;
     if (prefer_parking && (map_.station(station).purposes & FP_PARKING) == 0) cost_s += 10.0;
     // Every draw prefers other stations, so that two AGVs that block each other do not repeat the same choice.
@@ -321,6 +326,12 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
   };
   routes_.search_until(look_at, standing.station, standing.heading, prices_.costs_s());
   return best;
+}
+
+// False where an AGV with the load that was priced for, or without one, cannot leave before it has picked or dropped.
+bool StretchPlanner::leads_on(std::uint32_t station) const {
+  return std::ranges::any_of(map_.lanes_from(station),
+                             [&](std::uint32_t lane) { return prices_.costs_s()[lane] < INFINITY; });
 }
 
 // Infinite if another AGV holds the place. Beyond `limit_s`, it is not worked out further.

@@ -68,6 +68,31 @@ std::string_view importer_of_json(const std::string& path) {
   return root.find("agvs") != nullptr ? "scenario" : "layout";
 }
 
+// How many stations are for storage.
+std::ptrdiff_t storage_stations(const Layout& layout) {
+  return std::ranges::count_if(layout.stations, [](const Station& s) { return s.purposes.has(Purpose::Storage); });
+}
+
+void leave_core(Layout& layout, const std::string& path, Warnings& warnings) {
+  const bool rules = has_rules(layout);
+  const auto storage = storage_stations(layout);
+  const auto names = keep_core(layout);
+  if (layout.segments.empty()) {
+    throw InputError(
+        path, fmt::format("no two stations can reach each other{}, so nothing is left of its core; make segments "
+                          "two-way, or read it without core_only",
+                          rules ? " by what the layout permits (turns, headings, loads and types)" : ""));
+  }
+  if (!names.empty())
+    warnings.push_back(fmt::format("{}: {} stations cannot be reached from all others and are cut off: {}", path,
+                                   names.size(), name_list(names, names.size())));
+  if (const auto left = storage_stations(layout); left < 2 && left < storage)
+    warnings.push_back(
+        fmt::format("{}: {} of {} storage stations are left; with fewer than 2, orders lead between "
+                    "other stations",
+                    path, left, storage));
+}
+
 }  // namespace
 
 const OptionFormats kFormatsWithTwins = {"opentcs", "lif", "rmf", "csv"}, kFormatsWithWords = {"opentcs", "lif"},
@@ -100,18 +125,8 @@ Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path,
           fmt::format("{}: {} segments are for some types of vehicles only; here they are for every type ({})", path,
                       names.size(), name_list(names)));
   }
-  if (!choice.core_only) return layout;
-  const bool rules = has_rules(layout);
-  const auto names = keep_core(layout);
-  if (layout.segments.empty()) {
-    throw InputError(
-        path, fmt::format("no two stations can reach each other{}, so nothing is left of its core; make segments "
-                          "two-way, or read it without core_only",
-                          rules ? " by what the layout permits (turns, headings, loads and types)" : ""));
-  }
-  if (!names.empty())
-    warnings.push_back(fmt::format("{}: {} stations cannot be reached from all others and are cut off: {}", path,
-                                   names.size(), name_list(names, names.size())));
+  if (choice.core_only) leave_core(layout, path, warnings);
+  for (const std::string& sentence : limited_uses(layout)) warnings.push_back(path + ": " + sentence);
   return layout;
 }
 

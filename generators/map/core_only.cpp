@@ -20,7 +20,7 @@ std::vector<std::string> cut_off(const Layout& layout, const StrongComponents& p
   return names;
 }
 
-// As an AGV with all permissions drives it: the core, and every other station for itself.
+// For an AGV with all permissions: the core, and every other station for itself.
 StrongComponents parts_under_rules(const Layout& layout) {
   const LogicalMap map(layout);
   const Reachability reachability(map);
@@ -70,12 +70,39 @@ std::vector<std::string> keep_core(Layout& layout) {
 }
 
 std::string reachability_text(const Layout& layout) {
-  const auto parts = parts_of(layout);
-  const auto names = cut_off(layout, parts);
+  const auto names = cut_off(layout, parts_of(layout));
   const auto all = layout.stations.size();
-  if (names.empty()) return fmt::format("all {} stations can reach each other", all);
-  return fmt::format("{} of {} stations can all reach each other; cut off: {}", all - names.size(), all,
+  const bool rules = has_rules(layout);
+  if (names.empty())
+    return fmt::format("all {} stations can {}", all, rules ? "be reached and left" : "reach each other");
+  return fmt::format("{} of {} stations can {}; cut off: {}", all - names.size(), all,
+                     rules ? "be reached and left as the layout permits" : "all reach each other",
                      name_list(names, kMostNames));
+}
+
+std::vector<std::string> limited_uses(const Layout& layout) {
+  if (!has_rules(layout)) return {};
+  const LogicalMap map(layout);
+  const Reachability reachability(map);
+  std::vector<std::string> only_picks, only_drops, no_orders, no_stops;
+  for (const StationId s : reachability.core()) {
+    const Station& station = map.station(s);
+    const StationUse& use = reachability.use_of(s);
+    if (station.purposes.has(Purpose::Storage) && !(use.picks && use.drops))
+      (use.picks ? only_picks : use.drops ? only_drops : no_orders).push_back(station.name);
+    if ((station.purposes.has(Purpose::Charging) || station.purposes.has(Purpose::Parking)) && !use.stopped)
+      no_stops.push_back(station.name);
+  }
+  std::vector<std::string> sentences;
+  const auto tell = [&](const std::vector<std::string>& names, std::string_view what) {
+    if (!names.empty())
+      sentences.push_back(fmt::format("{} (turns, headings, loads): {}", what, name_list(names, kMostNames)));
+  };
+  tell(only_picks, "storage stations where the layout permits only picks");
+  tell(only_drops, "storage stations where the layout permits only drops");
+  tell(no_orders, "storage stations where the layout permits no pick and no drop");
+  tell(no_stops, "stations for charging or parking where the layout permits no stop without a load");
+  return sentences;
 }
 
 std::string purposes_summary(const Layout& layout) {

@@ -2,46 +2,51 @@
 
 #include <algorithm>
 
+#include "generators/map/strong_components.hpp"
+
 namespace fleetproof {
 namespace {
 
-std::vector<bool> core_without_rules(const LogicalMap& map) {
+std::vector<StationUse> uses_without_rules(const LogicalMap& map) {
   std::vector<Arrow> arrows;
   arrows.reserve(map.lanes().size());
   for (const auto& lane : map.lanes()) arrows.push_back({lane.from.value, lane.to.value});
   const StrongComponents parts = strong_components(map.station_count(), arrows);
-  std::vector<bool> in_core(map.station_count());
-  for (std::size_t i = 0; i < in_core.size(); ++i) in_core[i] = parts.in_largest(i);
-  return in_core;
+  std::vector<StationUse> uses(map.station_count());
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    if (parts.in_largest(i)) uses[i] = kEveryUse;
+  }
+  return uses;
 }
 
 }  // namespace
 
 Reachability::Reachability(const LogicalMap& map, std::span<const std::string> vehicle_types) : map_(&map) {
   if (!has_rules(map.layout())) {
-    in_core_ = core_without_rules(map);
+    uses_ = uses_without_rules(map);
   } else {
     for (const std::string& type : vehicle_types) states_.emplace_back(map, type);
     if (states_.empty()) states_.emplace_back(map, "");
-    in_core_.assign(map.station_count(), true);
-    for (const DriveStates& states : states_) {
-      const auto of_type = states.stations_in_core();
-      for (std::size_t i = 0; i < in_core_.size(); ++i) in_core_[i] = in_core_[i] && of_type[i];
+    uses_.assign(map.station_count(), kEveryUse);
+    for (std::size_t i = 0; i < uses_.size(); ++i) {
+      for (const DriveStates& states : states_) uses_[i] = uses_[i] & states.use_of(StationId{i});
     }
   }
-  for (std::size_t i = 0; i < in_core_.size(); ++i) {
-    if (in_core_[i]) core_.emplace_back(i);
+  for (std::size_t i = 0; i < uses_.size(); ++i) {
+    if (uses_[i].passed) core_.emplace_back(i);
+    if (uses_[i].stopped) stops_.emplace_back(i);
   }
 }
 
 bool Reachability::may_start_along(std::uint32_t lane) const {
-  return std::ranges::all_of(states_, [&](const DriveStates& states) { return states.in_core(lane); });
+  return std::ranges::all_of(states_, [&](const DriveStates& states) { return states.may_start_along(lane); });
 }
 
-bool Reachability::reaches(StationId from, StationId to) const {
-  if (in_core(from) && in_core(to)) return true;
-  if (states_.empty()) return reaches_without_rules(from, to);
-  return std::ranges::all_of(states_, [&](const DriveStates& states) { return states.reaches(from, to); });
+bool Reachability::reaches(StationId from, StationId to, bool loaded) const {
+  const StationUse &there = use_of(to), &here = use_of(from);
+  if (states_.empty()) return (here.passed && there.passed) || reaches_without_rules(from, to);
+  if (loaded ? here.picks && there.drops : (here.stopped || here.drops) && (there.stopped || there.picks)) return true;
+  return std::ranges::all_of(states_, [&](const DriveStates& states) { return states.reaches(from, to, loaded); });
 }
 
 bool Reachability::reaches_without_rules(StationId from, StationId to) const {

@@ -105,4 +105,22 @@ StrongComponents strong_components(std::size_t nodes, std::span<const Arrow> arr
   return Tarjan(successors, nodes).run();
 }
 
+void reach_along(std::span<const Arrow> arrows, std::vector<bool>& reached) {
+  const Successors successors(reached.size(), arrows);
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t node = 0; node < reached.size(); ++node) {
+    if (reached[node]) open.push_back(node);
+  }
+  while (!open.empty()) {
+    const std::uint32_t node = open.back();
+    open.pop_back();
+    for (std::uint32_t i = successors.first[node]; i < successors.first[node + 1]; ++i) {
+      const std::uint32_t next = successors.to[i];
+      if (reached[next]) continue;
+      reached[next] = true;
+      open.push_back(next);
+    }
+  }
+}
+
 }  // namespace fleetproof

@@ -22,4 +22,7 @@ struct StrongComponents {
 
 StrongComponents strong_components(std::size_t nodes, std::span<const Arrow> arrows);
 
+// Adds to `reached`, by node, every node to which arrows lead from the nodes in it.
+void reach_along(std::span<const Arrow> arrows, std::vector<bool>& reached);
+
 }  // namespace fleetproof

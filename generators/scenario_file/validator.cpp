@@ -19,10 +19,13 @@
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/field_rules.hpp"
 #include "generators/scenario_file/script_check.hpp"
+#include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
 namespace {
+
+constexpr std::size_t kMostNames = 20;
 
 // The way from the scenario to a field. It is turned into a JSON pointer only when there is something to say.
 struct Place {
@@ -234,10 +237,13 @@ class WorldCheck {
 
   Problems run() {
     if (reachability_.core_share() < kSmallestCoreShare) {
+      const bool rules = has_rules(scenario_.map->layout());
       add(ProblemKind::WeakCore, "/layout",
-          fmt::format(
-              "only {}, less than 90 %; add segments that lead back, or leave these stations out (core_only)",
-              has_rules(scenario_.map->layout()) ? core_under_rules() : reachability_text(scenario_.map->layout())));
+          fmt::format("only {}, less than 90 %; {}",
+                      rules ? core_under_rules() : reachability_text(scenario_.map->layout()),
+                      rules && Reachability(*scenario_.map).core_share() >= kSmallestCoreShare
+                          ? "give the fleet the types that the segments are for, or lift these permissions (any_type)"
+                          : "add segments that lead back, or leave these stations out (core_only)"));
     }
     starts();
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) transports(i);
@@ -250,11 +256,15 @@ class WorldCheck {
   }
 
   std::string core_under_rules() const {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scenario_.map->station_count(); ++i) {
+      if (!reachability_.in_core(StationId{i})) names.push_back(scenario_.map->station(StationId{i}).name);
+    }
     return fmt::format(
-        "{} of {} stations can all reach each other by what the layout permits the vehicle types of this fleet (turns, "
-        "headings, loads and types{})",
+        "{} of {} stations can be reached and left by what the layout permits the vehicle types of this fleet (turns, "
+        "headings, loads and types{}); cut off: {}",
         reachability_.core().size(), scenario_.map->station_count(),
-        foreign_types_hint(scenario_.map->layout(), types_of(scenario_)));
+        foreign_types_hint(scenario_.map->layout(), types_of(scenario_)), name_list(names, kMostNames));
   }
 
   void starts() {
@@ -300,19 +310,24 @@ class WorldCheck {
     return grows(one) || grows(other) ? " once loaded" : "";
   }
 
+  std::string_view loads(bool loaded) const {
+    if (!has_rules(scenario_.map->layout())) return "";
+    return loaded ? " for an AGV with a load" : " for an AGV without a load";
+  }
+
   void transports(std::size_t i) {
     const auto& agv = scenario_.agvs[i];
     for (std::size_t k = 0; k < agv.transports.size(); ++k) {
       const auto& order = agv.transports[k];
-      const auto need = [&](StationId from, StationId to, std::string_view field) {
-        if (reachability_.reaches(from, to)) return;
+      const auto need = [&](StationId from, StationId to, std::string_view field, bool loaded) {
+        if (reachability_.reaches(from, to, loaded)) return;
         const auto name = [&](StationId id) { return in_quotes(scenario_.map->station(id).name); };
         add(ProblemKind::Unreachable, fmt::format("/agvs/{}/transports/{}{}", i, k, field),
-            fmt::format("no way leads from {} to {}", name(from), name(to)));
+            fmt::format("no way leads from {} to {}{}", name(from), name(to), loads(loaded)));
       };
-      need(agv.start, order.from, "/from");
-      need(order.from, order.to, "/to");
-      need(order.to, order.from, "/from");
+      need(agv.start, order.from, "/from", false);
+      need(order.from, order.to, "/to", true);
+      need(order.to, order.from, "/from", false);
     }
   }
 

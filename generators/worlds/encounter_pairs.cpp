@@ -41,8 +41,8 @@ class PairMaker {
         type_(scenario.vehicle_types[0]),
         timetable_(map_, type_),
         starts_(places_to_start(map_, reachability)),
-        core_(reachability.core()),
-        goals_(order_ends(map_, reachability)),
+        stops_(reachability.stops()),
+        goals_(order_ends(map_, reachability).picks),
         lanes_to_(map_.station_count(), 0) {
     for (const auto& lane : map_.lanes()) ++lanes_to_[lane.to.index()];
   }
@@ -55,8 +55,8 @@ class PairMaker {
       const bool hasty = i < (ties_ ? kHastyTriesForTies : kHastyTries);
       if (ties_ && best && !hasty) break;  // the rest of the difference is removed by a later start
       const bool head_on = best && !ties_;
-      const std::size_t looked_at = hasty && !ties_ ? kFewOthers : head_on ? core_.size() : kManyOthers;
-      const auto found = draw(draws, hasty ? starts_ : core_, looked_at, head_on);
+      const std::size_t looked_at = hasty && !ties_ ? kFewOthers : head_on ? stops_.size() : kManyOthers;
+      const auto found = draw(draws, hasty ? starts_ : stops_, looked_at, head_on);
       if (!found || (best && !is_better(found->meeting, best->meeting))) continue;
       best = found;
       if (ties_ ? best->meeting.apart() <= kTie : best->meeting.head_on) break;
@@ -241,7 +241,7 @@ class PairMaker {
   bool ties_;
   const VehicleType& type_;
   Timetable timetable_;
-  std::vector<StationId> starts_, core_, goals_;
+  std::vector<StationId> starts_, stops_, goals_;
   std::vector<std::uint32_t> lanes_to_;  // how many, by station
 };
 
@@ -251,7 +251,7 @@ std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_s
                                        const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
                                        RejectionCounts& counts) {
   std::vector<EncounterPair> pairs;
-  if (reachability.core().size() < 2) return pairs;
+  if (reachability.stops().size() < 2 || order_ends(*scenario.map, reachability).picks.empty()) return pairs;
   PairMaker maker(scenario, reachability, placement == Placement::Symmetric, counts);
   while (scenario.agvs.size() + 2 <= fleet_size) {
     ++counts.pairs_wanted;
@@ -263,9 +263,10 @@ std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_s
   return pairs;
 }
 
-void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs) {
-  const auto begin_at = [](TransportOrder& order, StationId goal) {
-    if (order.to == goal) order.to = order.from;
+void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs, const std::vector<StationId>& drops) {
+  const auto begin_at = [&](TransportOrder& order, StationId goal) {
+    if (order.to == goal)
+      order.to = std::ranges::binary_search(drops, order.from) ? order.from : drops[drops[0] == goal ? 1 : 0];
     order.from = goal;
   };
   const auto release = [](std::vector<TransportOrder>& orders, Duration at) {

@@ -24,7 +24,7 @@ struct EncounterPair {
 //   1 s. If no such pair is found, they reach a station by different segments, less than 1 s apart.
 // * Symmetric: they reach a station by different segments at the same instant, if the second AGV leaves `second_after`
 //   the first. This time is less than 1 s, and zero if the layout is symmetric enough.
-// The goals are stations at which transports begin (order_ends()). Obstacles are avoided.
+// The goals are stations at which transports begin (OrderEnds). Obstacles are avoided.
 // Requires: the scenario has map, vehicle type and law.
 std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_size, Placement placement,
                                        const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
@@ -32,6 +32,7 @@ std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_s
 
 // Changes the first transports of every pair: they begin at the goals of the pair. Both are released at the earlier of
 // their two instants, or one of them by `second_after` later. Later transports are not released before the first.
-void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs);
+// `drops`: where transports may end, in ascending order; two stations or more, or one that is no goal.
+void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs, const std::vector<StationId>& drops);
 
 }  // namespace fleetproof

@@ -110,6 +110,7 @@ class Ends {
     for (std::size_t i = 0; i < layout_.stations.size(); ++i) stations_.emplace(layout_.stations[i].name, StationId{i});
   }
 
+  // `column`: "from" or "to".
   StationId find(const std::string& name, std::string_view column, const std::string& place) const {
     const auto found = stations_.find(name);
     if (found == stations_.end()) {
@@ -125,9 +126,16 @@ class Ends {
       throw InputError(place, fmt::format("{} is {}, a station for charging or parking; orders begin and end elsewhere",
                                           column, in_quotes(name)));
     }
-    if (!reachability_.in_core(found->second)) {
+    const StationUse& use = reachability_.use_of(found->second);
+    if (!use.passed) {
       throw InputError(place, fmt::format("{} is {}, but there is no way from or to it; choose another station", column,
                                           in_quotes(name)));
+    }
+    const bool from = column == "from";
+    if (!(from ? use.picks : use.drops)) {
+      throw InputError(place, fmt::format("{} is {}, but the layout does not permit every type of the fleet to {} a "
+                                          "load there (turns, headings, loads and types); choose another station",
+                                          column, in_quotes(name), from ? "pick" : "drop"));
     }
     return found->second;
   }

@@ -33,7 +33,8 @@ OrderList parse_order_list(std::string_view text, std::string_view source);
 
 // Gives the listed orders to the fleet of the scenario, for each AGV in order of release. Orders after the horizon are
 // left out. Throws InputError, with file and line, if an AGV is not in the fleet or a station is not suitable. A
-// station must exist, all other stations must reach it, and it must not be for charging or parking only.
+// station must exist, all other stations must reach it, an AGV must be able to pick or drop there, and it must not be
+// for charging or parking only.
 void assign_listed_orders(Scenario& scenario, const OrderList& list, const Reachability& reachability);
 
 }  // namespace fleetproof

@@ -18,7 +18,7 @@ constexpr std::uint32_t kNoAgv = ~0U;  // item of draws that belong to no AGV
 class Candidates {
  public:
   Candidates(const LogicalMap& map, const Reachability& reachability) {
-    for (const auto station : reachability.core())
+    for (const auto station : reachability.stops())
       (is_place_to_wait(map.station(station)) ? waiting_ : others_).push_back(station);
   }
 
@@ -97,12 +97,16 @@ bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const R
                            std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts) {
   const LogicalMap& map = *scenario.map;
   std::vector<StationId> banks;
-  for (const auto s : reachability.core()) {
+  for (const auto s : reachability.stops()) {
     if (map.station(s).purposes.has(Purpose::Charging)) banks.push_back(s);
   }
   if (banks.empty()) banks = places_to_start(map, reachability);
+  if (banks.empty()) {
+    ++counts.fleets_without_room;
+    return false;
+  }
   const auto bank = banks[Draws(key, attempt, kNoAgv).below(static_cast<std::uint32_t>(banks.size()))];
-  auto stations = reachability.core();
+  auto stations = reachability.stops();
   const auto distance = [&](StationId s) {
     return (map.station(s).position_m - map.station(bank).position_m).squaredNorm();
   };
@@ -119,10 +123,10 @@ bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const R
 
 std::vector<StationId> places_to_start(const LogicalMap& map, const Reachability& reachability) {
   std::vector<StationId> places;
-  for (const auto s : reachability.core()) {
+  for (const auto s : reachability.stops()) {
     if (is_place_to_wait(map.station(s))) places.push_back(s);
   }
-  return places.empty() ? reachability.core() : places;
+  return places.empty() ? reachability.stops() : places;
 }
 
 bool add_agv(Scenario& scenario, StationId start, const Vec2& heading, RejectionCounts& counts) {

@@ -38,9 +38,9 @@ inline constexpr auto kPlacements = kValuesOf<Placement>;
 Placement placement_of_world(Placement placement, std::uint64_t key);
 
 // Adds AGVs of the first vehicle type of the scenario until the fleet has `fleet_size` AGVs. Each AGV stands on a
-// station of the core of its own, heading along a lane that leaves it. Places to park, charge or store come first.
-// `key` is the key of the placement stream, `attempt` its topic. The draws of an AGV do not depend on the AGVs after
-// it. Returns false if there is no room; the scenario then contains the AGVs that found a place.
+// station of its own where it can stop without a load, heading along a lane that leaves it. Places to park, charge or
+// store come first. `key` is the key of the placement stream, `attempt` its topic. The draws of an AGV do not depend on
+// the AGVs after it. Returns false if there is no room; the scenario then contains the AGVs that found a place.
 bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key,
                  std::uint32_t attempt, RejectionCounts& counts);
 
@@ -48,7 +48,8 @@ bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachabilit
 bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability,
                            std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts);
 
-// The places to park, charge or store in the core. If there are none: all stations of the core.
+// The places to park, charge or store where an AGV can stop without a load. If there are none: all stations where it
+// can.
 std::vector<StationId> places_to_start(const LogicalMap& map, const Reachability& reachability);
 
 // Adds an AGV to the fleet. If it would stand too close to another AGV or to an obstacle, loaded bodies counting, it

@@ -16,18 +16,24 @@ struct Demand {
   double hot_spot_skew = 0.0;
 };
 
-// Gives every AGV a Poisson process of transports until the horizon, between two different stations of order_ends().
-// The first transport is released within the first 10 s. Each AGV has its own draws, so a larger fleet or a longer
-// horizon only adds transports. `key` is the key of the transports stream, `attempt` its topic. Returns false if fewer
-// than two stations of the core are for storage. Without two stations, or with rate 0, nothing is assigned.
-bool assign_transports(Scenario& scenario, const Demand& demand, const Reachability& reachability, std::uint64_t key,
-                       std::uint32_t attempt);
+// Where transports begin and end, in ascending order. Every pick has another station in `drops`.
+struct OrderEnds {
+  std::vector<StationId> picks, drops;  // both empty: no AGV can bring a load from one station to another
+  bool storage = false;                 // all of them are for storage
+};
+
+// The storage stations of the core where AGVs can pick, and those where they can drop. If these allow no transport: all
+// stations that may_end_orders(). If those allow none either: all stations.
+OrderEnds order_ends(const LogicalMap& map, const Reachability& reachability);
 
 // False for a station that is for charging or parking only.
 bool may_end_orders(const Station& station);
 
-// The stations of the core at which transports begin and end: the storage stations. If there are fewer than two, all
-// stations that may_end_orders(). If there are still fewer than two, all stations.
-std::vector<StationId> order_ends(const LogicalMap& map, const Reachability& reachability);
+// Gives every AGV a Poisson process of transports until the horizon, between two different stations of order_ends().
+// The first transport is released within the first 10 s. Each AGV has its own draws, so a larger fleet or a longer
+// horizon only adds transports. `key` is the key of the transports stream, `attempt` its topic. Returns false if they
+// do not all lead between stations for storage. Without order ends, or with rate 0, nothing is assigned.
+bool assign_transports(Scenario& scenario, const Demand& demand, const Reachability& reachability, std::uint64_t key,
+                       std::uint32_t attempt);
 
 }  // namespace fleetproof

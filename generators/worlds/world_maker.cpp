@@ -7,12 +7,15 @@
 
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
+#include "core/scenario/lane_rules.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/families/mutated_import.hpp"
+#include "generators/map/permitted_types.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/worlds/encounter_pairs.hpp"
 #include "generators/worlds/placement.hpp"
+#include "generators/worlds/transports.hpp"
 #include "generators/worlds/world_fields.hpp"
 
 namespace fleetproof {
@@ -97,6 +100,7 @@ class WorldMaker {
     // No other draw mends a fixed layout.
     for (const auto& problem : world_problems(scenario_, *reachability_))
       throw InputError(scenario_.map->layout().name, problem.sentence);
+    if (spec.orders == nullptr && spec.demand.transports_per_agv_hour > 0.0) expect_order_ends();
   }
 
   bool attempt(std::uint32_t number) {
@@ -168,7 +172,7 @@ class WorldMaker {
     const Demand& demand = spec_.demand;
     const bool stored = assign_transports(scenario_, demand, *reachability_, key_of(Stream::Transports),
                                           attempt_of(Stream::Transports, number));
-    send_to_meet(scenario_, pairs_);
+    if (!pairs_.empty()) send_to_meet(scenario_, pairs_, order_ends(*scenario_.map, *reachability_).drops);
     return stored;
   }
 
@@ -190,6 +194,17 @@ class WorldMaker {
         left -= spec_.vehicles[type++].share;
       scenario_.agvs[i].type = type;
     }
+  }
+
+  void expect_order_ends() const {
+    const LogicalMap& map = *scenario_.map;
+    if (!has_rules(map.layout()) || !order_ends(map, *reachability_).picks.empty()) return;
+    throw InputError(
+        map.layout().name,
+        fmt::format("no AGV can pick a load at one station and drop it at another by what the layout permits the "
+                    "vehicle types of this fleet (turns, headings, loads and types{}); change that, or ask for no "
+                    "transports (transports_per_agv_hour = 0)",
+                    foreign_types_hint(map.layout(), names_of(spec_.vehicles))));
   }
 
   std::uint64_t key_of(Stream stream) const { return stream_key(scenario_.seed_of(stream), stream); }

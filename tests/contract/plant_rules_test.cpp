@@ -10,6 +10,7 @@
 #include "core/engine/simulation.hpp"
 #include "laws/laws.hpp"
 #include "tests/oracle/whole_runs.hpp"
+#include "tests/support/source_and_sink.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof::oracle {
@@ -315,6 +316,52 @@ TEST(PlantRulesOracle, TheReferenceAgentsKeepTheRules) {
     EXPECT_GT(alone.counters.transports_done, 3U) << "reckless, seed " << seed;
   }
   EXPECT_GT(done, 60U);
+}
+
+// No AGV makes way into the source, from where it would not come back without a load, and none announces a way that is
+// not permitted with the load that it has then: the others would believe no word of it.
+TEST(PlantRulesOracle, LoadsGoFromSourceToSink) {
+  const AgentPrograms programs;
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(test::source_and_sink());
+  spec.demand.transports_per_agv_hour = 60.0;
+  spec.horizon = std::chrono::minutes(20);
+  std::uint64_t alone = 0, together = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    for (const std::uint32_t fleet : {1U, 2U, 3U}) {
+      spec.fleet_size = fleet;
+      RejectionCounts counts;
+      Scenario scenario = generate_world(spec, seed, counts);
+      scenario.radio.loss = seed % 2 == 0 ? 0.0 : 0.4;
+      scenario.radio.delay_s = seed % 2 == 0 ? 0.0 : 1.0;
+      std::vector<std::unique_ptr<Law>> laws;
+      laws.push_back(find_law("exact")->make(scenario));
+      const Outcome outcome = simulate(scenario, programs.find("hull-lock", "test"), laws);
+      EXPECT_TRUE(laws[0]->findings().violations.empty()) << "seed " << seed;
+      EXPECT_EQ(outcome.counters.refused_calls, 0U) << "seed " << seed;
+      EXPECT_GT(outcome.counters.transports_done, 3U) << "seed " << seed << ", " << fleet << " AGVs";
+      (fleet == 1 ? alone : together) += outcome.counters.transports_done;
+    }
+  }
+  EXPECT_GT(together, 2 * alone) << "of 2 and 3 AGVs together";
+}
+
+TEST(PlantRulesOracle, AnOrderThatThePlantForbidsHoldsUpNobodyElse) {
+  const AgentPrograms programs;
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(test::source_and_sink());
+  spec.demand.transports_per_agv_hour = 0.0;
+  spec.fleet_size = 2;
+  spec.horizon = std::chrono::minutes(20);
+  RejectionCounts counts;
+  Scenario scenario = generate_world(spec, 1, counts);
+  const StationId source{6U}, sink{7U}, charger{8U}, shelf{9U};
+  scenario.agvs[0].start = charger, scenario.agvs[0].heading = {1.0, 0.0};
+  scenario.agvs[1].start = StationId{4U}, scenario.agvs[1].heading = {-1.0, 0.0};
+  scenario.agvs[0].transports = {{shelf, source, Duration{}}, {source, sink, Duration{}}};
+  for (int i = 0; i < 4; ++i) scenario.agvs[1].transports.push_back({source, sink, Duration{}});
+  const Outcome outcome = simulate(scenario, programs.find("hull-lock", "test"), {});
+  EXPECT_EQ(outcome.counters.transports_done, 4U);
 }
 
 }  // namespace

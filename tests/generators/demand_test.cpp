@@ -98,7 +98,9 @@ TEST(OrderEnds, AreNeverStationsForChargingOrParking) {
        {std::pair{Purpose::Storage, 2U}, {Purpose::Routing, 2U}, {Purpose::Parking, 4U}}) {
     layout.stations[0].purposes = layout.stations[1].purposes = purposes;
     const LogicalMap map(layout);
-    EXPECT_EQ(order_ends(map, Reachability(map)).size(), expected);
+    const OrderEnds ends = order_ends(map, Reachability(map));
+    EXPECT_EQ(ends.picks.size(), expected);
+    EXPECT_EQ(ends.drops, ends.picks);
   }
 }
 

@@ -32,7 +32,7 @@ TEST(Reachability, AgreesWithFloydWarshallOnRandomMaps) {
     for (std::size_t i = 0; i < reach.size(); ++i) {
       std::size_t mutual = 0;
       for (std::size_t k = 0; k < reach.size(); ++k) {
-        EXPECT_EQ(reachability.reaches(StationId{i}, StationId{k}), reach[i][k]) << seed;
+        EXPECT_EQ(reachability.reaches(StationId{i}, StationId{k}, false), reach[i][k]) << seed;
         if (reach[i][k] && reach[k][i]) ++mutual;
       }
       largest = std::max(largest, mutual);
@@ -63,42 +63,96 @@ Layout line_of_three() {
   return layout;
 }
 
-std::size_t core_of(const Layout& layout, std::vector<std::string> types = {"tugger"}) {
+// What AGVs of all these types can do at the stations, in their order: "-" nothing, or some of "pass", "stop", "pick"
+// and "drop".
+std::string uses_of(const Layout& layout, std::vector<std::string> types = {"tugger"}) {
   const LogicalMap map(layout);
-  return Reachability(map, types).core().size();
+  const Reachability reachability(map, types);
+  std::string text;
+  for (std::size_t i = 0; i < layout.stations.size(); ++i) {
+    const StationUse& use = reachability.use_of(StationId{i});
+    if (i > 0) text += ", ";
+    if (!use.passed) text += "-";
+    if (use.passed && !use.stopped && !use.picks && !use.drops) text += "pass";
+    if (use.stopped) text += "stop";
+    if (use.picks) text += use.stopped ? " pick" : "pick";
+    if (use.drops) text += use.stopped || use.picks ? " drop" : "drop";
+  }
+  return text;
 }
+
+constexpr const char* kAll = "stop pick drop";
+std::string two_and(const std::string& third) { return std::string(kAll) + ", " + kAll + ", " + third; }
 
 TEST(ReachabilityUnderRules, ADeadEndWithoutTurningIsATrapUnlessOneBacksOut) {
   Layout layout = line_of_three();
   layout.stations[2].turning = false;
-  EXPECT_EQ(core_of(layout), 2U);
-  EXPECT_TRUE(Reachability(LogicalMap(layout)).reaches(StationId{0U}, StationId{2U})) << "one gets in";
+  EXPECT_EQ(uses_of(layout), two_and("-"));
+  EXPECT_TRUE(Reachability(LogicalMap(layout)).reaches(StationId{0U}, StationId{2U}, true)) << "one gets in";
   layout.segments[1].back_travel = Travel::Backward;
-  EXPECT_EQ(core_of(layout), 3U);
+  EXPECT_EQ(uses_of(layout), two_and(kAll));
 }
 
 TEST(ReachabilityUnderRules, AHeadingMustBePossible) {
   Layout layout = line_of_three();
   layout.stations[2].heading = Vec2(-1.0, 0.0);
-  EXPECT_EQ(core_of(layout), 2U);
+  EXPECT_EQ(uses_of(layout), two_and("pass"));
   layout.segments[1].travel = Travel::Either;
-  EXPECT_EQ(core_of(layout), 3U);
+  EXPECT_EQ(uses_of(layout), two_and(kAll));
 }
 
-TEST(ReachabilityUnderRules, PermissionsCountForEveryTypeAndLoad) {
+TEST(ReachabilityUnderRules, PermissionsCountForEveryType) {
   Layout layout = line_of_three();
   layout.segments[1].permissions = {{"tugger", LoadState::Any}};
-  EXPECT_EQ(core_of(layout), 3U);
-  EXPECT_EQ(core_of(layout, {"tugger", "forklift"}), 2U);
-  EXPECT_EQ(core_of(layout, {}), 3U) << "no fleet yet: all permissions";
+  EXPECT_EQ(uses_of(layout), two_and(kAll));
+  EXPECT_EQ(uses_of(layout, {"tugger", "forklift"}), two_and("-"));
+  EXPECT_EQ(uses_of(layout, {}), two_and(kAll)) << "no fleet yet: all permissions";
+}
+
+TEST(ReachabilityUnderRules, PermissionsCountForEveryLoad) {
+  Layout layout = line_of_three();
   layout.segments[1].permissions = {{"", LoadState::Loaded}};
-  EXPECT_EQ(core_of(layout), 2U) << "nobody gets there to take a load up";
-  layout.segments.push_back({"c-b", StationId{2U}, StationId{1U}, false});
+  EXPECT_EQ(uses_of(layout), two_and("pass")) << "nobody gets there to take a load up, or away without one";
   layout.segments[1].bidirectional = false;
-  EXPECT_EQ(core_of(layout), 2U) << "there with a load, back without one: nothing can be fetched";
-  layout.segments.push_back({"b-c 2", StationId{1U}, StationId{2U}, true});
+  layout.segments.push_back({"c-b", StationId{2U}, StationId{1U}, false});
+  EXPECT_EQ(uses_of(layout), two_and("drop")) << "there with a load, back without one";
+  layout.segments[1].permissions = {{"", LoadState::Empty}};
+  EXPECT_EQ(uses_of(layout), two_and("stop pick"));
+  layout.segments[2].permissions = {{"", LoadState::Loaded}};
+  EXPECT_EQ(uses_of(layout), two_and("pick")) << "who comes must take a load away";
+  layout.segments[2].permissions = {{"", LoadState::Empty}};
+  EXPECT_EQ(uses_of(layout), two_and("stop")) << "a charger";
+}
+
+TEST(ReachabilityUnderRules, LoadsMayGoRoundOneWayAndNoFurther) {
+  Layout layout = line_of_three();
+  for (Segment& segment : layout.segments) segment.bidirectional = false;
+  layout.segments[0].permissions = layout.segments[1].permissions = {{"", LoadState::Loaded}};
+  layout.segments.push_back({"c-a", StationId{2U}, StationId{0U}, false});
   layout.segments.back().permissions = {{"", LoadState::Empty}};
-  EXPECT_EQ(core_of(layout), 3U) << "c-b is for all";
+  EXPECT_EQ(uses_of(layout), "pick, pass, drop");
+  layout.stations.push_back({"d", {0.0, 5.0}});
+  layout.segments.insert(layout.segments.begin(), {"a-d", StationId{0U}, StationId{3U}, false});
+  EXPECT_EQ(uses_of(layout), "pick, pass, drop, -") << "a dead end is as many lanes, and comes first";
+  EXPECT_TRUE(Reachability(LogicalMap(layout)).stops().empty()) << "where would one start without a load?";
+}
+
+TEST(ReachabilityUnderRules, LoadsFromTwoSourcesMeetOnTheirWayToOneSink) {
+  Layout layout;
+  layout.stations = {{"source 1", {0.0, 0.0}}, {"source 2", {0.0, 5.0}}, {"fork", {5.0, 0.0}}, {"sink", {10.0, 0.0}}};
+  const auto join = [&](std::uint32_t from, std::uint32_t to, LoadState load) {
+    layout.segments.push_back({std::to_string(layout.segments.size()), StationId{from}, StationId{to}, false});
+    layout.segments.back().permissions = {{"", load}};
+  };
+  join(0, 2, LoadState::Loaded), join(1, 2, LoadState::Loaded), join(2, 3, LoadState::Loaded);
+  join(3, 0, LoadState::Empty), join(3, 1, LoadState::Empty);
+  EXPECT_EQ(uses_of(layout), "pick, pick, pass, drop");
+}
+
+TEST(ReachabilityUnderRules, WhereNoAgvGetsOutWithoutALoadNoneBelongs) {
+  Layout layout = line_of_three();
+  for (Segment& segment : layout.segments) segment.permissions = {{"", LoadState::Loaded}};
+  EXPECT_EQ(uses_of(layout), "-, -, -");
 }
 
 }  // namespace

@@ -1,0 +1,183 @@
+// Worlds in a plant where AGVs only pick at one station, only drop at another, and charge without a load.
+#include <gmock/gmock.h>
+
+#include <map>
+#include <set>
+
+#include "core/base/error.hpp"
+#include "generators/map/core_only.hpp"
+#include "generators/worlds/encounter_pairs.hpp"
+#include "generators/worlds/order_list.hpp"
+#include "generators/worlds/transports.hpp"
+#include "generators/worlds/world_maker.hpp"
+#include "tests/support/source_and_sink.hpp"
+
+namespace fleetproof {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> names(const LogicalMap& map, const std::vector<StationId>& stations) {
+  std::vector<std::string> all;
+  for (const StationId station : stations) all.push_back(map.station(station).name);
+  return all;
+}
+
+TEST(OrderEnds, AreWhereThePlantPermitsPicksAndDrops) {
+  const LogicalMap map(test::source_and_sink());
+  const Reachability reachability(map);
+  const OrderEnds ends = order_ends(map, reachability);
+  EXPECT_THAT(names(map, ends.picks), ElementsAre("source", "shelf"));
+  EXPECT_THAT(names(map, ends.drops), ElementsAre("sink", "shelf"));
+  EXPECT_TRUE(ends.storage);
+  EXPECT_EQ(reachability.core().size(), map.station_count());
+  EXPECT_THAT(names(map, reachability.stops()), ElementsAre("r0", "r1", "r2", "r3", "r4", "r5", "charger", "shelf"));
+}
+
+TEST(OrderEnds, EveryPickHasAnotherDrop) {
+  Layout layout = test::source_and_sink();
+  layout.stations[6].purposes = Purpose::Routing;  // what is left are a sink and a shelf
+  const LogicalMap map(layout);
+  const OrderEnds ends = order_ends(map, Reachability(map));
+  EXPECT_THAT(names(map, ends.picks), ElementsAre("shelf"));
+  layout.stations[7].purposes = Purpose::Routing;
+  const LogicalMap shelf(layout);
+  EXPECT_FALSE(order_ends(shelf, Reachability(shelf)).storage) << "from the shelf to the shelf is no transport";
+  layout.stations[6].purposes = layout.stations[7].purposes = Purpose::Storage;
+  layout.stations[9].purposes = Purpose::Routing;
+  const LogicalMap two(layout);
+  const OrderEnds one_way = order_ends(two, Reachability(two));
+  EXPECT_THAT(names(two, one_way.picks), ElementsAre("source"));
+  EXPECT_THAT(names(two, one_way.drops), ElementsAre("sink"));
+}
+
+TEST(OrderEnds, HoldForEveryPlacementAndDemand) {
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(test::source_and_sink());
+  spec.fleet_size = 2;
+  std::map<std::string, int> orders;
+  std::set<std::string> starts;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    spec.placement = kPlacements[seed % kPlacements.size()];
+    spec.demand = {120.0, seed % 2 == 0 ? 0.0 : 2.0};
+    RejectionCounts counts;
+    const Scenario s = generate_world(spec, seed, counts);
+    for (const AgvSetup& agv : s.agvs) {
+      starts.insert(s.map->station(agv.start).name);
+      for (const auto& order : agv.transports)
+        ++orders[s.map->station(order.from).name + " to " + s.map->station(order.to).name];
+    }
+  }
+  EXPECT_EQ(orders.size(), 3U);
+  for (const char* order : {"source to sink", "source to shelf", "shelf to sink"})
+    EXPECT_GT(orders[order], 300) << order;
+  EXPECT_FALSE(starts.contains("source") || starts.contains("sink"));
+  EXPECT_TRUE(starts.contains("charger") && starts.contains("shelf"));
+}
+
+TEST(OrderEnds, HoldForPairsThatAreSentToMeet) {
+  const Layout layout = test::source_and_sink();
+  Scenario scenario;
+  scenario.map = std::make_shared<const LogicalMap>(layout);
+  scenario.horizon = std::chrono::minutes(1);
+  const StationId source{6U}, sink{7U}, shelf{9U};
+  scenario.agvs.resize(2);
+  scenario.agvs[0].transports = {{source, shelf, Duration{}}};
+  scenario.agvs[1].transports = {{shelf, sink, Duration{}}};
+  send_to_meet(scenario, {{0, 1, shelf, source, Duration{}}}, {sink, shelf});
+  EXPECT_EQ(scenario.agvs[0].transports[0].from, shelf);
+  EXPECT_EQ(scenario.agvs[0].transports[0].to, sink) << "nothing can be dropped at the source";
+  EXPECT_EQ(scenario.agvs[1].transports[0].from, source);
+  EXPECT_EQ(scenario.agvs[1].transports[0].to, sink);
+  scenario.agvs[1].transports = {{shelf, sink, Duration{}}};
+  send_to_meet(scenario, {{0, 1, shelf, sink, Duration{}}}, {sink, shelf});
+  EXPECT_EQ(scenario.agvs[1].transports[0].to, shelf) << "to and fro, as before";
+}
+
+// With a skew, the busiest of two sources is 2^skew times as busy as the other.
+TEST(OrderEnds, ShareTheTrafficAmongPicksAndAmongDrops) {
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(test::source_and_sink());
+  spec.fleet_size = 1;
+  spec.demand = {3600.0, 1.0};
+  spec.horizon = std::chrono::hours(5);
+  const double shares[] = {1.0, 1.0 / 2.0, 1.0 / 3.0};  // of source, sink and shelf, in a drawn order
+  std::set<std::size_t> seen;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RejectionCounts counts;
+    const Scenario s = generate_world(spec, seed, counts);
+    double of_source = 0.0;
+    for (const auto& order : s.agvs[0].transports)
+      of_source +=
+          (s.map->station(order.from).name == "source" ? 1.0 : 0.0) / static_cast<double>(s.agvs[0].transports.size());
+    std::size_t ranks = 0, nearest = 0;
+    double off = 1.0;
+    for (const double source : shares) {
+      for (const double shelf : shares) {
+        ++ranks;
+        if (source == shelf || std::abs(of_source - source / (source + shelf)) > off) continue;
+        off = std::abs(of_source - source / (source + shelf));
+        nearest = ranks;
+      }
+    }
+    EXPECT_LT(off, 0.02) << seed;
+    seen.insert(nearest);
+  }
+  EXPECT_EQ(seen.size(), 6U);
+}
+
+TEST(OrderEnds, AListMustRespectThem) {
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(test::source_and_sink());
+  spec.fleet_size = 1;
+  const auto refusal = [&](const std::string& order) -> std::string {
+    spec.orders =
+        std::make_shared<const OrderList>(parse_order_list("release_s,from,to\n1," + order + "\n", "orders.csv"));
+    RejectionCounts counts;
+    try {
+      generate_world(spec, 1, counts);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal("source,sink"), "accepted");
+  EXPECT_THAT(refusal("sink,shelf"), HasSubstr("orders.csv:2: from is \"sink\", but the layout does not permit every "
+                                               "type of the fleet to pick a load there"));
+  EXPECT_THAT(refusal("shelf,source"), HasSubstr("orders.csv:2: to is \"source\", but the layout does not permit every "
+                                                 "type of the fleet to drop a load there"));
+}
+
+TEST(OrderEnds, APlantWithoutAnyIsRefused) {
+  Layout layout = test::source_and_sink();
+  for (Segment& segment : layout.segments) segment.permissions = {{"", LoadState::Empty}};
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(layout);
+  spec.fleet_size = 1;
+  RejectionCounts counts;
+  EXPECT_THAT([&] { generate_world(spec, 1, counts); },
+              testing::ThrowsMessage<InputError>(HasSubstr("no AGV can pick a load at one station and drop it at "
+                                                           "another by what the layout permits")));
+  spec.demand.transports_per_agv_hour = 0.0;
+  EXPECT_NO_THROW(generate_world(spec, 1, counts));
+}
+
+TEST(LimitedUses, AreToldByName) {
+  Layout layout = test::source_and_sink();
+  EXPECT_THAT(limited_uses(layout), ElementsAre(HasSubstr("only picks (turns, headings, loads): \"source\""),
+                                                HasSubstr("only drops (turns, headings, loads): \"sink\"")));
+  EXPECT_EQ(reachability_text(layout), "all 10 stations can be reached and left");
+  layout.stations[8].heading = Vec2(0.0, 1.0);
+  layout.stations[9].heading = Vec2(0.0, 1.0);
+  EXPECT_THAT(limited_uses(layout), ElementsAre(HasSubstr("source"), HasSubstr("sink"),
+                                                HasSubstr("no pick and no drop (turns, headings, loads): \"shelf\""),
+                                                HasSubstr("no stop without a load (turns, headings, loads): "
+                                                          "\"charger\"")));
+  for (Segment& segment : layout.segments) segment.permissions.clear();
+  for (Station& station : layout.stations) station.heading.reset();
+  EXPECT_TRUE(limited_uses(layout).empty());
+}
+
+}  // namespace
+}  // namespace fleetproof
