@@ -13,6 +13,7 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
+#include "core/scenario/vehicle_fields.hpp"
 #include "generators/formats/heading.hpp"
 #include "generators/formats/lif_layouts.hpp"
 #include "generators/formats/lif_left_out.hpp"
@@ -102,6 +103,7 @@ class LifReader {
       if (!sentence.empty()) warn(layout, sentence);
     };
     tell(types_.sentence());
+    tell(types_.sentence_on_open());
     for (const auto& sentence : turns_.settle(layout_)) tell(sentence);
     if (told_.of_types > 0)
       tell(fmt::format("{} edges have a speed limit for each type of vehicle; the lowest is taken for all",
@@ -207,9 +209,17 @@ class LifReader {
   void limit_speed(const std::vector<JsonReader>& types, Segment& segment) {
     std::vector<double> limits_mps;
     for (const auto& type : types) {
-      const auto limit = either(type, "maxSpeed", "maximumSpeed");
-      if (limit && !(limit->number() > 0.0)) limit->refuse("expected a speed above 0 m/s");
-      limits_mps.push_back(limit ? limit->number() : std::numeric_limits<double>::infinity());
+      limits_mps.push_back(std::numeric_limits<double>::infinity());
+      for (const char* key : {"maxSpeed", "maximumSpeed"}) {
+        const auto limit = type.find(key);
+        if (!limit) continue;
+        if (!(limit->number() >= kSlowest && limit->number() <= kFastest))
+          limit->refuse(fmt::format("expected a speed of {} to {} m/s", kSlowest, kFastest));
+        if (std::isfinite(limits_mps.back()) && limits_mps.back() != limit->number())
+          warn(*limit, fmt::format("edge {} has two speed limits, \"maxSpeed\" and \"maximumSpeed\"; the lower counts",
+                                   in_quotes(segment.name)));
+        limits_mps.back() = std::min(limits_mps.back(), limit->number());
+      }
     }
     if (limits_mps.empty()) return;
     const auto [lowest, highest] = std::ranges::minmax(limits_mps);
@@ -266,6 +276,7 @@ class LifReader {
   }
 
   void note_station(const JsonReader& station) {
+    if (const auto id = station.find("stationId")) name_in(*id, ids_.stations);
     for (const auto& id : station.at("interactionNodeIds").items()) {
       const auto node = station_in(id);
       if (!node || stated_.contains(node->index())) continue;
@@ -297,7 +308,7 @@ class LifReader {
   Layout layout_;
   std::vector<JsonReader> nodes_, edges_;  // by station and by segment, as long as no two segments are merged
   struct {
-    std::set<std::string> nodes, edges, elsewhere;
+    std::set<std::string> nodes, edges, stations, elsewhere;
   } ids_;
   std::map<std::string, StationId> stations_;
   std::map<std::size_t, Purposes> stated_;  // by station: given in the description of the station

@@ -76,7 +76,9 @@ LifTypes::LifTypes(const std::vector<JsonReader>& nodes, const std::vector<JsonR
 }
 
 void LifTypes::note(const JsonReader& element) {
-  for (const auto& rule : rules_by_type(element)) {
+  const auto rules = rules_by_type(element);
+  if (rules.empty()) ++open_;
+  for (const auto& rule : rules) {
     for (const auto& name : types_of(rule)) {
       if (!name.empty() && std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
     }
@@ -103,6 +105,11 @@ void LifTypes::count(const std::vector<Permission>& permissions) {
   ++edges_;
   const auto is_named = [](const Permission& one) { return !one.vehicle_type.empty(); };
   restricted_ += std::ranges::any_of(permissions, is_named) ? 1 : 0;
+}
+
+std::string LifTypes::sentence_on_open() const {
+  if (names_.empty() || open_ == 0) return "";
+  return fmt::format("{} nodes and edges have no rule for any type of vehicle; here all types may use them", open_);
 }
 
 std::string LifTypes::sentence() const {

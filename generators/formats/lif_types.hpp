@@ -33,12 +33,15 @@ class LifTypes {
 
   // What happens to the names of types, as a sentence; empty if the layout names none.
   std::string sentence() const;
+  // The same about nodes and edges without any rule, where others have rules.
+  std::string sentence_on_open() const;
 
  private:
   void note(const JsonReader& element);
 
   std::vector<std::string> names_;  // in the order of the file
   std::size_t edges_ = 0, restricted_ = 0;
+  std::size_t open_ = 0;  // nodes and edges without any rule
 };
 
 }  // namespace fleetproof

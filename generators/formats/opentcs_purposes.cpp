@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace fleetproof {
 namespace {
@@ -11,19 +12,39 @@ struct KnownWord {
   std::string_view word;
   Purpose purpose;
 };
+// Beginnings of words.
 constexpr KnownWord kKnownWords[] = {
-    {"charg", Purpose::Charging},  {"load", Purpose::Storage},    {"transfer", Purpose::Storage},
-    {"storage", Purpose::Storage}, {"store", Purpose::Storage},   {"pick", Purpose::Storage},
-    {"drop", Purpose::Storage},    {"deliver", Purpose::Storage}, {"fetch", Purpose::Storage},
-    {"jacking", Purpose::Storage}, {"pack", Purpose::Storage},    {"work", Purpose::Storage},
-    {"park", Purpose::Parking},
+    {"charg", Purpose::Charging},  {"recharg", Purpose::Charging}, {"load", Purpose::Storage},
+    {"unload", Purpose::Storage},  {"transfer", Purpose::Storage}, {"storage", Purpose::Storage},
+    {"store", Purpose::Storage},   {"pick", Purpose::Storage},     {"drop", Purpose::Storage},
+    {"deliver", Purpose::Storage}, {"fetch", Purpose::Storage},    {"jacking", Purpose::Storage},
+    {"pack", Purpose::Storage},    {"work", Purpose::Storage},     {"park", Purpose::Parking},
 };
 
-std::optional<Purposes> known_in(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+bool is_small(char c) { return c >= 'a' && c <= 'z'; }
+bool is_large(char c) { return c >= 'A' && c <= 'Z'; }
+
+// "Load cargo", "LOAD_CARGO", "load:2" and "LoadCargo": in small letters. What is no letter from A to Z parts words.
+std::vector<std::string> words_in(std::string_view text) {
+  std::vector<std::string> words(1);
+  char before = ' ';
+  for (const char c : text) {
+    if ((is_small(before) && is_large(c)) || !(is_small(c) || is_large(c))) words.emplace_back();
+    if (is_small(c) || is_large(c)) words.back() += is_large(c) ? static_cast<char>(c - 'A' + 'a') : c;
+    before = c;
+  }
+  std::erase(words, "");
+  return words;
+}
+
+std::optional<Purposes> known_in(std::string_view text) {
   std::optional<Purposes> purposes;
-  for (const auto& [word, purpose] : kKnownWords) {
-    if (text.find(word) != std::string::npos) purposes = purposes.value_or(Purpose::Routing) | purpose;
+  bool denied = false;  // "no parking"
+  for (const std::string& said : words_in(text)) {
+    for (const auto& [word, purpose] : kKnownWords) {
+      if (!denied && said.starts_with(word)) purposes = purposes.value_or(Purpose::Routing) | purpose;
+    }
+    denied = said == "no" || said == "not" || said == "non" || said == "without";
   }
   return purposes;
 }

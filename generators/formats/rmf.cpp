@@ -40,6 +40,9 @@ class LevelReader {
     if (vertices_.empty()) yaml_.refuse(vertices, "the level is empty: it has no vertex");
     is_nav_graph_ = read_.is_nav_graph =
         !vertices_[0].IsSequence() || vertices_[0].size() < 3 || vertices_[0][2].IsMap();
+    if (is_nav_graph_ && choice_.graph_idx != 0)
+      throw InputError(yaml_.source(),
+                       fmt::format("is a nav graph, which is one graph alone; leave out graph {}", choice_.graph_idx));
     read_scale(level);
     std::size_t place = 0;
     for (const auto lane : lanes) add_lane(lane, place++);

@@ -76,6 +76,9 @@ TEST(LifRules, ATypeNeedsARuleAtTheEdgeAndAtBothNodes) {
   EXPECT_THAT(permissions(plant, 2), ElementsAre("fork:any")) << "an edge without rules is for all that may be there";
   EXPECT_THAT(plant.sentences, HasSubstr("3 of 3 edges are for some types of vehicles only"));
   EXPECT_THAT(plant.sentences, HasSubstr("(\"fork\", \"tug\")"));
+  EXPECT_THAT(plant.sentences, HasSubstr("1 nodes and edges have no rule for any type of vehicle; here all types may"));
+  EXPECT_THAT(import({kBoth, kBoth, kFork, kTug, kBoth, kFork}).sentences, Not(HasSubstr("have no rule")));
+  EXPECT_THAT(import({"", "", "", "", "", ""}).sentences, Not(HasSubstr("have no rule"))) << "a file without types";
 }
 
 TEST(LifRules, AnEdgeForNobodyIsLeftOut) {

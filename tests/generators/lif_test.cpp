@@ -173,22 +173,35 @@ TEST(Lif, EachDirectionHasItsSpeedLimitInEitherSpelling) {
   EXPECT_EQ(read.layout.segments[0].back_speed_limit_mps, 0.4);
   for (const std::string& warning : read.warnings) EXPECT_EQ(warning.find("speed"), std::string::npos) << warning;
   expect_round_trip(read.layout);
-  EXPECT_NE(refusal(sample(", \"maxSpeed\": 0")).find("maxSpeed: 0 is refused: expected a speed above 0 m/s"),
-            std::string::npos);
+  for (const char* speed : {"0", "-1", "0.0009", "100.1", "1e300"}) {
+    const std::string said = refusal(sample(std::string(", \"maxSpeed\": ") + speed));
+    EXPECT_EQ(said.find("l.json:7: /layouts/0/edges/0/vehicleTypeEdgeProperties/0/maxSpeed: "), 0U) << said;
+    EXPECT_NE(said.find("is refused: expected a speed of 0.001 to 100 m/s"), std::string::npos) << said;
+  }
 }
 
-TEST(Lif, OfSpeedLimitsByTypeTheLowestIsTakenAndToldSo) {
-  const auto read = import(sample(", \"maxSpeed\": 1.2}, {\"vehicleTypeId\": \"w\", \"maxSpeed\": 0.8",
-                                  ", \"maxSpeed\": 2}, {\"vehicleTypeId\": \"w\""));
-  EXPECT_EQ(read.layout.segments[0].speed_limit_mps, 0.8);
-  EXPECT_EQ(read.layout.segments[0].back_speed_limit_mps, 2.0);
-  EXPECT_EQ(std::ranges::count_if(read.warnings,
-                                  [](const std::string& warning) {
-                                    return warning.find(
-                                               "2 edges have a speed limit for each type of vehicle; the "
-                                               "lowest is taken") != std::string::npos;
-                                  }),
-            1);
+TEST(Lif, OfTwoSpeedLimitsTheLowerCountsAndIsTold) {
+  for (const char* both : {R"(, "maxSpeed": 1.2, "maximumSpeed": 0.8)", R"(, "maximumSpeed": 1.2, "maxSpeed": 0.8)"}) {
+    const auto read = import(sample(both));
+    EXPECT_EQ(read.layout.segments[0].speed_limit_mps, 0.8);
+    ASSERT_EQ(read.warnings.size(), 1U);
+    EXPECT_NE(read.warnings[0].find("edge \"ab\" has two speed limits, \"maxSpeed\" and \"maximumSpeed\""),
+              std::string::npos);
+  }
+  EXPECT_TRUE(import(sample(R"(, "maxSpeed": 1.2, "maximumSpeed": 1.2)")).warnings.empty());
+}
+
+TEST(Lif, TwoStationsWithOneIdAreRefused) {
+  const auto with = [](const std::string& id) {
+    std::string text = sample();
+    text.insert(text.rfind("}]}"), R"(, "stations": [{"stationId": "s", "interactionNodeIds": ["a"]},
+{"stationId": ")" + id + R"(", "interactionNodeIds": ["b"]}])");
+    return text;
+  };
+  EXPECT_EQ(refusal(with("t")), "accepted");
+  EXPECT_NE(refusal(with("s")).find("stations/1/stationId: \"s\" is refused: this id is taken already"),
+            std::string::npos)
+      << refusal(with("s"));
 }
 
 TEST(Lif, TheCrossdockComesBackWithItsTwinsAsOne) {

@@ -39,6 +39,15 @@ const Case kCases[] = {
     {"Fire door", "", "NONE", "routing",
      "m.xml:4: location type \"Fire door\" says nothing that is known here; its points keep their purposes, unless you "
      "name one (--purposes \"Fire door=storage\")"},
+    {"LoadingDock", "", "NONE", "routing storage",
+     "m.xml:4: the operations of location type \"LoadingDock\" say nothing that is known here; by its name it is taken "
+     "to "
+     "be for storage"},
+    {"29", "<allowedOperation name='unloadPallet'/><allowedOperation name='recharge2'/>", "",
+     "routing storage charging", ""},
+    {"Network check", "<allowedOperation name='DOWNLOAD_MAP'/><allowedOperation name='NO_LOAD_HERE'/>", "", "routing",
+     "m.xml:4: location type \"Network check\" says nothing that is known here; its points keep their purposes, unless "
+     "you name one (--purposes \"Network check=storage\")"},
 };
 
 struct Import {

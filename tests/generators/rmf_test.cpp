@@ -112,6 +112,12 @@ TEST(Rmf, ANavGraphIsInMetresAndItsLanesArePaired) {
   EXPECT_EQ(layout.stations[2].purposes, Purposes(Purpose::Routing));
   ASSERT_EQ(layout.segments.size(), 2U);
   EXPECT_TRUE(layout.segments[0].bidirectional);
+  EXPECT_EQ(independent::refusal(
+                [](const std::string& text) {
+                  import_graph(text, {"", 7});
+                },
+                kNavGraph),
+            "b.yaml: is a nav graph, which is one graph alone; leave out graph 7");
 }
 
 TEST(Rmf, ScalesOfOtherKinds) {
