@@ -15,6 +15,7 @@
 #include "core/base/tolerances.hpp"
 #include "core/scenario/vehicle_fields.hpp"
 #include "generators/formats/heading.hpp"
+#include "generators/formats/lif_corridor.hpp"
 #include "generators/formats/lif_layouts.hpp"
 #include "generators/formats/lif_left_out.hpp"
 #include "generators/formats/lif_spots.hpp"
@@ -199,6 +200,7 @@ class LifReader {
       if (!trajectory) trajectory = type.find("trajectory");
     }
     limit_speed(types, segment);
+    segment.width_m = corridor_width_m(types);
     turns_.add(edge, segment.from, segment.to, travel_.add(types, segment));
     if (trajectory) bend(*trajectory, segment);
     layout_.segments.push_back(std::move(segment));

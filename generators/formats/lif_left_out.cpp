@@ -20,6 +20,9 @@ constexpr Topic kLoads{"{0} edges are for sets of loads ({1}); here all loads ar
 constexpr Topic kReentry{"{0} edges have rules for reentry ({1}); they are left out"};
 constexpr Topic kCorridors{
     "{0} nodes and edges let an AGV leave the lane ({1}); leaving the lane is not modelled: it stays on the lane"};
+constexpr Topic kDrawn{
+    "{0} edges have corridors ({1}); leaving the lane is not modelled: an AGV stays on it, and the floor is drawn as "
+    "wide"};
 constexpr Topic kGuides{"{0} edges are lines on the floor that guide AGVs ({1}); here this changes nothing"};
 constexpr Topic kPlaces{"{0} stations stand beside the nodes ({1}); here an AGV serves them at their nodes"};
 constexpr Topic kSecond{"{0} edges have more than one trajectory ({1}); the first counts"};
@@ -96,7 +99,7 @@ constexpr Rule kRules[] = {
     {"edges/types/trajectory/controlPoints/y"},
     {"edges/types/trajectory/controlPoints/weight"},
     {"edges/types/reentryAllowed", &kReentry, Named::ByOwner, "true"},
-    {"edges/types/corridor", &kCorridors},
+    {"edges/types/corridor", &kDrawn},
     {"edges/types/physicalLineGuidedProperty", &kGuides},
     {"stations"},
     {"stations/stationId", &kPlaces},

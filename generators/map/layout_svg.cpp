@@ -66,6 +66,7 @@ class Picture {
     add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="#f7f7f5" stroke="#cccccc"/>)", corner.x(),
         corner.y(), size_px.x(), size_px.y());
     text_ += view_.axes() + "\n" + on_floor.under_the_map;
+    for (const auto& segment : layout_.segments) wide_floor(segment);
     for (const auto& segment : layout_.segments) lane(segment);
     for (const auto& segment : layout_.segments) {
       if (!segment.bidirectional) arrows(segment);
@@ -99,7 +100,7 @@ class Picture {
 
   double radius_px() const { return std::clamp(0.28 * scale_, 4.0, 8.0); }
 
-  void lane(const Segment& segment) {
+  std::string track(const Segment& segment) const {
     const Vec2 a = pixel(layout_.stations[segment.from.index()].position_m),
                b = pixel(layout_.stations[segment.to.index()].position_m);
     std::string path = fmt::format("M{:.1f} {:.1f}", a.x(), a.y());
@@ -108,8 +109,17 @@ class Picture {
       const Vec2 p = pixel(points[i]);
       path += fmt::format("{}{:.1f} {:.1f}", i % 3 == 0 ? "C" : " ", p.x(), p.y());
     }
-    path += fmt::format("{}{:.1f} {:.1f}", points.empty() ? "L" : " ", b.x(), b.y());
-    add(R"(<path d="{}" fill="none" stroke="{}" stroke-width="{:.1f}"/>)", path,
+    return path + fmt::format("{}{:.1f} {:.1f}", points.empty() ? "L" : " ", b.x(), b.y());
+  }
+
+  void wide_floor(const Segment& segment) {
+    if (segment.width_m == 0.0) return;
+    add(R"(<path d="{}" fill="none" stroke="#e3e6ea" stroke-width="{:.1f}" stroke-linecap="round"/>)", track(segment),
+        segment.width_m * scale_);
+  }
+
+  void lane(const Segment& segment) {
+    add(R"(<path d="{}" fill="none" stroke="{}" stroke-width="{:.1f}"/>)", track(segment),
         segment.bidirectional ? "#9a9a9a" : "#c2410c", std::clamp(0.08 * scale_, 1.0, 2.5));
   }
 

@@ -57,6 +57,20 @@ TEST(LayoutSvg, EveryFamilyIsSoundXmlWithEveryLaneAndStation) {
   }
 }
 
+TEST(LayoutSvg, TheFloorOfALaneIsAsWideAsItIs) {
+  Layout layout = pair(true);
+  const auto widest_px = [&] {
+    double widest = 0.0;
+    const auto document = parsed(layout_svg(layout));
+    for (const auto& node : document.child("svg").children("path"))
+      widest = std::max(widest, node.attribute("stroke-width").as_double());
+    return widest;
+  };
+  EXPECT_LT(widest_px(), 3.0) << "no width is known";
+  layout.segments[0].width_m = 1.5;
+  EXPECT_NEAR(widest_px(), 1.5 * view_of(layout, 0.0).scale(), 0.06);
+}
+
 TEST(LayoutSvg, HigherIsHigherAndRightIsRight) {
   const auto document = parsed(layout_svg(pair(true)));
   const auto low = texts(document, "low"), high = texts(document, "high");

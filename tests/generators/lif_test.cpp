@@ -191,6 +191,20 @@ TEST(Lif, OfTwoSpeedLimitsTheLowerCountsAndIsTold) {
   EXPECT_TRUE(import(sample(R"(, "maxSpeed": 1.2, "maximumSpeed": 1.2)")).warnings.empty());
 }
 
+TEST(Lif, ACorridorIsWideFloor) {
+  const auto width_m = [](const std::string& there, const std::string& back = "") {
+    return import(sample(there, back)).layout.segments[0].width_m;
+  };
+  EXPECT_EQ(width_m(R"(, "corridor": {"maximumLeftWidth": 0.5, "maximumRightWidth": 0.75})"), 1.25);
+  EXPECT_EQ(width_m(R"(, "corridor": {"leftWidth": 1, "rightWidth": 1, "corridorRefPoint": "CONTOUR"})"), 2.0);
+  EXPECT_EQ(width_m(R"(, "corridor": {"maxLeft": 1})", R"(, "corridor": {"maxLeft": 2})"), 2.0) << "of twins the wider";
+  EXPECT_EQ(width_m(R"(, "corridor": {}}, {"vehicleTypeId": "w", "corridor": {"maxRight": 3})"), 3.0);
+  EXPECT_EQ(width_m(""), 0.0);
+  EXPECT_NE(refusal(sample(R"(, "corridor": {"leftWidth": -1})"))
+                .find("corridor/leftWidth: -1 is refused: expected a width of 0 m or more"),
+            std::string::npos);
+}
+
 TEST(Lif, TwoStationsWithOneIdAreRefused) {
   const auto with = [](const std::string& id) {
     std::string text = sample();
