@@ -41,13 +41,15 @@ bool DriveRules::leads_to(std::uint32_t state, std::uint32_t next) const {
          (map_.may_turn(map_.lane(lane).to) || same_heading(map_.end_heading(lane), map_.start_heading(next_lane)));
 }
 
-// All states that can be reached from one, or from which it can be reached; the state itself among them.
-DriveRules::States DriveRules::connected(std::uint32_t from, bool backwards) const {
+// All states that can be reached from one, or from which it can be reached; the state itself among them. Without
+// transfers: only through states that are kept.
+DriveRules::States DriveRules::connected(std::uint32_t from, bool backwards, bool transfers) const {
   States seen(2 * map_.lane_count(), false);
   std::vector<std::uint32_t> open{from};
   seen[from] = true;
   const auto visit = [&](std::uint32_t here, std::uint32_t there) {
-    if (seen[there] || !(backwards ? leads_to(there, here) : leads_to(here, there))) return;
+    if (seen[there] || (!transfers && own_[there] == 0)) return;
+    if (!(backwards ? leads_to(there, here) : leads_to(here, there))) return;
     seen[there] = true;
     open.push_back(there);
   };
@@ -57,7 +59,7 @@ DriveRules::States DriveRules::connected(std::uint32_t from, bool backwards) con
     const fp_lane& lane = map_.lane(here / 2);
     for (const std::uint32_t next : backwards ? map_.lanes_to(lane.from) : map_.lanes_from(lane.to))
       visit(here, 2 * next + here % 2);
-    visit(here, here ^ 1U);
+    if (transfers) visit(here, here ^ 1U);
   }
   return seen;
 }
@@ -69,8 +71,8 @@ void DriveRules::keep_those_that_lead_back() {
   std::ptrdiff_t largest = -1;
   for (std::uint32_t state = 0; state < judged.size(); ++state) {
     if (judged[state]) continue;
-    States both = connected(state, false);
-    const States back = connected(state, true);
+    States both = connected(state, false, true);
+    const States back = connected(state, true, true);
     for (std::size_t i = 0; i < both.size(); ++i) {
       both[i] = both[i] && back[i];
       judged[i] = judged[i] || both[i];
@@ -81,7 +83,29 @@ void DriveRules::keep_those_that_lead_back() {
     own_ = std::move(both);
     if (2 * largest >= static_cast<std::ptrdiff_t>(judged.size())) break;
   }
-  for (std::uint32_t state = 0; state < judged.size(); ++state) own_[state] = own_[state] && permits(state);
+  for (const bool loaded : {false, true}) mark_those_that_lead_back(loaded);
+  for (std::uint32_t state = 0; state < judged.size(); ++state) {
+    if (!permits(state)) own_[state] = 0;
+  }
+}
+
+// With this load, back to the part of the map through which most ways lead.
+void DriveRules::mark_those_that_lead_back(bool loaded) {
+  States judged(own_.size(), false), there;
+  std::ptrdiff_t most = 0;
+  for (std::uint32_t state = loaded ? 1 : 0; state < own_.size(); state += 2) {
+    if (own_[state] == 0 || judged[state]) continue;
+    const States ahead = connected(state, false, false);
+    States behind = connected(state, true, false);
+    for (std::size_t i = 0; i < judged.size(); ++i) judged[i] = judged[i] || (ahead[i] && behind[i]);
+    const auto ways = std::ranges::count(ahead, 1) * std::ranges::count(behind, 1);
+    if (ways <= most) continue;
+    most = ways;
+    there = std::move(behind);
+  }
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    if (there[i]) own_[i] = kLeadsBack;
+  }
 }
 
 }  // namespace fleetproof::agents

@@ -22,6 +22,7 @@ class LanePrices {
 
   // Forgets all prices. `loaded`: the AGV carries a load, which may forbid lanes.
   void begin(bool loaded);
+  bool loaded() const { return loaded_; }
   void make_dearer(std::uint32_t lane, double extra_s) {
     if (remembers_) dearer_.push_back({lane, costs_s_[lane]});
     costs_s_[lane] += extra_s;

@@ -25,6 +25,9 @@ constexpr double kUnsafeChargerCost_s = 30.0;
 // Of a place that another AGV asks for, and of one at which the two lock each other in.
 constexpr double kAskedForCost_s = 60.0;
 constexpr double kCrampedCost_s = 60.0;
+// Of one that an AGV leaves only with an order that changes its load: another place is better, but others may have to
+// get past it now.
+constexpr double kNoWayBackCost_s = 300.0;
 // As bad as to cut off one goal.
 constexpr std::uint32_t kCrampedBurden = 1;
 
@@ -314,8 +317,9 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
   double best_s = INFINITY;
   const auto look_at = [&](std::uint32_t station, double way_s) {
     if (way_s >= std::min(best_s, kNoWayCost_s)) return true;
-    if (station == standing.station || (rules_.any() && !leads_on(station))) return false;
+    if (station == standing.station) return false;
     double cost_s = way_s;
+    if (rules_.any() && !leads_back(station)) cost_s += kNoWayBackCost_s;
     if (prefer_parking && (map_.station(station).purposes & FP_PARKING) == 0) cost_s += 10.0;
     // Every draw prefers other stations, so that two AGVs that block each other do not repeat the same choice.
     cost_s += 12.0 * draw * ((station * 7 + 3) % 5) / 4.0;
@@ -328,10 +332,10 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
   return best;
 }
 
-// False where an AGV with the load that was priced for, or without one, cannot leave before it has picked or dropped.
-bool StretchPlanner::leads_on(std::uint32_t station) const {
+// Whether an AGV with the load for which lanes were priced can come back from there as it is.
+bool StretchPlanner::leads_back(std::uint32_t station) const {
   return std::ranges::any_of(map_.lanes_from(station),
-                             [&](std::uint32_t lane) { return prices_.costs_s()[lane] < INFINITY; });
+                             [&](std::uint32_t lane) { return rules_.leads_back(lane, prices_.loaded()); });
 }
 
 // Infinite if another AGV holds the place. Beyond `limit_s`, it is not worked out further.

@@ -36,6 +36,14 @@ class DrawnMap {
     return segments_++;
   }
 
+  // The lane is for AGVs with this load alone: FP_EMPTY_ONLY or FP_LOADED_ONLY.
+  void permit(std::uint32_t from, std::uint32_t to, std::uint32_t load) {
+    permissions_.push_back({FP_ANY_TYPE, load});
+    fp_lane& lane = lanes_[lane_between(from, to)];
+    lane.permission_count = 1;
+    lane.permissions = &permissions_.back();
+  }
+
   const fp_map& map() {
     leaving_.assign(stations_.size(), {});
     for (std::uint32_t id = 0; id < lanes_.size(); ++id) leaving_[lanes_[id].from].push_back(id);
@@ -85,6 +93,7 @@ class DrawnMap {
   std::vector<fp_station> stations_;
   std::deque<std::vector<fp_arc>> arcs_;
   std::vector<fp_lane> lanes_;
+  std::deque<fp_permission> permissions_;
   std::vector<std::vector<std::uint32_t>> leaving_;
   std::uint32_t segments_ = 0;
   fp_map map_{};
