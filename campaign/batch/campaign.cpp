@@ -1,5 +1,7 @@
 #include "campaign/batch/campaign.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <thread>
@@ -14,6 +16,7 @@
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/run/engine_identity.hpp"
 #include "campaign/workers/run_host.hpp"
+#include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
@@ -44,6 +47,21 @@ void build_first_worlds(const CampaignPlan& plan) {
   const ScenarioSource scenarios(plan);
   for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world())
     (void)scenarios.scenario(index);
+}
+
+std::vector<std::string> crowded_floors(const CampaignPlan& plan) {
+  const ScenarioSource scenarios(plan);
+  std::vector<std::string> sentences;
+  for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world()) {
+    const Scenario world = scenarios.scenario(index);
+    const std::size_t stations = world.map->station_count();
+    if (2 * world.agvs.size() <= stations) continue;
+    sentences.push_back(
+        fmt::format("{}: {} AGVs on {} stations; with more than one for two stations, {} here, a fleet may "
+                    "stand still",
+                    in_quotes(scenarios.place(index).cell.layout), world.agvs.size(), stations, stations / 2));
+  }
+  return sentences;
 }
 
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs) {

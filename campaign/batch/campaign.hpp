@@ -71,6 +71,10 @@ bool must_stop(const RunOptions& options, double elapsed_s);
 // Draws one world for each layout and fleet size. Throws InputError if a layout has no room for its fleet.
 void build_first_worlds(const CampaignPlan& plan);
 
+// Fleets so large for their first world that they may stand still, each as a sentence: more than one AGV for two
+// stations. Throws InputError as build_first_worlds().
+std::vector<std::string> crowded_floors(const CampaignPlan& plan);
+
 // The agents of the plan that come from shared objects.
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
 

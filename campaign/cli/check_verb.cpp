@@ -48,8 +48,8 @@ void tell_rejections(const CampaignPlan& plan) {
   if (counts.pairs_wanted > 0) put("; {} of {} pairs made to meet", counts.pairs_made, counts.pairs_wanted);
   put("\n");
   if (counts.worlds_without_storage > 0)
-    put("orders of {} worlds lead between stations that are not for storage: AGVs cannot pick at one storage station "
-        "and drop at another\n",
+    put("in {} of these worlds, orders lead between stations that are not for storage: AGVs cannot pick at one storage "
+        "station and drop at another\n",
         counts.worlds_without_storage);
 }
 
@@ -57,7 +57,7 @@ void check_campaign(const std::string& path) {
   AgentPrograms programs;
   const CampaignFile file = load_campaign(path, programs);
   const CampaignPlan& plan = file.plan;
-  build_first_worlds(plan);
+  for (const std::string& sentence : crowded_floors(plan)) talk("warning: {}\n", sentence);
   const double total_s = mean_run_s(plan, programs) * static_cast<double>(plan.run_count());
   put("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {:.0f} s of one core\n", path, plan.cell_count(),
       plan.replicates, plan.run_count(), plan.horizon_s, total_s);

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "campaign/cli/layout_output.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
@@ -10,7 +11,6 @@
 #include "generators/families/layout_family.hpp"
 #include "generators/families/mutated_import.hpp"
 #include "generators/formats/importer.hpp"
-#include "generators/formats/layout_file.hpp"
 #include "generators/map/layout_svg.hpp"
 #include "generators/worlds/world_maker.hpp"
 
@@ -61,12 +61,7 @@ Layout drawn(const GenerateWords& words) {
 int generate(const GenerateWords& words) {
   const Layout layout = drawn(words);
   if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
-  const std::string text = printable_json(to_text(layout));
-  if (words.out.empty()) {
-    put_text(text);
-  } else {
-    write_whole({words.out, "--output", OutputKind::Layout}, text);
-  }
+  put_layout(layout, words.out);
   return kDemonstrated;
 }
 
@@ -78,7 +73,7 @@ Action prepare_generate(Options& options) {
   options.option("--seed", words->seed, "seed of the drawn layout (default: 1)");
   options.flag("--stress", words->stress, "draw from the family's stress range; the same as FAMILY/stress");
   options.option("--from", words->from, "mutated-import: layout file to begin with");
-  options.option("-o,--output", words->out, "write the layout to this file (JSON) instead of standard output");
+  options.option("-o,--output", words->out, kLayoutOutputHelp);
   options.option("--svg", words->picture, "draw the layout into this file as well (SVG)");
   return [words] { return generate(*words); };
 }

@@ -3,15 +3,13 @@
 #include <limits>
 #include <memory>
 
+#include "campaign/cli/layout_output.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
-#include "generators/formats/csv_text.hpp"
 #include "generators/formats/factsheet.hpp"
 #include "generators/formats/importer.hpp"
-#include "generators/formats/layout_file.hpp"
-#include "generators/formats/lif_text.hpp"
 #include "generators/formats/opentcs_vehicles.hpp"
 #include "generators/map/core_only.hpp"
 #include "generators/map/layout_svg.hpp"
@@ -50,16 +48,6 @@ ImportChoice choice_of(const ImportWords& words) {
   choice.rmf.graph_idx = static_cast<std::int64_t>(words.graph.value_or(0));
   choice.cell_pitch_m = words.cell_pitch_m.value_or(kDefaultCellPitch_m);
   return choice;
-}
-
-OutputKind kind_of(const std::string& path) {
-  if (path.ends_with(".lif.json")) return OutputKind::LifLayout;
-  return path.ends_with(".csv") ? OutputKind::CsvLayout : OutputKind::Layout;
-}
-
-std::string text_of(const Layout& layout, OutputKind kind) {
-  if (kind == OutputKind::CsvLayout) return to_csv(layout);
-  return printable_json(kind == OutputKind::LifLayout ? to_lif(layout) : to_text(layout));
 }
 
 // The vehicles of the model, or of the factsheet beside a layout.
@@ -108,16 +96,7 @@ int import_file(ImportWords words) {
   talk("purposes: {}\nreachability: {}\n", purposes_summary(layout), reachability_text(layout));
   if (!words.vehicles.empty()) write_vehicles(words);
   if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
-  const OutputKind kind = kind_of(words.out);
-  if (kind == OutputKind::LifLayout) {
-    for (const std::string& sentence : lost_in_lif(layout)) talk("warning: {}: {}\n", words.out, sentence);
-  }
-  const std::string text = text_of(layout, kind);
-  if (words.out.empty()) {
-    put_text(text);
-  } else {
-    write_whole({words.out, "--output", kind}, text);
-  }
+  put_layout(layout, words.out);
   return kDemonstrated;
 }
 
@@ -129,9 +108,7 @@ Action prepare_import(Options& options) {
                      "opentcs, lif, rmf, grid, csv, layout or scenario (see: fleetproof list importers); may be left "
                      "out if the name of the file ends as usual");
   options.optional_positional("FILE", words->file, "file to read");
-  options.option("-o,--output", words->out,
-                 "write to this file instead of standard output: LIF if it ends in .lif.json, tables if in .csv, else "
-                 "our layout file");
+  options.option("-o,--output", words->out, kLayoutOutputHelp);
   options.option("--svg", words->picture, "draw the layout into this file as well (SVG)");
   options.flag("--keep-antiparallel", words->keep_antiparallel,
                "two one-way segments there and back on one track stay two; left out: they become one two-way segment");

@@ -56,6 +56,40 @@ TEST_F(FleetRules, AFleetWithoutAWayIsToldWhichTypesHaveOne) {
               HasSubstr("permissions name \"forklift\", which this fleet does not have (\"pallet-agv\")"));
 }
 
+TEST_F(FleetRules, AFleetThatFillsTheFloorIsToldBeforeTheCampaign) {
+  const auto told = [&](const std::string& verb, int fleet) {
+    write("c.toml", "horizon_s = 1\n[factors]\nagents = [\"hull-lock\"]\nlayouts = [\"plant/20\"]\nfleet_sizes = [" +
+                        std::to_string(fleet) + "]\n");
+    return run(verb).err;
+  };
+  const char* crowded =
+      "warning: \"plant/20\": 11 AGVs on 20 stations; with more than one for two stations, 10 here, a "
+      "fleet may stand still\n";
+  EXPECT_THAT(told("check c.toml", 11), HasSubstr(crowded));
+  EXPECT_THAT(told("run c.toml --db c.db", 11), HasSubstr(crowded));
+  EXPECT_THAT(told("check c.toml", 10), Not(HasSubstr("stand still")));
+}
+
+TEST_F(FleetRules, OrdersBetweenStationsThatAreNotForStorageAreTold) {
+  EXPECT_THAT(
+      checked("", "").out,
+      HasSubstr("in 1 of these worlds, orders lead between stations that are not for storage: AGVs cannot pick at one "
+                "storage station and drop at another\n"));
+  write("plant.csv",
+        "id,x,y,purposes\na,0,0,storage\nb,6,0,storage\nc,12,0,routing\nfrom,to,bidirectional\na,b,false\nb,c,true\n");
+  const auto core = run("import csv plant.csv --core-only");
+  EXPECT_EQ(core.exit_code, 0) << core.err;
+  EXPECT_THAT(core.err, HasSubstr("plant.csv: 1 of 2 storage stations are left; with fewer than 2, orders lead between "
+                                  "other stations\n"));
+}
+
+// Permissions that only some types have are no reason to cut stations off.
+TEST_F(FleetRules, TheRemedyIsOneThatHelps) {
+  EXPECT_THAT(
+      checked(R"({"vehicle_type": "forklift"})", "").err,
+      AllOf(HasSubstr("cut off: \"c\""), HasSubstr("lift these permissions (any_type)"), Not(HasSubstr("core_only"))));
+}
+
 TEST_F(FleetRules, AScenarioNamesTheTypeAtItsLine) {
   const auto scenario = [&](const std::string& type) {
     write("s.json",

@@ -39,7 +39,7 @@ TEST_F(OutputFiles, ReplaceOnlyTheirOwnKind) {
     std::string words;
     std::set<std::string> own;
   };
-  const Option options[] = {{"generate fishbone -o ", {"layout.json"}},
+  const Option options[] = {{"generate fishbone -o ", {"layout.json", "tables.csv", "vda.lif.json"}},
                             {"generate fishbone --svg ", {"picture.svg"}},
                             {"import layout layout.json --svg ", {"picture.svg"}},
                             {"replay a.db 0 --scenario ", {"scenario.json"}},
@@ -67,6 +67,8 @@ TEST_F(OutputFiles, ReplaceOnlyTheirOwnKind) {
   }
   EXPECT_EQ(run("import layout layout.json -o tables.csv").exit_code, 0);
   EXPECT_EQ(run("import layout layout.json -o vda.lif.json").exit_code, 0);
+  EXPECT_EQ(run("generate fishbone -o drawn.csv").exit_code, 0);
+  EXPECT_EQ(read(path("drawn.csv")), read(path("tables.csv"))) << "by its name a table, as import writes it";
   write("mine.csv", "name,age\n");
   EXPECT_EQ(run("import layout layout.json -o mine.csv").exit_code, 2);
 }
