@@ -39,7 +39,8 @@ bool is_layout(std::string_view text) { return has_key(text, "layout") && !has_k
 bool is_lif(std::string_view text) { return has_key(text, "layouts"); }
 bool is_csv(std::string_view text) {
   const auto heading = TextLines(text).next();
-  return heading && (heading->starts_with("id,") || heading->starts_with("#"));
+  return heading && (*heading == "layout" || heading->starts_with("layout,") || heading->starts_with("id,") ||
+                     heading->starts_with("#"));
 }
 bool is_picture(std::string_view text) {
   return text.starts_with("<svg") || (text.starts_with("<?xml") && text.find("<svg") != std::string_view::npos);

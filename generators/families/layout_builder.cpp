@@ -73,7 +73,7 @@ void LayoutBuilder::segment(StationId from, StationId to, Way way, std::vector<P
 }
 
 Layout LayoutBuilder::take() {
-  fit_floor(layout_, 3.0);
+  fit_floor(layout_, kFloorMargin_m);
   return std::move(layout_);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
@@ -27,12 +28,20 @@ constexpr std::string_view kEdgeColumns[] = {
     "width_m", "travel", "back_travel",   "permissions", "blocks"};
 
 constexpr std::string_view kBlockColumns[] = {"block", "kind"};
+constexpr std::string_view kLayoutColumns[] = {"layout", "low_x", "low_y", "high_x", "high_y"};
+constexpr auto kFloorColumns = std::span(kLayoutColumns).subspan(1);
 
-enum class Table : std::uint8_t { None, Nodes, Blocks, Edges };
+enum class Table : std::uint8_t { None, Layout, Nodes, Blocks, Edges };
 
-std::span<const std::string_view> columns_of(Table table) {
-  if (table == Table::Blocks) return kBlockColumns;
-  return table == Table::Edges ? std::span<const std::string_view>(kEdgeColumns) : kNodeColumns;
+struct TableColumns {
+  const char* rows;
+  std::span<const std::string_view> columns;
+};
+TableColumns columns_of(Table table) {
+  if (table == Table::Layout) return {"layouts", kLayoutColumns};
+  if (table == Table::Blocks) return {"blocks", kBlockColumns};
+  if (table == Table::Edges) return {"edges", kEdgeColumns};
+  return {"nodes", kNodeColumns};
 }
 
 struct Property {
@@ -90,7 +99,7 @@ class TableReader {
       throw InputError(source_, "has no nodes; expected a line id,x,y,purposes and one line for each node");
     if (layout_.segments.empty())
       throw InputError(source_, "has no edges; expected a line from,to,bidirectional and one line for each edge");
-    fit_floor(layout_, 3.0);
+    if (!has_floor_) fit_floor(layout_, kFloorMargin_m);
     refuse_problems();
     return std::move(layout_);
   }
@@ -103,7 +112,8 @@ class TableReader {
   // Each table has its header at its top. In the rows below, stations may have the names "from" and "to".
   Table table_begun_by(const std::vector<std::string>& fields) const {
     const auto has = [&](std::string_view name) { return std::ranges::find(fields, name) != fields.end(); };
-    if (table_ == Table::None && has("id") && has("x") && has("y")) return Table::Nodes;
+    if (table_ == Table::None && has("layout")) return Table::Layout;
+    if (table_ <= Table::Layout && has("id") && has("x") && has("y")) return Table::Nodes;
     if (table_ != Table::Edges && has("from") && has("to")) return Table::Edges;
     return table_ != Table::Edges && has("block") && has("kind") ? Table::Blocks : Table::None;
   }
@@ -112,21 +122,18 @@ class TableReader {
     if (table_ == Table::None) refuse("expected a line with the names of the columns first: id,x,y,purposes");
     if (fields.size() > columns_.size())
       refuse(fmt::format("the line has {} fields, its table {} columns", fields.size(), columns_.size()));
+    if (table_ == Table::Layout) return take_layout(fields);
     if (table_ == Table::Nodes) return add_node(fields);
     return table_ == Table::Blocks ? add_block(fields) : add_edge(fields);
   }
 
   void take_heading(Table table, const std::vector<std::string>& fields) {
     table_ = table;
-    const auto known = columns_of(table);
+    const auto& [rows, known] = columns_of(table);
     columns_.clear();
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (std::ranges::find(known, fields[i]) == known.end()) {
-        refuse(fmt::format("{} is not a column of {}{}", in_quotes(fields[i]),
-                           table == Table::Nodes    ? "nodes"
-                           : table == Table::Blocks ? "blocks"
-                                                    : "edges",
-                           name_hint(fields[i], known)));
+        refuse(fmt::format("{} is not a column of {}{}", in_quotes(fields[i]), rows, name_hint(fields[i], known)));
       }
       if (!columns_.emplace(fields[i], i).second)
         refuse(fmt::format("column {} occurs twice; keep one", in_quotes(fields[i])));
@@ -194,6 +201,17 @@ class TableReader {
       refuse(fmt::format("block {} is {} above; a block has one kind", in_quotes(one.name), name_of(known->kind)));
     }
     return number;
+  }
+
+  void take_layout(const std::vector<std::string>& fields) {
+    if (std::exchange(is_named_, true)) refuse("the table of the layout has a second line; one file holds one layout");
+    if (auto name = field(fields, "layout"); !name.empty()) layout_.name = std::move(name);
+    has_floor_ =
+        std::ranges::any_of(kFloorColumns, [&](std::string_view column) { return !field(fields, column).empty(); });
+    if (!has_floor_) return;
+    const auto of = [&](std::string_view column) { return number(field(fields, column), column); };
+    layout_.floor_low_m = {of("low_x"), of("low_y")};
+    layout_.floor_high_m = {of("high_x"), of("high_y")};
   }
 
   void add_block(const std::vector<std::string>& fields) {
@@ -285,6 +303,7 @@ class TableReader {
   TextLines lines_;
   std::string_view source_;
   Table table_ = Table::None;
+  bool is_named_ = false, has_floor_ = false;
   std::map<std::string, std::size_t, std::less<>> columns_;
   std::map<std::string, StationId> stations_;
   std::vector<std::size_t> station_lines_, segment_lines_;

@@ -18,6 +18,8 @@ namespace fleetproof {
 //   from,to,bidirectional
 //   dock,fork,true
 //
+// A table of the layout, layout,low_x,low_y,high_x,high_y, may stand first: its name, and the corners of its floor.
+// Without it, the file's name is the name, and the floor lies 3 m around everything.
 // Columns come in any order. Lengths are in metres. These columns may be left out:
 // - `purposes`: words, separated by blanks. Empty: routing. The word none: no purpose.
 // - `bidirectional`: true, false, 1 or 0. Empty: false.

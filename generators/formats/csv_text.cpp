@@ -8,6 +8,7 @@
 
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/purpose_words.hpp"
+#include "generators/map/layout_check.hpp"
 
 namespace fleetproof {
 namespace {
@@ -109,6 +110,13 @@ std::string blocks_table(const Layout& layout) {
   return text;
 }
 
+std::string layout_table(const Layout& layout) {
+  const auto name = csv_field(layout.name);
+  if (has_fitted_floor(layout)) return fmt::format("layout\n{}\n", name);
+  const Vec2 &low = layout.floor_low_m, &high = layout.floor_high_m;
+  return fmt::format("layout,low_x,low_y,high_x,high_y\n{},{},{},{},{}\n", name, low.x(), low.y(), high.x(), high.y());
+}
+
 template <class Item>
 std::string columns_text(const std::vector<Item>& items, std::vector<Column<Item>> columns) {
   std::erase_if(columns, [&](const Column<Item>& column) {
@@ -127,7 +135,7 @@ std::string columns_text(const std::vector<Item>& items, std::vector<Column<Item
 }  // namespace
 
 std::string to_csv(const Layout& layout) {
-  return columns_text(layout.stations, node_columns(layout)) + blocks_table(layout) +
+  return layout_table(layout) + columns_text(layout.stations, node_columns(layout)) + blocks_table(layout) +
          columns_text(layout.segments, edge_columns(layout));
 }
 

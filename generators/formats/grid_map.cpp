@@ -55,7 +55,7 @@ class MapReader {
       throw InputError(source_, "no two free cells of the map are neighbours; expected cells with . between @");
     warnings_.push_back(fmt::format("{}: cells are taken to be {} m apart; the map names no charging and no parking{}",
                                     source_, pitch_m_, has_service_ ? "" : ", and no storage (S or E)"));
-    fit_floor(layout_, 3.0);
+    fit_floor(layout_, kFloorMargin_m);
     if (const auto problems = problems_of(layout_); !problems.empty()) throw InputError(source_, problems[0].sentence);
     return std::move(layout_);
   }

@@ -228,7 +228,7 @@ Layout read_layout(const JsonReader& reader) {
     layout.floor_low_m = reader.at("floor_low_m").vector();
     layout.floor_high_m = reader.at("floor_high_m").vector();
   } else {
-    fit_floor(layout, 3.0);
+    fit_floor(layout, kFloorMargin_m);
   }
   const auto problems = problems_of(layout);
   if (!problems.empty()) reader.refuse_below(problems[0].pointer, problems[0].sentence);

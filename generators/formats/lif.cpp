@@ -79,7 +79,7 @@ class LifReader {
     note_left_out(JsonReader(root_, source_), layout, choice_.purposes, warnings_);
     note_types(layout);
     spots_.join(layout_, nodes_, warnings_);
-    fit_floor(layout_, 3.0);
+    fit_floor(layout_, kFloorMargin_m);
     refuse_problems(layout);
     note_headings(layout);
     settle_twins(layout_, choice_.twins, source_, warnings_);

@@ -11,6 +11,7 @@
 #include "core/geometry/rotation.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/formats/purpose_words.hpp"
+#include "generators/map/layout_check.hpp"
 #include "generators/text/json_writer.hpp"
 #include "generators/text/name_list.hpp"
 
@@ -216,6 +217,8 @@ std::vector<std::string> lost_in_lif(const Layout& layout) {
     if (count > 0) sentences.push_back(fmt::vformat(sentence, fmt::make_format_args(count, list)));
   };
   tell(blocks, "LIF has no place for blocks: {0} are left out ({1})");
+  if (!has_fitted_floor(layout))
+    sentences.push_back("LIF has no place for the floor: an import draws one around the nodes");
   tell(widths, "LIF has no place for the width of a lane: {0} segments lose it ({1})");
   const Types types = types_in(layout);
   if (!mixed.empty()) {

@@ -64,7 +64,7 @@ class ModelReader {
     for (const auto location : model.children("location")) add_location(location);
     note_operations(model);
     for (const auto block : model.children("block")) add_block(block);
-    fit_floor(layout_, 3.0);
+    fit_floor(layout_, kFloorMargin_m);
     refuse_problems(model);
     compare_lengths(model);
     for (const auto& sentence : speeds_.sentences(layout_)) warn(model, sentence);

@@ -53,7 +53,7 @@ class LevelReader {
                               told_.other_end_back.size(), name_list(told_.other_end_back)));
     if (told_.other_graphs > 0) warn(lanes, fmt::format("{} lanes of other graphs are left out", told_.other_graphs));
     note_left_out(yaml_, root_, level, read_, warnings_);
-    fit_floor(layout_, 3.0);
+    fit_floor(layout_, kFloorMargin_m);
     refuse_problems(level);
     settle_twins(layout_, choice_.twins, yaml_.source(), warnings_);
     return std::move(layout_);

@@ -192,4 +192,10 @@ void fit_floor(Layout& layout, double margin_m) {
   layout.floor_high_m = box.high_m;
 }
 
+bool has_fitted_floor(const Layout& layout) {
+  Layout fitted = layout;
+  fit_floor(fitted, kFloorMargin_m);
+  return fitted.floor_low_m == layout.floor_low_m && fitted.floor_high_m == layout.floor_high_m;
+}
+
 }  // namespace fleetproof

@@ -37,4 +37,8 @@ void smooth_joints(Segment& segment);
 // Sets the floor of the layout: the smallest rectangle with all stations and control points, grown by `margin_m`.
 void fit_floor(Layout& layout, double margin_m);
 
+// The margin of a floor that a file does not give; and whether a layout has that floor.
+inline constexpr double kFloorMargin_m = 3.0;
+bool has_fitted_floor(const Layout& layout);
+
 }  // namespace fleetproof

@@ -33,7 +33,7 @@ TEST_F(ImportTest, WritesLayoutsLifAndCsv) {
   EXPECT_EQ(run("import lif merged.lif.json -o again.json").exit_code, 0);
   EXPECT_EQ(read(path("again.json")), without_blocks(read(path("merged.json"))));
   EXPECT_EQ(run("import lif merged.lif.json -o merged.csv").exit_code, 0);
-  EXPECT_THAT(read(path("merged.csv")), StartsWith("id,x,y,purposes\n"));
+  EXPECT_THAT(read(path("merged.csv")), StartsWith("layout\nSmall cross-dock\nid,x,y,purposes\n"));
   EXPECT_EQ(run("import lif merged.lif.json").out, without_blocks(read(path("merged.json"))))
       << "without -o the layout goes to standard output";
 }

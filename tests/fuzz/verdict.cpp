@@ -76,6 +76,9 @@ void require_same_when_written(const Layout& layout) {
   if (layout.segments.empty()) return;  // only a layout file may say so: importers take it for a mistake
   std::vector<std::string> none;
   const auto from_csv = parse_csv_layout(to_csv(layout), "written.csv", none, TwinPaths::Keep);
+  require(layout.name == from_csv.name || layout.name.empty(), "CSV gives another name");
+  require(layout.floor_low_m == from_csv.floor_low_m && layout.floor_high_m == from_csv.floor_high_m,
+          "CSV gives another floor");
   require(same_stations(layout, from_csv), "CSV gives other stations");
   require(same_segments(layout, from_csv), "CSV gives other segments");
 

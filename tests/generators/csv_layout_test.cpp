@@ -54,7 +54,10 @@ TEST(CsvLayout, BearsWhatSpreadsheetsWrite) {
 }
 
 void expect_round_trip(Layout layout) {
-  layout.name = "l";
+  EXPECT_EQ(to_text(import(to_csv(layout))), to_text(layout));
+  layout.name = "a, \"b\"";
+  layout.floor_low_m.x() -= 0.1;
+  layout.floor_high_m = Vec2(1234.5, 1e4);
   EXPECT_EQ(to_text(import(to_csv(layout))), to_text(layout));
 }
 
@@ -72,6 +75,23 @@ TEST(CsvLayout, WhatIsWrittenComesBack) {
   layout.stations[1].name = "from";
   layout.stations[2].name = "to";
   expect_round_trip(layout);
+}
+
+TEST(CsvLayout, ATableOfTheLayoutNamesItAndItsFloor) {
+  const auto named = import("layout\nmill\n" + kTables);
+  EXPECT_EQ(named.name, "mill");
+  EXPECT_EQ(named.floor_low_m, Vec2(-3.0, -3.0)) << "around everything";
+  const auto with_floor = import("layout,low_x,low_y,high_x,high_y\n,-9,-8,20,10.5\n" + kTables);
+  EXPECT_EQ(with_floor.name, "l") << "no name: that of the file";
+  EXPECT_EQ(with_floor.floor_low_m, Vec2(-9.0, -8.0));
+  EXPECT_EQ(with_floor.floor_high_m, Vec2(20.0, 10.5));
+  const auto refused = [](const std::string& table) { return independent::refusal(import, table + kTables); };
+  EXPECT_EQ(refused("layout,low_x\nmill,1\n"), "l.csv:2: low_y is \"\"; expected a finite number");
+  EXPECT_EQ(refused("layout\nmill\nmall\n"),
+            "l.csv:3: the table of the layout has a second line; one file holds one layout");
+  EXPECT_EQ(refused("layout,floor\nmill,1\n").find("l.csv:1: \"floor\" is not a column of layouts"), 0U);
+  EXPECT_NE(refused("layout,low_x,low_y,high_x,high_y\nmill,1,1,0,0\n").find("high corner must not be below its low"),
+            std::string::npos);
 }
 
 TEST(CsvLayout, AStationMayHaveNoPurposeAtAll) {

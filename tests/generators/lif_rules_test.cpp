@@ -122,11 +122,13 @@ TEST(LifRules, WhatCannotBeWrittenIsTold) {
   auto layout = import({}).layout;
   layout.blocks = {{"dock", BlockKind::OneVehicle}};
   layout.segments[0].width_m = 2.0;
+  layout.floor_low_m.x() -= 1.0;
   layout.segments[1].permissions = {{"", LoadState::Empty}, {"tug", LoadState::Any}};
   EXPECT_THAT(
       lost_in_lif(layout),
       ElementsAre(
           "LIF has no place for blocks: 1 are left out (\"dock\")",
+          "LIF has no place for the floor: an import draws one around the nodes",
           "LIF has no place for the width of a lane: 1 segments lose it (\"ab\")",
           "LIF has no word for every type of vehicle: 1 segments permit something to every type and more to some "
           "(\"bc\"); in the file they are for \"tug\", \"agv\" alone, where \"agv\" stands for all others"));
