@@ -48,7 +48,7 @@ Table sensitivity_table(const SensitivityRecord& record) {
   Table table{{{"planted fault", false},
                {"what it does", false},
                {"seeds", true},
-               {"first after runs, median", true},
+               {record.seeds.size() == 1 ? "first after runs" : "first after runs, median", true},
                {"most", true},
                {"accused of", false},
                {"first in", false},

@@ -58,6 +58,10 @@ TEST(SensitivityRecord, StandsBesideTheCampaignFile) {
 TEST(SensitivityTable, HasMediansAndSaysWhatHasNone) {
   const Table table = sensitivity_table(sample());
   ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_EQ(table.columns[3].head, "first after runs, median");
+  SensitivityRecord one_seed = sample();
+  one_seed.seeds = {3};
+  EXPECT_EQ(sensitivity_table(one_seed).columns[3].head, "first after runs");
   EXPECT_THAT(table.rows[0], testing::ElementsAre("early", "releases early", "3 of 3", "12.5", "40", "contact",
                                                   "grid, 2 AGVs", "crossing"));
   EXPECT_EQ(table.rows[1][3], "by rate");
