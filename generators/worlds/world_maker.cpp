@@ -100,7 +100,13 @@ class WorldMaker {
     // No other draw mends a fixed layout.
     for (const auto& problem : world_problems(scenario_, *reachability_))
       throw InputError(scenario_.map->layout().name, problem.sentence);
-    if (spec.orders == nullptr && spec.demand.transports_per_agv_hour > 0.0) expect_order_ends();
+    if (!forbids_transports()) return;
+    throw InputError(
+        scenario_.map->layout().name,
+        fmt::format("no AGV can pick a load at one station and drop it at another by what the layout permits the "
+                    "vehicle types of this fleet (turns, headings, loads and types{}); change that, or ask for no "
+                    "transports (transports_per_agv_hour = 0)",
+                    foreign_types_hint(scenario_.map->layout(), names_of(spec.vehicles))));
   }
 
   bool attempt(std::uint32_t number) {
@@ -140,6 +146,9 @@ class WorldMaker {
       auto map = draw_mutated_map(std::get<SharedMap>(spec_.layout)->layout(), draws, counts);
       if (map == nullptr) return false;
       set_map(std::move(map));
+      if (!forbids_transports()) return true;
+      ++counts.of(ProblemKind::WeakCore);
+      return false;
     }
     return true;
   }
@@ -196,15 +205,10 @@ class WorldMaker {
     }
   }
 
-  void expect_order_ends() const {
-    const LogicalMap& map = *scenario_.map;
-    if (!has_rules(map.layout()) || !order_ends(map, *reachability_).picks.empty()) return;
-    throw InputError(
-        map.layout().name,
-        fmt::format("no AGV can pick a load at one station and drop it at another by what the layout permits the "
-                    "vehicle types of this fleet (turns, headings, loads and types{}); change that, or ask for no "
-                    "transports (transports_per_agv_hour = 0)",
-                    foreign_types_hint(map.layout(), names_of(spec_.vehicles))));
+  // Whether the rules of the plant allow no transport at all, though the world has drawn ones.
+  bool forbids_transports() const {
+    const bool drawn = spec_.orders == nullptr && spec_.demand.transports_per_agv_hour > 0.0;
+    return drawn && has_rules(scenario_.map->layout()) && order_ends(*scenario_.map, *reachability_).picks.empty();
   }
 
   std::uint64_t key_of(Stream stream) const { return stream_key(scenario_.seed_of(stream), stream); }

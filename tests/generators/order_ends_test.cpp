@@ -127,6 +127,51 @@ TEST(OrderEnds, ShareTheTrafficAmongPicksAndAmongDrops) {
   EXPECT_EQ(seen.size(), 6U);
 }
 
+TEST(OrderEnds, AreThoseOfEachMutation) {
+  Layout layout = test::source_and_sink();
+  layout.segments.back().permissions = {{"", LoadState::Loaded}};  // the shelf becomes a source, too: one sink is left
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(layout);
+  spec.mutate = true;
+  spec.fleet_size = 1;
+  RejectionCounts counts;
+  int mutations = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Scenario s = generate_world(spec, seed, counts);
+    const OrderEnds ends = order_ends(*s.map, Reachability(*s.map));
+    mutations += s.map->layout().segments.size() != layout.segments.size() ? 1 : 0;
+    ASSERT_FALSE(s.agvs[0].transports.empty()) << seed;
+    for (const auto& order : s.agvs[0].transports) {
+      EXPECT_TRUE(std::ranges::binary_search(ends.picks, order.from)) << seed;
+      EXPECT_TRUE(std::ranges::binary_search(ends.drops, order.to)) << seed;
+    }
+  }
+  EXPECT_GT(mutations, 30);
+}
+
+// A row of stations for AGVs without a load, and one lane for loads. Without that lane, no transport is possible.
+TEST(OrderEnds, AMutationThatLeavesNoneIsDrawnAgain) {
+  Layout layout;
+  layout.name = "row";
+  layout.floor_high_m = {50.0, 5.0};
+  for (std::uint32_t i = 0; i < 12; ++i) layout.stations.push_back({std::to_string(i), {4.0 * i, 0.0}});
+  for (std::uint32_t i = 0; i < 11; ++i) {
+    layout.segments.push_back({"e" + std::to_string(i), StationId{i}, StationId{i + 1}, true});
+    layout.segments.back().permissions = {{"", LoadState::Empty}};
+  }
+  layout.segments.push_back({"loads", StationId{5U}, StationId{6U}, false});
+  layout.segments.back().control_points_m = {{21.0, 2.0}, {23.0, 2.0}};
+  layout.segments.back().permissions = {{"", LoadState::Loaded}};
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(layout);
+  spec.mutate = true;
+  spec.fleet_size = 1;
+  RejectionCounts counts;
+  for (std::uint64_t seed = 0; seed < 100; ++seed)
+    EXPECT_FALSE(generate_world(spec, seed, counts).agvs[0].transports.empty()) << seed;
+  EXPECT_GT(counts.of(ProblemKind::WeakCore), 0U);
+}
+
 TEST(OrderEnds, AListMustRespectThem) {
   WorldSpec spec;
   spec.layout = std::make_shared<const LogicalMap>(test::source_and_sink());
