@@ -15,10 +15,6 @@ struct StationUse {
   bool stopped = false;  // come without a load, stand there as the station asks, and go on without one
   bool picks = false;    // come without a load, pick one, and go on with it
   bool drops = false;    // come with a load, drop it, and go on without one
-
-  friend StationUse operator&(const StationUse& a, const StationUse& b) {
-    return {a.passed && b.passed, a.stopped && b.stopped, a.picks && b.picks, a.drops && b.drops};
-  }
 };
 inline constexpr StationUse kEveryUse{true, true, true, true};
 
@@ -34,7 +30,8 @@ class DriveStates {
   bool may_start_along(std::uint32_t lane) const {
     return traffic_[0].permitted[lane] && traffic_[0].leads_there[lane];
   }
-  const StationUse& use_of(StationId station) const { return uses_[station.index()]; }
+  bool permits(std::uint32_t lane, bool loaded) const { return traffic_[loaded].permitted[lane]; }
+  const std::vector<StationUse>& uses() const { return uses_; }  // by station
   // Whether some lane that leaves `from` begins a way to `to`, where the AGV may stop.
   bool reaches(StationId from, StationId to, bool loaded) const;
 

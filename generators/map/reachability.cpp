@@ -21,32 +21,38 @@ std::vector<StationUse> uses_without_rules(const LogicalMap& map) {
 
 }  // namespace
 
-Reachability::Reachability(const LogicalMap& map, std::span<const std::string> vehicle_types) : map_(&map) {
+Reachability::Reachability(const LogicalMap& map, std::span<const std::string> vehicle_types)
+    : map_(&map), in_core_(map.station_count(), false) {
   if (!has_rules(map.layout())) {
-    uses_ = uses_without_rules(map);
+    uses_.push_back(uses_without_rules(map));
   } else {
     for (const std::string& type : vehicle_types) states_.emplace_back(map, type);
     if (states_.empty()) states_.emplace_back(map, "");
-    uses_.assign(map.station_count(), kEveryUse);
-    for (std::size_t i = 0; i < uses_.size(); ++i) {
-      for (const DriveStates& states : states_) uses_[i] = uses_[i] & states.use_of(StationId{i});
-    }
+    for (const DriveStates& states : states_) uses_.push_back(states.uses());
   }
-  for (std::size_t i = 0; i < uses_.size(); ++i) {
-    if (uses_[i].passed) core_.emplace_back(i);
-    if (uses_[i].stopped) stops_.emplace_back(i);
+  for (std::size_t i = 0; i < in_core_.size(); ++i) {
+    const auto some = [&](bool StationUse::*use) {
+      return std::ranges::any_of(uses_, [&](const auto& uses) { return uses[i].*use; });
+    };
+    in_core_[i] = some(&StationUse::passed);
+    if (in_core_[i]) core_.emplace_back(i);
+    if (some(&StationUse::stopped)) stops_.emplace_back(i);
   }
 }
 
-bool Reachability::may_start_along(std::uint32_t lane) const {
-  return std::ranges::all_of(states_, [&](const DriveStates& states) { return states.may_start_along(lane); });
+bool Reachability::permits(std::uint32_t lane, bool loaded, std::uint32_t type) const {
+  return states_.empty() || states_[type].permits(lane, loaded);
 }
 
-bool Reachability::reaches(StationId from, StationId to, bool loaded) const {
-  const StationUse &there = use_of(to), &here = use_of(from);
+bool Reachability::may_start_along(std::uint32_t lane, std::uint32_t type) const {
+  return states_.empty() || states_[type].may_start_along(lane);
+}
+
+bool Reachability::reaches(StationId from, StationId to, bool loaded, std::uint32_t type) const {
+  const StationUse &there = use_of(to, type), &here = use_of(from, type);
   if (states_.empty()) return (here.passed && there.passed) || reaches_without_rules(from, to);
   if (loaded ? here.picks && there.drops : (here.stopped || here.drops) && (there.stopped || there.picks)) return true;
-  return std::ranges::all_of(states_, [&](const DriveStates& states) { return states.reaches(from, to, loaded); });
+  return states_[type].reaches(from, to, loaded);
 }
 
 bool Reachability::reaches_without_rules(StationId from, StationId to) const {

@@ -9,32 +9,36 @@
 
 namespace fleetproof {
 
-// Which stations of a logical map can be reached from which, under the rules of the plant. Requires: the map outlives
-// the object.
+// Which stations of a logical map can be reached from which, under the rules of the plant. `type` is the place of a
+// vehicle type among those of the fleet. Requires: the map outlives the object.
 class Reachability {
  public:
   // For a fleet of vehicle types with these names; without a name, of one type that has the permissions of all.
   explicit Reachability(const LogicalMap& map, std::span<const std::string> vehicle_types = {});
 
   // The largest set of stations that can all reach each other, in ascending order. Of equal sets, the set with the
-  // smallest id. Under rules: the stations to which AGVs of every type come again and again, with a load or without.
+  // smallest id. Under rules: the stations to which AGVs of some type come again and again, with a load or without.
   const std::vector<StationId>& core() const { return core_; }
-  // Those of the core where an AGV without a load can stop.
+  bool in_core(StationId station) const { return in_core_[station.index()]; }
+  double core_share() const { return static_cast<double>(core_.size()) / static_cast<double>(in_core_.size()); }
+  // Those of the core where an AGV of some type can stop without a load.
   const std::vector<StationId>& stops() const { return stops_; }
-  bool in_core(StationId station) const { return use_of(station).passed; }
-  double core_share() const { return static_cast<double>(core_.size()) / static_cast<double>(uses_.size()); }
-  // What AGVs of every type can do there; without rules, everything in the core.
-  const StationUse& use_of(StationId station) const { return uses_[station.index()]; }
-  bool reaches(StationId from, StationId to, bool loaded) const;
+  // What AGVs of this type can do there; without rules, everything in the core.
+  const StationUse& use_of(StationId station, std::uint32_t type = 0) const { return uses_[of(type)][station.index()]; }
+  bool reaches(StationId from, StationId to, bool loaded, std::uint32_t type = 0) const;
+  // Whether the plant lets an AGV of this type drive the lane.
+  bool permits(std::uint32_t lane, bool loaded, std::uint32_t type) const;
   // Whether an AGV that stands at the beginning of the lane can leave by it, and come back.
-  bool may_start_along(std::uint32_t lane) const;
+  bool may_start_along(std::uint32_t lane, std::uint32_t type) const;
 
  private:
+  std::size_t of(std::uint32_t type) const { return states_.empty() ? 0 : type; }
   bool reaches_without_rules(StationId from, StationId to) const;
 
   const LogicalMap* map_;
-  std::vector<DriveStates> states_;  // by vehicle type; none: the plant has no rules
-  std::vector<StationUse> uses_;     // by station
+  std::vector<DriveStates> states_;            // by vehicle type; none: the plant has no rules
+  std::vector<std::vector<StationUse>> uses_;  // by vehicle type, one without rules; then by station
+  std::vector<bool> in_core_;                  // by station
   std::vector<StationId> core_, stops_;
 };
 

@@ -320,7 +320,7 @@ class WorldCheck {
     for (std::size_t k = 0; k < agv.transports.size(); ++k) {
       const auto& order = agv.transports[k];
       const auto need = [&](StationId from, StationId to, std::string_view field, bool loaded) {
-        if (reachability_.reaches(from, to, loaded)) return;
+        if (reachability_.reaches(from, to, loaded, agv.type)) return;
         const auto name = [&](StationId id) { return in_quotes(scenario_.map->station(id).name); };
         add(ProblemKind::Unreachable, fmt::format("/agvs/{}/transports/{}{}", i, k, field),
             fmt::format("no way leads from {} to {}{}", name(from), name(to), loads(loaded)));

@@ -32,7 +32,7 @@ struct Meeting {
 
 class PairMaker {
  public:
-  PairMaker(Scenario& scenario, const Reachability& reachability, bool ties, RejectionCounts& counts)
+  PairMaker(Scenario& scenario, const Reachability& reachability, FleetTypes types, bool ties, RejectionCounts& counts)
       : scenario_(scenario),
         map_(*scenario.map),
         reachability_(reachability),
@@ -42,14 +42,20 @@ class PairMaker {
         timetable_(map_, type_),
         starts_(places_to_start(map_, reachability)),
         stops_(reachability.stops()),
-        goals_(order_ends(map_, reachability).picks),
+        fleet_(types),
         lanes_to_(map_.station_count(), 0) {
+    for (const std::uint32_t type : types) {
+      if (goals_.size() <= type) goals_.resize(type + 1);
+      if (goals_[type].empty()) goals_[type] = order_ends(map_, reachability, type).picks;
+    }
     for (const auto& lane : map_.lanes()) ++lanes_to_[lane.to.index()];
   }
 
   // Adds both AGVs, or none.
   std::optional<EncounterPair> make(Draws draws) {
     const std::size_t before = scenario_.agvs.size();
+    one_ = fleet_[before], other_ = fleet_[before + 1];
+    if (goals_[one_].empty() || goals_[other_].empty()) return std::nullopt;
     std::optional<Found> best;
     for (std::uint32_t i = 0; i < kTries; ++i) {
       const bool hasty = i < (ties_ ? kHastyTriesForTies : kHastyTries);
@@ -85,15 +91,17 @@ class PairMaker {
   std::optional<Found> draw(Draws& draws, const std::vector<StationId>& starts, std::size_t others_looked_at,
                             bool head_on) {
     const auto start = starts[draws.below(static_cast<std::uint32_t>(starts.size()))];
-    const auto goal = goals_[draws.below(static_cast<std::uint32_t>(goals_.size()))];
+    const auto goal = goals_[one_][draws.below(static_cast<std::uint32_t>(goals_[one_].size()))];
     const auto& ways = timetable_.from(start);
-    if (start == goal || !ways.at(goal).unique || !may_go(ways, goal) || !has_room(start, goal, std::nullopt))
+    if (start == goal || !may_stand(start, one_) || !ways.at(goal).unique || !may_go(ways, goal, one_) ||
+        !has_room(start, goal, std::nullopt))
       return std::nullopt;
     const auto way = passed_on(ways, goal);
     std::vector<StationId> others;
     others.reserve(starts.size());
     for (const auto other : starts) {
-      if (other != start && (!head_on || may_come_head_on(other, way))) others.push_back(other);
+      if (other != start && may_stand(other, other_) && (!head_on || may_come_head_on(other, way)))
+        others.push_back(other);
     }
     if (others_looked_at < others.size()) others = some_of(draws, others, others_looked_at);
     const auto meetings = meetings_with(way, others, head_on);
@@ -195,9 +203,9 @@ class PairMaker {
     const auto& ways = timetable_.from(meeting.start);
     const Duration met = ways.at(meeting.through).arrives;
     std::vector<StationId> through;
-    through.reserve(goals_.size());
-    for (const auto goal : goals_) {
-      if (goal == meeting.start || !ways.at(goal).unique || !may_go(ways, goal)) continue;
+    through.reserve(goals_[other_].size());
+    for (const auto goal : goals_[other_]) {
+      if (goal == meeting.start || !ways.at(goal).unique || !may_go(ways, goal, other_)) continue;
       StationId s = goal;
       while (ways.at(s).arrives > met) s = map_.lanes()[ways.at(s).lane].from;
       if (s == meeting.through) through.push_back(goal);
@@ -206,14 +214,14 @@ class PairMaker {
     return through[draws.below(static_cast<std::uint32_t>(through.size()))];
   }
 
-  // Whether the plant permits the quickest way to an empty AGV. The timetable knows no rules.
-  bool may_go(const QuickestWays& ways, StationId goal) const {
+  bool may_stand(StationId start, std::uint32_t type) const { return reachability_.use_of(start, type).stopped; }
+
+  // Whether the plant permits the quickest way to an empty AGV of this type. The timetable knows no rules.
+  bool may_go(const QuickestWays& ways, StationId goal, std::uint32_t type) const {
     if (!has_rules(map_.layout())) return true;
     const auto lanes = ways.lanes(map_, goal);
-    return !lanes.empty() && reachability_.may_start_along(lanes.front()) &&
-           std::ranges::all_of(lanes, [&](std::uint32_t lane) {
-             return map_.segment(map_.lanes()[lane].segment).permits(type_.name, false);
-           });
+    return !lanes.empty() && reachability_.may_start_along(lanes.front(), type) &&
+           std::ranges::all_of(lanes, [&](std::uint32_t lane) { return reachability_.permits(lane, false, type); });
   }
 
   Vec2 heading(StationId start, StationId goal) {
@@ -241,19 +249,22 @@ class PairMaker {
   bool ties_;
   const VehicleType& type_;
   Timetable timetable_;
-  std::vector<StationId> starts_, stops_, goals_;
-  std::vector<std::uint32_t> lanes_to_;  // how many, by station
+  std::vector<StationId> starts_, stops_;
+  FleetTypes fleet_;
+  std::vector<std::vector<StationId>> goals_;  // by type
+  std::uint32_t one_ = 0, other_ = 0;          // the types of the pair that is being made
+  std::vector<std::uint32_t> lanes_to_;        // how many, by station
 };
 
 }  // namespace
 
-std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_size, Placement placement,
+std::vector<EncounterPair> place_pairs(Scenario& scenario, FleetTypes types, Placement placement,
                                        const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
                                        RejectionCounts& counts) {
   std::vector<EncounterPair> pairs;
-  if (reachability.stops().size() < 2 || order_ends(*scenario.map, reachability).picks.empty()) return pairs;
-  PairMaker maker(scenario, reachability, placement == Placement::Symmetric, counts);
-  while (scenario.agvs.size() + 2 <= fleet_size) {
+  if (reachability.stops().size() < 2) return pairs;
+  PairMaker maker(scenario, reachability, types, placement == Placement::Symmetric, counts);
+  while (scenario.agvs.size() + 2 <= types.size()) {
     ++counts.pairs_wanted;
     const auto pair = maker.make(Draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size())));
     if (!pair) break;
@@ -263,8 +274,10 @@ std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_s
   return pairs;
 }
 
-void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs, const std::vector<StationId>& drops) {
-  const auto begin_at = [&](TransportOrder& order, StationId goal) {
+void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs, const std::vector<OrderEnds>& ends) {
+  const auto begin_at = [&](AgvSetup& agv, StationId goal) {
+    TransportOrder& order = agv.transports[0];
+    const auto& drops = ends[agv.type].drops;
     if (order.to == goal)
       order.to = std::ranges::binary_search(drops, order.from) ? order.from : drops[drops[0] == goal ? 1 : 0];
     order.from = goal;
@@ -282,8 +295,8 @@ void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs, c
         earlier + (pair.second_after < Duration::zero() ? -pair.second_after : pair.second_after), scenario.horizon);
     release(first, pair.second_after < Duration::zero() ? later : earlier);
     release(second, pair.second_after > Duration::zero() ? later : earlier);
-    begin_at(first[0], pair.first_goal);
-    begin_at(second[0], pair.second_goal);
+    begin_at(scenario.agvs[pair.first], pair.first_goal);
+    begin_at(scenario.agvs[pair.second], pair.second_goal);
   }
 }
 

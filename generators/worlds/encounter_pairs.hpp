@@ -7,6 +7,7 @@
 #include "generators/map/reachability.hpp"
 #include "generators/map/rejection_counts.hpp"
 #include "generators/worlds/placement.hpp"
+#include "generators/worlds/transports.hpp"
 
 namespace fleetproof {
 
@@ -26,13 +27,13 @@ struct EncounterPair {
 //   the first. This time is less than 1 s, and zero if the layout is symmetric enough.
 // The goals are stations at which transports begin (OrderEnds). Obstacles are avoided.
 // Requires: the scenario has map, vehicle type and law.
-std::vector<EncounterPair> place_pairs(Scenario& scenario, std::uint32_t fleet_size, Placement placement,
+std::vector<EncounterPair> place_pairs(Scenario& scenario, FleetTypes types, Placement placement,
                                        const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
                                        RejectionCounts& counts);
 
 // Changes the first transports of every pair: they begin at the goals of the pair. Both are released at the earlier of
 // their two instants, or one of them by `second_after` later. Later transports are not released before the first.
-// `drops`: where transports may end, in ascending order; two stations or more, or one that is no goal.
-void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs, const std::vector<StationId>& drops);
+// `ends`: by type; the goals of a pair are among the picks of its types.
+void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs, const std::vector<OrderEnds>& ends);
 
 }  // namespace fleetproof

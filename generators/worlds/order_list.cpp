@@ -111,7 +111,7 @@ class Ends {
   }
 
   // `column`: "from" or "to".
-  StationId find(const std::string& name, std::string_view column, const std::string& place) const {
+  StationId find(const std::string& name, std::string_view column, const std::string& place, std::uint32_t type) const {
     const auto found = stations_.find(name);
     if (found == stations_.end()) {
       std::vector<std::string_view> known;
@@ -126,15 +126,15 @@ class Ends {
       throw InputError(place, fmt::format("{} is {}, a station for charging or parking; orders begin and end elsewhere",
                                           column, in_quotes(name)));
     }
-    const StationUse& use = reachability_.use_of(found->second);
-    if (!use.passed) {
+    const StationUse& use = reachability_.use_of(found->second, type);
+    if (!reachability_.in_core(found->second)) {
       throw InputError(place, fmt::format("{} is {}, but there is no way from or to it; choose another station", column,
                                           in_quotes(name)));
     }
     const bool from = column == "from";
     if (!(from ? use.picks : use.drops)) {
-      throw InputError(place, fmt::format("{} is {}, but the layout does not permit every type of the fleet to {} a "
-                                          "load there (turns, headings, loads and types); choose another station",
+      throw InputError(place, fmt::format("{} is {}, but the layout does not permit an AGV of this type to {} a load "
+                                          "there (turns, headings, loads and types); choose another station",
                                           column, in_quotes(name), from ? "pick" : "drop"));
     }
     return found->second;
@@ -159,10 +159,11 @@ void assign_listed_orders(Scenario& scenario, const OrderList& list, const Reach
   for (auto& agv : scenario.agvs) agv.transports.clear();
   for (const auto& order : list.orders) {
     const auto place = at_line(list.source, order.line);
-    const auto from = ends.find(order.from, "from", place), to = ends.find(order.to, "to", place);
     const auto agv = order.agv ? *order.agv : free_orders++ % fleet;
     if (agv >= fleet)
       throw InputError(place, fmt::format("agv is {}; a fleet of {} has AGVs 0 to {}", agv, fleet, fleet - 1));
+    const std::uint32_t type = scenario.agvs[agv].type;
+    const auto from = ends.find(order.from, "from", place, type), to = ends.find(order.to, "to", place, type);
     if (order.release < scenario.horizon) scenario.agvs[agv].transports.push_back({from, to, order.release});
   }
   for (auto& agv : scenario.agvs) std::ranges::stable_sort(agv.transports, {}, &TransportOrder::release);

@@ -22,14 +22,26 @@ class Candidates {
       (is_place_to_wait(map.station(station)) ? waiting_ : others_).push_back(station);
   }
 
-  std::optional<StationId> draw(Draws& draws) {
-    auto& from = waiting_.empty() ? others_ : waiting_;
-    if (from.empty()) return std::nullopt;
-    const auto n = draws.below(static_cast<std::uint32_t>(from.size()));
-    const auto station = from[n];
-    from[n] = from.back();
-    from.pop_back();
-    return station;
+  // One that suits. The others stay.
+  template <class Suits>
+  std::optional<StationId> draw(Draws& draws, const Suits& suits) {
+    std::vector<StationId> unsuitable[2];
+    std::optional<StationId> found;
+    while (!found && !(waiting_.empty() && others_.empty())) {
+      auto& from = waiting_.empty() ? others_ : waiting_;
+      const auto n = draws.below(static_cast<std::uint32_t>(from.size()));
+      const auto station = from[n];
+      from[n] = from.back();
+      from.pop_back();
+      if (suits(station)) {
+        found = station;
+      } else {
+        unsuitable[&from == &waiting_ ? 0 : 1].push_back(station);
+      }
+    }
+    waiting_.insert(waiting_.end(), unsuitable[0].begin(), unsuitable[0].end());
+    others_.insert(others_.end(), unsuitable[1].begin(), unsuitable[1].end());
+    return found;
   }
 
  private:
@@ -52,10 +64,10 @@ std::optional<ProblemKind> rejection(const Scenario& scenario, const AgvSetup& a
 }
 
 // Heading along one of the lanes that leave the station.
-bool add_agv_at(Scenario& scenario, const Reachability& reachability, StationId station, Draws& draws,
-                RejectionCounts& counts) {
+bool add_agv_at(Scenario& scenario, const Reachability& reachability, std::uint32_t type, StationId station,
+                Draws& draws, RejectionCounts& counts) {
   auto lanes = scenario.map->lanes_from(station);
-  std::erase_if(lanes, [&](std::uint32_t lane) { return !reachability.may_start_along(lane); });
+  std::erase_if(lanes, [&](std::uint32_t lane) { return !reachability.may_start_along(lane, type); });
   if (lanes.empty()) {
     ++counts.starts_tried;
     ++counts.of(ProblemKind::StartWithoutLane);
@@ -76,25 +88,26 @@ Placement placement_of_world(Placement placement, std::uint64_t key) {
                  : Placement::Symmetric;
 }
 
-bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key,
+bool place_fleet(Scenario& scenario, FleetTypes types, const Reachability& reachability, std::uint64_t key,
                  std::uint32_t attempt, RejectionCounts& counts) {
   Candidates candidates(*scenario.map, reachability);
-  while (scenario.agvs.size() < fleet_size) {
+  while (scenario.agvs.size() < types.size()) {
+    const std::uint32_t type = types[scenario.agvs.size()];
     Draws draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size()));
     while (true) {
-      const auto station = candidates.draw(draws);
+      const auto station = candidates.draw(draws, [&](StationId s) { return reachability.use_of(s, type).stopped; });
       if (!station) {
         ++counts.fleets_without_room;
         return false;
       }
-      if (add_agv_at(scenario, reachability, *station, draws, counts)) break;
+      if (add_agv_at(scenario, reachability, type, *station, draws, counts)) break;
     }
   }
   return true;
 }
 
-bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability,
-                           std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts) {
+bool place_at_charger_bank(Scenario& scenario, FleetTypes types, const Reachability& reachability, std::uint64_t key,
+                           std::uint32_t attempt, RejectionCounts& counts) {
   const LogicalMap& map = *scenario.map;
   std::vector<StationId> banks;
   for (const auto s : reachability.stops()) {
@@ -112,11 +125,13 @@ bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const R
   };
   std::ranges::stable_sort(stations, {}, distance);
   for (const auto station : stations) {
-    if (scenario.agvs.size() == fleet_size) break;
+    if (scenario.agvs.size() == types.size()) break;
+    const std::uint32_t type = types[scenario.agvs.size()];
+    if (!reachability.use_of(station, type).stopped) continue;
     Draws draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size()));
-    add_agv_at(scenario, reachability, station, draws, counts);
+    add_agv_at(scenario, reachability, type, station, draws, counts);
   }
-  if (scenario.agvs.size() == fleet_size) return true;
+  if (scenario.agvs.size() == types.size()) return true;
   ++counts.fleets_without_room;
   return false;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/scenario/scenario.hpp"
@@ -37,16 +38,20 @@ inline constexpr auto kPlacements = kValuesOf<Placement>;
 // The placement of a world: `placement` itself. If that is Mixed: another one, drawn from the placement stream `key`.
 Placement placement_of_world(Placement placement, std::uint64_t key);
 
-// Adds AGVs of the first vehicle type of the scenario until the fleet has `fleet_size` AGVs. Each AGV stands on a
-// station of its own where it can stop without a load, heading along a lane that leaves it. Places to park, charge or
-// store come first. `key` is the key of the placement stream, `attempt` its topic. The draws of an AGV do not depend on
-// the AGVs after it. Returns false if there is no room; the scenario then contains the AGVs that found a place.
-bool place_fleet(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability, std::uint64_t key,
+// The types of a fleet, by AGV, as in Reachability.
+using FleetTypes = std::span<const std::uint32_t>;
+
+// Adds AGVs of the first vehicle type of the scenario until the fleet has as many AGVs as `types`. Each AGV stands on a
+// station of its own where its type can stop without a load, heading along a lane that leaves it. Places to park,
+// charge or store come first. `key` is the key of the placement stream, `attempt` its topic. The draws of an AGV do not
+// depend on the AGVs after it. Returns false if there is no room; the scenario then contains the AGVs that found a
+// place.
+bool place_fleet(Scenario& scenario, FleetTypes types, const Reachability& reachability, std::uint64_t key,
                  std::uint32_t attempt, RejectionCounts& counts);
 
 // The same, on a drawn charger and the stations nearest to it. Without a charger: a drawn place to wait.
-bool place_at_charger_bank(Scenario& scenario, std::uint32_t fleet_size, const Reachability& reachability,
-                           std::uint64_t key, std::uint32_t attempt, RejectionCounts& counts);
+bool place_at_charger_bank(Scenario& scenario, FleetTypes types, const Reachability& reachability, std::uint64_t key,
+                           std::uint32_t attempt, RejectionCounts& counts);
 
 // The places to park, charge or store where an AGV can stop without a load. If there are none: all stations where it
 // can.

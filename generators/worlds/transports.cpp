@@ -73,12 +73,13 @@ class HotSpots {
   Sums picked_, dropped_;
 };
 
-OrderEnds ends_where(const LogicalMap& map, const Reachability& reachability, bool (*suits)(const Station&)) {
+OrderEnds ends_where(const LogicalMap& map, const Reachability& reachability, std::uint32_t type,
+                     bool (*suits)(const Station&)) {
   OrderEnds ends;
   for (const auto station : reachability.core()) {
     if (!suits(map.station(station))) continue;
-    if (reachability.use_of(station).picks) ends.picks.push_back(station);
-    if (reachability.use_of(station).drops) ends.drops.push_back(station);
+    if (reachability.use_of(station, type).picks) ends.picks.push_back(station);
+    if (reachability.use_of(station, type).drops) ends.drops.push_back(station);
   }
   if (ends.drops.size() == 1) std::erase(ends.picks, ends.drops[0]);
   if (ends.picks.empty() || ends.drops.empty()) return {};
@@ -92,33 +93,46 @@ bool may_end_orders(const Station& station) {
          !(station.purposes.has(Purpose::Charging) || station.purposes.has(Purpose::Parking));
 }
 
-OrderEnds order_ends(const LogicalMap& map, const Reachability& reachability) {
-  OrderEnds ends =
-      ends_where(map, reachability, [](const Station& station) { return station.purposes.has(Purpose::Storage); });
+OrderEnds order_ends(const LogicalMap& map, const Reachability& reachability, std::uint32_t type) {
+  OrderEnds ends = ends_where(map, reachability, type,
+                              [](const Station& station) { return station.purposes.has(Purpose::Storage); });
   ends.storage = !ends.picks.empty();
-  if (ends.picks.empty()) ends = ends_where(map, reachability, may_end_orders);
-  if (ends.picks.empty()) ends = ends_where(map, reachability, [](const Station&) { return true; });
+  if (ends.picks.empty()) ends = ends_where(map, reachability, type, may_end_orders);
+  if (ends.picks.empty()) ends = ends_where(map, reachability, type, [](const Station&) { return true; });
+  return ends;
+}
+
+std::vector<OrderEnds> order_ends_by_type(const Scenario& scenario, const Reachability& reachability) {
+  std::vector<OrderEnds> ends;
+  for (std::uint32_t type = 0; type < scenario.vehicle_types.size(); ++type)
+    ends.push_back(order_ends(*scenario.map, reachability, type));
   return ends;
 }
 
 bool assign_transports(Scenario& scenario, const Demand& demand, const Reachability& reachability, std::uint64_t key,
                        std::uint32_t attempt) {
-  const OrderEnds ends = order_ends(*scenario.map, reachability);
-  if (ends.picks.empty() || demand.transports_per_agv_hour <= 0.0) return ends.storage;
-  std::optional<HotSpots> hot_spots;
-  if (demand.hot_spot_skew > 0.0) hot_spots.emplace(ends, demand.hot_spot_skew, Draws(key, attempt, kNoAgv));
+  const auto ends = order_ends_by_type(scenario, reachability);
+  const bool stored = std::ranges::all_of(ends, &OrderEnds::storage);
+  if (demand.transports_per_agv_hour <= 0.0) return stored;
+  std::vector<std::optional<HotSpots>> hot_spots(ends.size());
+  for (std::size_t type = 0; type < ends.size() && demand.hot_spot_skew > 0.0; ++type) {
+    if (!ends[type].picks.empty())
+      hot_spots[type].emplace(ends[type], demand.hot_spot_skew, Draws(key, attempt, kNoAgv));
+  }
   const double mean_s = 3600.0 / demand.transports_per_agv_hour, horizon_s = to_seconds(scenario.horizon);
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
     Draws draws(key, attempt, static_cast<std::uint32_t>(i));
+    const std::uint32_t type = scenario.agvs[i].type;
     auto& transports = scenario.agvs[i].transports;
     transports.clear();
+    if (ends[type].picks.empty()) continue;
     for (double t_s = draws.uniform(0.0, kFirstWithin_s); t_s < horizon_s; t_s += draws.exponential(mean_s)) {
-      auto order = hot_spots ? hot_spots->draw_order(draws) : draw_order(draws, ends);
+      auto order = hot_spots[type] ? hot_spots[type]->draw_order(draws) : draw_order(draws, ends[type]);
       order.release = seconds(t_s);
       transports.push_back(order);
     }
   }
-  return ends.storage;
+  return stored;
 }
 
 }  // namespace fleetproof

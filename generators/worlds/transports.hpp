@@ -22,12 +22,15 @@ struct OrderEnds {
   bool storage = false;                 // all of them are for storage
 };
 
-// The storage stations of the core where AGVs can pick, and those where they can drop. If these allow no transport: all
-// stations that may_end_orders(). If those allow none either: all stations.
-OrderEnds order_ends(const LogicalMap& map, const Reachability& reachability);
+// For AGVs of this type (reachability.hpp): the storage stations of the core where they can pick, and those where they
+// can drop. If these allow no transport: all stations that may_end_orders(). If those allow none either: all stations.
+OrderEnds order_ends(const LogicalMap& map, const Reachability& reachability, std::uint32_t type = 0);
 
 // False for a station that is for charging or parking only.
 bool may_end_orders(const Station& station);
+
+// By type of the fleet.
+std::vector<OrderEnds> order_ends_by_type(const Scenario& scenario, const Reachability& reachability);
 
 // Gives every AGV a Poisson process of transports until the horizon, between two different stations of order_ends().
 // The first transport is released within the first 10 s. Each AGV has its own draws, so a larger fleet or a longer

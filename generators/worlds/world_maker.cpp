@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
 #include "core/scenario/lane_rules.hpp"
 #include "generators/families/layout_family.hpp"
@@ -100,22 +101,26 @@ class WorldMaker {
     // No other draw mends a fixed layout.
     for (const auto& problem : world_problems(scenario_, *reachability_))
       throw InputError(scenario_.map->layout().name, problem.sentence);
-    if (!forbids_transports()) return;
+    const auto idle = type_without_transports();
+    if (!idle) return;
     throw InputError(
         scenario_.map->layout().name,
-        fmt::format("no AGV can pick a load at one station and drop it at another by what the layout permits the "
-                    "vehicle types of this fleet (turns, headings, loads and types{}); change that, or ask for no "
-                    "transports (transports_per_agv_hour = 0)",
-                    foreign_types_hint(scenario_.map->layout(), names_of(spec.vehicles))));
+        fmt::format(
+            "no AGV of type {} can pick a load at one station and drop it at another by what the layout permits "
+            "(turns, headings, loads and types{}); change that, or ask for no transports "
+            "(transports_per_agv_hour = 0)",
+            in_quotes(spec.vehicles[*idle].type.name),
+            foreign_types_hint(scenario_.map->layout(), names_of(spec.vehicles))));
   }
 
   bool attempt(std::uint32_t number) {
     scenario_.vehicle_types = {envelope(spec_.vehicles)};
     scenario_.obstacles.clear();
     scenario_.faults.clear();
-    if (!draw_map(number) || !place(number)) return false;
-    const bool stored = assign_orders(number);
     draw_types(number);
+    if (!draw_map(number) || !place(number)) return false;
+    set_types();
+    const bool stored = assign_orders(number);
     draw_faults(scenario_, spec_.faults, key_of(Stream::Faults));
     if (const auto problems = unusable_problems(scenario_); !problems.empty())
       throw InputError(problems[0].pointer, problems[0].sentence);
@@ -146,7 +151,7 @@ class WorldMaker {
       auto map = draw_mutated_map(std::get<SharedMap>(spec_.layout)->layout(), draws, counts);
       if (map == nullptr) return false;
       set_map(std::move(map));
-      if (!forbids_transports()) return true;
+      if (!type_without_transports()) return true;
       ++counts.of(ProblemKind::WeakCore);
       return false;
     }
@@ -166,10 +171,10 @@ class WorldMaker {
     scenario_.agvs.clear();
     pairs_.clear();
     if (placement == Placement::ChargerBank)
-      return place_at_charger_bank(scenario_, spec_.fleet_size, *reachability_, key, number, counts);
+      return place_at_charger_bank(scenario_, types_, *reachability_, key, number, counts);
     if (placement != Placement::Random)
-      pairs_ = place_pairs(scenario_, spec_.fleet_size, placement, *reachability_, key, number, counts);
-    return place_fleet(scenario_, spec_.fleet_size, *reachability_, key, number, counts);
+      pairs_ = place_pairs(scenario_, types_, placement, *reachability_, key, number, counts);
+    return place_fleet(scenario_, types_, *reachability_, key, number, counts);
   }
 
   // False if transports lead between any stations, because there are too few storage stations.
@@ -181,34 +186,38 @@ class WorldMaker {
     const Demand& demand = spec_.demand;
     const bool stored = assign_transports(scenario_, demand, *reachability_, key_of(Stream::Transports),
                                           attempt_of(Stream::Transports, number));
-    if (!pairs_.empty()) send_to_meet(scenario_, pairs_, order_ends(*scenario_.map, *reachability_).drops);
+    if (!pairs_.empty()) send_to_meet(scenario_, pairs_, order_ends_by_type(scenario_, *reachability_));
     return stored;
   }
 
-  // The types are drawn after every AGV has a place that is large enough for the largest type.
   void draw_types(std::uint32_t number) {
-    scenario_.vehicle_types.clear();
-    double total = 0.0;
-    for (const auto& [type, share] : spec_.vehicles) {
-      scenario_.vehicle_types.push_back(type);
-      total += share;
-    }
+    types_.assign(spec_.fleet_size, 0);
     if (spec_.vehicles.size() == 1) return;
-    for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
-      Draws draws(key_of(Stream::Placement), kTypeTopic + attempt_of(Stream::Placement, number),
-                  static_cast<std::uint32_t>(i));
+    double total = 0.0;
+    for (const auto& [type, share] : spec_.vehicles) total += share;
+    for (std::uint32_t i = 0; i < spec_.fleet_size; ++i) {
+      Draws draws(key_of(Stream::Placement), kTypeTopic + attempt_of(Stream::Placement, number), i);
       double left = draws.uniform(0.0, total);
-      std::uint32_t type = 0;
-      while (type + 1 < spec_.vehicles.size() && left >= spec_.vehicles[type].share)
-        left -= spec_.vehicles[type++].share;
-      scenario_.agvs[i].type = type;
+      while (types_[i] + 1 < spec_.vehicles.size() && left >= spec_.vehicles[types_[i]].share)
+        left -= spec_.vehicles[types_[i]++].share;
     }
   }
 
-  // Whether the rules of the plant allow no transport at all, though the world has drawn ones.
-  bool forbids_transports() const {
+  // After every AGV has a place that is large enough for the largest type.
+  void set_types() {
+    scenario_.vehicle_types.clear();
+    for (const auto& [type, share] : spec_.vehicles) scenario_.vehicle_types.push_back(type);
+    for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) scenario_.agvs[i].type = types_[i];
+  }
+
+  // A type of the fleet that cannot carry anything, though transports are drawn for it; none without rules.
+  std::optional<std::size_t> type_without_transports() const {
     const bool drawn = spec_.orders == nullptr && spec_.demand.transports_per_agv_hour > 0.0;
-    return drawn && has_rules(scenario_.map->layout()) && order_ends(*scenario_.map, *reachability_).picks.empty();
+    if (!drawn || !has_rules(scenario_.map->layout())) return std::nullopt;
+    for (std::uint32_t type = 0; type < spec_.vehicles.size(); ++type) {
+      if (order_ends(*scenario_.map, *reachability_, type).picks.empty()) return type;
+    }
+    return std::nullopt;
   }
 
   std::uint64_t key_of(Stream stream) const { return stream_key(scenario_.seed_of(stream), stream); }
@@ -232,6 +241,7 @@ class WorldMaker {
   const std::string* family_;
   Scenario scenario_;
   std::optional<Reachability> reachability_;
+  std::vector<std::uint32_t> types_;  // by AGV, also before it has a place
   std::vector<EncounterPair> pairs_;
   std::vector<std::size_t> placed_;  // AGVs, by draw
 };

@@ -82,16 +82,17 @@ TEST(OrderEnds, HoldForPairsThatAreSentToMeet) {
   scenario.map = std::make_shared<const LogicalMap>(layout);
   scenario.horizon = std::chrono::minutes(1);
   const StationId source{6U}, sink{7U}, shelf{9U};
+  const OrderEnds ends{{source, shelf}, {sink, shelf}, true};
   scenario.agvs.resize(2);
   scenario.agvs[0].transports = {{source, shelf, Duration{}}};
   scenario.agvs[1].transports = {{shelf, sink, Duration{}}};
-  send_to_meet(scenario, {{0, 1, shelf, source, Duration{}}}, {sink, shelf});
+  send_to_meet(scenario, {{0, 1, shelf, source, Duration{}}}, {ends});
   EXPECT_EQ(scenario.agvs[0].transports[0].from, shelf);
   EXPECT_EQ(scenario.agvs[0].transports[0].to, sink) << "nothing can be dropped at the source";
   EXPECT_EQ(scenario.agvs[1].transports[0].from, source);
   EXPECT_EQ(scenario.agvs[1].transports[0].to, sink);
   scenario.agvs[1].transports = {{shelf, sink, Duration{}}};
-  send_to_meet(scenario, {{0, 1, shelf, sink, Duration{}}}, {sink, shelf});
+  send_to_meet(scenario, {{0, 1, shelf, sink, Duration{}}}, {ends});
   EXPECT_EQ(scenario.agvs[1].transports[0].to, shelf) << "to and fro, as before";
 }
 
@@ -172,6 +173,88 @@ TEST(OrderEnds, AMutationThatLeavesNoneIsDrawnAgain) {
   EXPECT_GT(counts.of(ProblemKind::WeakCore), 0U);
 }
 
+// A ring for all; spurs for forklifts at one side, for tuggers at the other.
+Layout two_halves() {
+  Layout layout = test::source_and_sink();
+  layout.segments.resize(6);
+  layout.stations.resize(6);
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const Vec2 at = layout.stations[i].position_m;
+    layout.stations.push_back({"spur " + std::to_string(i), {at.x(), at.y() < 4.0 ? -6.0 : 14.0}, Purpose::Storage});
+    layout.segments.push_back({"s" + std::to_string(i), StationId{i}, StationId{i + 6}, true});
+    layout.segments.back().permissions = {{i < 3 ? "forklift" : "tugger", LoadState::Any}};
+  }
+  return layout;
+}
+
+std::vector<VehicleShare> forklift_and_tugger() {
+  std::vector<VehicleShare> vehicles(2);
+  vehicles[0].type.name = "forklift";
+  vehicles[1].type.name = "tugger";
+  return vehicles;
+}
+
+TEST(MixedFleets, EachTypeStartsAndCarriesWhereItMay) {
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(two_halves());
+  spec.fleet_size = 4;
+  spec.demand.transports_per_agv_hour = 120.0;
+  spec.vehicles = forklift_and_tugger();
+  std::map<std::uint32_t, std::set<std::uint32_t>> starts, ends;  // by type: spurs
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    spec.placement = kPlacements[seed % kPlacements.size()];
+    spec.demand.hot_spot_skew = seed % 2 == 0 ? 0.0 : 1.0;
+    RejectionCounts counts;
+    const Scenario s = generate_world(spec, seed, counts);
+    for (const AgvSetup& agv : s.agvs) {
+      if (agv.start.value >= 6) starts[agv.type].insert(agv.start.value);
+      EXPECT_FALSE(agv.transports.empty());
+      for (const auto& order : agv.transports) ends[agv.type].insert({order.from.value, order.to.value});
+    }
+  }
+  const std::set<std::uint32_t> forklift = {6, 7, 8}, tugger = {9, 10, 11};
+  EXPECT_EQ(starts[0], forklift);
+  EXPECT_EQ(starts[1], tugger);
+  EXPECT_EQ(ends[0], forklift);
+  EXPECT_EQ(ends[1], tugger);
+}
+
+TEST(MixedFleets, ListedOrdersAreJudgedByTheTypeOfTheirAgv) {
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(two_halves());
+  spec.fleet_size = 2;
+  spec.vehicles = forklift_and_tugger();
+  spec.orders =
+      std::make_shared<const OrderList>(parse_order_list("release_s,from,to,agv\n1,spur 0,spur 1,0\n", "o.csv"));
+  int accepted = 0, refused = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RejectionCounts counts;
+    try {
+      EXPECT_EQ(generate_world(spec, seed, counts).agvs[0].type, 0U);
+      ++accepted;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("o.csv:2: from is \"spur 0\""));
+      ++refused;
+    }
+  }
+  EXPECT_GT(accepted, 3);
+  EXPECT_GT(refused, 3);
+}
+
+TEST(MixedFleets, ATypeThatCannotCarryIsNamed) {
+  Layout layout = two_halves();
+  for (std::size_t i = 9; i < 12; ++i) layout.segments[i].permissions = {{"forklift", LoadState::Any}};
+  for (std::size_t i = 0; i < 6; ++i)
+    layout.segments[i].permissions = {{"forklift", LoadState::Any}, {"tugger", LoadState::Empty}};
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(layout);
+  spec.fleet_size = 2;
+  spec.vehicles = forklift_and_tugger();
+  RejectionCounts counts;
+  EXPECT_THAT([&] { generate_world(spec, 1, counts); },
+              testing::ThrowsMessage<InputError>(HasSubstr("no AGV of type \"tugger\" can pick a load")));
+}
+
 TEST(OrderEnds, AListMustRespectThem) {
   WorldSpec spec;
   spec.layout = std::make_shared<const LogicalMap>(test::source_and_sink());
@@ -188,10 +271,14 @@ TEST(OrderEnds, AListMustRespectThem) {
     return "accepted";
   };
   EXPECT_EQ(refusal("source,sink"), "accepted");
-  EXPECT_THAT(refusal("sink,shelf"), HasSubstr("orders.csv:2: from is \"sink\", but the layout does not permit every "
-                                               "type of the fleet to pick a load there"));
-  EXPECT_THAT(refusal("shelf,source"), HasSubstr("orders.csv:2: to is \"source\", but the layout does not permit every "
-                                                 "type of the fleet to drop a load there"));
+  const char* rest = " a load there (turns, headings, loads and types); choose another station";
+  EXPECT_THAT(refusal("sink,shelf"),
+              HasSubstr(std::string("orders.csv:2: from is \"sink\", but the layout does not permit "
+                                    "an AGV of this type to pick") +
+                        rest));
+  EXPECT_THAT(refusal("shelf,source"), HasSubstr(std::string("orders.csv:2: to is \"source\", but the layout does not "
+                                                             "permit an AGV of this type to drop") +
+                                                 rest));
 }
 
 TEST(OrderEnds, APlantWithoutAnyIsRefused) {
@@ -202,7 +289,7 @@ TEST(OrderEnds, APlantWithoutAnyIsRefused) {
   spec.fleet_size = 1;
   RejectionCounts counts;
   EXPECT_THAT([&] { generate_world(spec, 1, counts); },
-              testing::ThrowsMessage<InputError>(HasSubstr("no AGV can pick a load at one station and drop it at "
+              testing::ThrowsMessage<InputError>(HasSubstr("can pick a load at one station and drop it at "
                                                            "another by what the layout permits")));
   spec.demand.transports_per_agv_hour = 0.0;
   EXPECT_NO_THROW(generate_world(spec, 1, counts));

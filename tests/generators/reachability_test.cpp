@@ -63,14 +63,14 @@ Layout line_of_three() {
   return layout;
 }
 
-// What AGVs of all these types can do at the stations, in their order: "-" nothing, or some of "pass", "stop", "pick"
-// and "drop".
-std::string uses_of(const Layout& layout, std::vector<std::string> types = {"tugger"}) {
+// What AGVs of one of these types can do at the stations, in their order: "-" nothing, or some of "pass", "stop",
+// "pick" and "drop".
+std::string uses_of(const Layout& layout, std::vector<std::string> types = {"tugger"}, std::uint32_t type = 0) {
   const LogicalMap map(layout);
   const Reachability reachability(map, types);
   std::string text;
   for (std::size_t i = 0; i < layout.stations.size(); ++i) {
-    const StationUse& use = reachability.use_of(StationId{i});
+    const StationUse& use = reachability.use_of(StationId{i}, type);
     if (i > 0) text += ", ";
     if (!use.passed) text += "-";
     if (use.passed && !use.stopped && !use.picks && !use.drops) text += "pass";
@@ -105,7 +105,12 @@ TEST(ReachabilityUnderRules, PermissionsCountForEveryType) {
   Layout layout = line_of_three();
   layout.segments[1].permissions = {{"tugger", LoadState::Any}};
   EXPECT_EQ(uses_of(layout), two_and(kAll));
-  EXPECT_EQ(uses_of(layout, {"tugger", "forklift"}), two_and("-"));
+  EXPECT_EQ(uses_of(layout, {"tugger", "forklift"}, 0), two_and(kAll));
+  EXPECT_EQ(uses_of(layout, {"tugger", "forklift"}, 1), two_and("-"));
+  const LogicalMap map(layout);
+  const std::vector<std::string> tugger = {"forklift", "tugger"}, forklift = {"forklift"};
+  EXPECT_EQ(Reachability(map, tugger).core().size(), 3U) << "of some type";
+  EXPECT_EQ(Reachability(map, forklift).core().size(), 2U);
   EXPECT_EQ(uses_of(layout, {}), two_and(kAll)) << "no fleet yet: all permissions";
 }
 
