@@ -43,13 +43,7 @@ bool must_stop(const RunOptions& options, double elapsed_s) {
   return interrupted || (options.max_time && elapsed_s >= static_cast<double>(options.max_time->count()));
 }
 
-void build_first_worlds(const CampaignPlan& plan) {
-  const ScenarioSource scenarios(plan);
-  for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world())
-    (void)scenarios.scenario(index);
-}
-
-std::vector<std::string> crowded_floors(const CampaignPlan& plan) {
+std::vector<std::string> build_first_worlds(const CampaignPlan& plan) {
   const ScenarioSource scenarios(plan);
   std::vector<std::string> sentences;
   for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world()) {
@@ -303,7 +297,8 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
                             const RunOptions& options, const CampaignListener& listener) {
   for (const AgentFactor& agent : plan.agents) (void)programs.program(agent.program, "factors.agents");
   if (auto result = folded_before(plan, programs, path, options)) return *std::move(result);
-  build_first_worlds(plan);  // what cannot be built at all is said before anything is written
+  // What cannot be built at all is said before anything is written.
+  for (const std::string& sentence : build_first_worlds(plan)) listener.warned(sentence);
   return Session(plan, programs, path, options, listener).run(plan.keep);
 }
 

@@ -48,12 +48,13 @@ struct CampaignResult {
 
 // What a running campaign reports, on the caller's thread.
 struct CampaignListener {
-  std::function<void()> started = [] {};  // the file is open, no run has begun
+  std::function<void()> started = [] {};                                       // the file is open, no run has begun
   std::function<void(const RunRecord&)> run_finished = [](const RunRecord&) {};
   std::function<void(const Progress&)> tick = [](const Progress&) {};  // about ten times a second
   // Asked about ten times a second; true: `status` is called once.
   std::function<bool()> wants_status = [] { return false; };
   std::function<void(const Progress&, const std::vector<RunUnderWay>&)> status = [](const auto&, const auto&) {};
+  std::function<void(const std::string&)> warned = [](const std::string&) {};  // before the file is opened
 };
 
 // Runs the plan and leaves its campaign file at `path`. Agents of plug-ins run in worker processes
@@ -68,12 +69,9 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
 // Whether a signal or the time budget ends a session that lasts so long.
 bool must_stop(const RunOptions& options, double elapsed_s);
 
-// Draws one world for each layout and fleet size. Throws InputError if a layout has no room for its fleet.
-void build_first_worlds(const CampaignPlan& plan);
-
-// Fleets so large for their first world that they may stand still, each as a sentence: more than one AGV for two
-// stations. Throws InputError as build_first_worlds().
-std::vector<std::string> crowded_floors(const CampaignPlan& plan);
+// Draws one world for each layout and fleet size. Throws InputError if a layout has no room for its fleet. Returns a
+// sentence for each fleet so large that it may stand still: more than one AGV for two stations.
+std::vector<std::string> build_first_worlds(const CampaignPlan& plan);
 
 // The agents of the plan that come from shared objects.
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);

@@ -57,7 +57,7 @@ void check_campaign(const std::string& path) {
   AgentPrograms programs;
   const CampaignFile file = load_campaign(path, programs);
   const CampaignPlan& plan = file.plan;
-  for (const std::string& sentence : crowded_floors(plan)) talk("warning: {}\n", sentence);
+  for (const std::string& sentence : build_first_worlds(plan)) talk("warning: {}\n", sentence);
   const double total_s = mean_run_s(plan, programs) * static_cast<double>(plan.run_count());
   put("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {:.0f} s of one core\n", path, plan.cell_count(),
       plan.replicates, plan.run_count(), plan.horizon_s, total_s);

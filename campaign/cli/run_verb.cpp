@@ -191,7 +191,6 @@ int run(RunWords words) {
                                         .fresh_seed = file.fresh_seed && !words.plan.seed,
                                         .wants_status = [] { return status_wanted.exchange(false); }});
   }
-  for (const std::string& sentence : crowded_floors(file.plan)) talk("warning: {}\n", sentence);
   if (words.archive.empty()) words.archive = archive_name_of(file.plan.name);
   const RunOptions options = run_options(words);
   play_findings(words, file.plan, programs);
@@ -212,6 +211,7 @@ int run(RunWords words) {
       attempt.begin();
       tell();
     };
+    listener.warned = [](const std::string& sentence) { cli::talk("warning: {}\n", sentence); };
     listener.wants_status = [] { return status_wanted.exchange(false); };
     result = run_campaign(file.plan, programs, words.archive, options, listener);
     session.end(result, interrupted().load());

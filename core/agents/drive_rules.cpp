@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace fleetproof::agents {
+namespace {
+
+constexpr std::size_t kMostTried = 64;
+
+}  // namespace
 
 DriveRules::DriveRules(const MapView& map, std::uint32_t vehicle_type, WorkOut)
     : map_(map), vehicle_type_(vehicle_type) {
@@ -93,8 +98,14 @@ void DriveRules::keep_those_that_lead_back() {
 void DriveRules::mark_those_that_lead_back(bool loaded) {
   States judged(own_.size(), false), there;
   std::ptrdiff_t most = 0;
-  for (std::uint32_t state = loaded ? 1 : 0; state < own_.size(); state += 2) {
-    if (own_[state] == 0 || judged[state]) continue;
+  // Not every state is tried on a large map; those from everywhere come first.
+  const std::size_t lanes = own_.size() / 2, step = lanes / kMostTried + 1, in_a_row = lanes / step + 1;
+  std::size_t tried = 0;
+  for (std::size_t k = 0; k < step * in_a_row && tried < kMostTried; ++k) {
+    const std::size_t lane = k / in_a_row + step * (k % in_a_row);
+    const auto state = static_cast<std::uint32_t>(2 * lane + (loaded ? 1 : 0));
+    if (lane >= lanes || own_[state] == 0 || judged[state]) continue;
+    ++tried;
     const States ahead = connected(state, false, false);
     States behind = connected(state, true, false);
     for (std::size_t i = 0; i < judged.size(); ++i) judged[i] = judged[i] || (ahead[i] && behind[i]);

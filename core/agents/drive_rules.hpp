@@ -20,7 +20,7 @@ class DriveRules {
   bool any() const { return !usable_.empty(); }
   // Whether the AGV may drive the lane, with a load or without one, and can come back to where it was.
   bool is_usable(std::uint32_t lane, bool loaded) const { return !any() || (what(lane, loaded) & kUsable) != 0; }
-  // Whether it can also come back without picking or dropping a load on the way.
+  // Whether it also gets to the part of the map through which most ways with this load lead, without a pick or drop.
   bool leads_back(std::uint32_t lane, bool loaded) const { return !any() || what(lane, loaded) == kLeadsBack; }
   // Whether an AGV with this heading may leave by this lane.
   bool may_leave(Vec heading, std::uint32_t lane) const {

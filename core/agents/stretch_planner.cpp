@@ -317,7 +317,7 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
   double best_s = INFINITY;
   const auto look_at = [&](std::uint32_t station, double way_s) {
     if (way_s >= std::min(best_s, kNoWayCost_s)) return true;
-    if (station == standing.station) return false;
+    if (station == standing.station || (rules_.any() && !leads_on(station))) return false;
     double cost_s = way_s;
     if (rules_.any() && !leads_back(station)) cost_s += kNoWayBackCost_s;
     if (prefer_parking && (map_.station(station).purposes & FP_PARKING) == 0) cost_s += 10.0;
@@ -330,6 +330,12 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
   };
   routes_.search_until(look_at, standing.station, standing.heading, prices_.costs_s());
   return best;
+}
+
+// False where an AGV with the load for which lanes were priced cannot leave before it has picked or dropped.
+bool StretchPlanner::leads_on(std::uint32_t station) const {
+  return std::ranges::any_of(map_.lanes_from(station),
+                             [&](std::uint32_t lane) { return prices_.costs_s()[lane] < INFINITY; });
 }
 
 // Whether an AGV with the load for which lanes were priced can come back from there as it is.

@@ -126,6 +126,7 @@ class StretchPlanner {
   std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw, const GoesFirst& goes_first);
   double price_of_staying(std::uint32_t station, double limit_s, const GoesFirst& goes_first);
   bool may_turn_back(std::uint32_t station) const;
+  bool leads_on(std::uint32_t station) const;
   bool leads_back(std::uint32_t station) const;
   bool is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n);
   bool is_taken(std::uint32_t station);

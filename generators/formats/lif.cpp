@@ -278,7 +278,7 @@ class LifReader {
   }
 
   void note_station(const JsonReader& station) {
-    if (const auto id = station.find("stationId")) name_in(*id, ids_.stations);
+    if (const auto id = station.find("stationId"); id && !id->text().empty()) name_in(*id, ids_.stations);
     for (const auto& id : station.at("interactionNodeIds").items()) {
       const auto node = station_in(id);
       if (!node || stated_.contains(node->index())) continue;

@@ -5,9 +5,16 @@
 namespace fleetproof {
 namespace {
 
-// Left and right have no order here. The drafts of LIF 2.0 spell them in two ways, VDA 5050 in a third.
-constexpr const char* kSides[] = {"maximumLeftWidth", "maximumRightWidth", "leftWidth",
-                                  "rightWidth",       "maxLeft",           "maxRight"};
+// Left and right. The drafts of LIF 2.0 spell them in two ways, VDA 5050 in a third.
+constexpr const char* kSides[][2] = {
+    {"maximumLeftWidth", "maximumRightWidth"}, {"leftWidth", "rightWidth"}, {"maxLeft", "maxRight"}};
+constexpr double kWidest_m = 100.0;  // that a layout knows
+
+double side_m(const JsonReader& corridor, const char* key) {
+  const auto side = corridor.find(key);
+  if (side && !(side->number() >= 0.0)) side->refuse("expected a width of 0 m or more");
+  return side ? side->number() : 0.0;
+}
 
 }  // namespace
 
@@ -16,15 +23,10 @@ double corridor_width_m(const std::vector<JsonReader>& rules) {
   for (const JsonReader& rule : rules) {
     const auto corridor = rule.find("corridor");
     if (!corridor) continue;
-    double width_m = 0.0;
-    for (const char* key : kSides) {
-      const auto side = corridor->find(key);
-      if (side && !(side->number() >= 0.0)) side->refuse("expected a width of 0 m or more");
-      if (side) width_m += side->number();
-    }
-    widest_m = std::max(widest_m, width_m);
+    for (const auto& [left, right] : kSides)
+      widest_m = std::max(widest_m, side_m(*corridor, left) + side_m(*corridor, right));
   }
-  return widest_m;
+  return std::min(widest_m, kWidest_m);
 }
 
 }  // namespace fleetproof

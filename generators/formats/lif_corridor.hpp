@@ -6,8 +6,8 @@
 
 namespace fleetproof {
 
-// How wide the corridors of an edge of LIF are, in metres: the widest of all rules; 0 without a corridor. Throws
-// InputError if a width is below 0.
+// How wide the corridors of an edge of LIF are, in metres: the widest of all rules, at most 100 m; 0 without a
+// corridor. Throws InputError if a width is below 0.
 double corridor_width_m(const std::vector<JsonReader>& rules);
 
 }  // namespace fleetproof

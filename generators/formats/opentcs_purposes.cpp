@@ -14,24 +14,33 @@ struct KnownWord {
 };
 // Beginnings of words.
 constexpr KnownWord kKnownWords[] = {
-    {"charg", Purpose::Charging},  {"recharg", Purpose::Charging}, {"load", Purpose::Storage},
-    {"unload", Purpose::Storage},  {"transfer", Purpose::Storage}, {"storage", Purpose::Storage},
-    {"store", Purpose::Storage},   {"pick", Purpose::Storage},     {"drop", Purpose::Storage},
-    {"deliver", Purpose::Storage}, {"fetch", Purpose::Storage},    {"jacking", Purpose::Storage},
-    {"pack", Purpose::Storage},    {"work", Purpose::Storage},     {"park", Purpose::Parking},
+    {"charg", Purpose::Charging},   {"recharg", Purpose::Charging}, {"load", Purpose::Storage},
+    {"unload", Purpose::Storage},   {"offload", Purpose::Storage},  {"reload", Purpose::Storage},
+    {"transfer", Purpose::Storage}, {"storage", Purpose::Storage},  {"store", Purpose::Storage},
+    {"pick", Purpose::Storage},     {"drop", Purpose::Storage},     {"deliver", Purpose::Storage},
+    {"fetch", Purpose::Storage},    {"jacking", Purpose::Storage},  {"pack", Purpose::Storage},
+    {"work", Purpose::Storage},     {"park", Purpose::Parking},
 };
 
 bool is_small(char c) { return c >= 'a' && c <= 'z'; }
 bool is_large(char c) { return c >= 'A' && c <= 'Z'; }
 
-// "Load cargo", "LOAD_CARGO", "load:2" and "LoadCargo": in small letters. What is no letter from A to Z parts words.
+// "Load cargo", "LOAD_CARGO", "load:2", "LoadCargo" and "AGVLoad": in small letters; digits are words, too. All else
+// parts words.
 std::vector<std::string> words_in(std::string_view text) {
+  enum class Kind : std::uint8_t { Other, Small, Large, Digit };
+  const auto kind_of = [](char c) {
+    return is_small(c) ? Kind::Small : is_large(c) ? Kind::Large : c >= '0' && c <= '9' ? Kind::Digit : Kind::Other;
+  };
   std::vector<std::string> words(1);
-  char before = ' ';
-  for (const char c : text) {
-    if ((is_small(before) && is_large(c)) || !(is_small(c) || is_large(c))) words.emplace_back();
-    if (is_small(c) || is_large(c)) words.back() += is_large(c) ? static_cast<char>(c - 'A' + 'a') : c;
-    before = c;
+  Kind before = Kind::Other;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const Kind kind = kind_of(text[i]), after = i + 1 < text.size() ? kind_of(text[i + 1]) : Kind::Other;
+    const bool hump = kind == Kind::Large && (before == Kind::Small || (before == Kind::Large && after == Kind::Small));
+    const bool goes_on = kind == before || (before == Kind::Large && kind == Kind::Small);
+    if (hump || !goes_on) words.emplace_back();
+    if (kind != Kind::Other) words.back() += kind == Kind::Large ? static_cast<char>(text[i] - 'A' + 'a') : text[i];
+    before = kind;
   }
   std::erase(words, "");
   return words;

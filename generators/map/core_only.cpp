@@ -98,10 +98,11 @@ std::vector<std::string> limited_uses(const Layout& layout) {
     if (!names.empty())
       sentences.push_back(fmt::format("{} (turns, headings, loads): {}", what, name_list(names, kMostNames)));
   };
-  tell(only_picks, "storage stations where the layout permits only picks");
-  tell(only_drops, "storage stations where the layout permits only drops");
-  tell(no_orders, "storage stations where the layout permits no pick and no drop");
-  tell(no_stops, "stations for charging or parking where the layout permits no stop without a load");
+  tell(only_picks, "orders begin and do not end at some storage stations, by what the layout permits");
+  tell(only_drops, "orders end and do not begin at some storage stations, by what the layout permits");
+  tell(no_orders, "orders neither begin nor end at some storage stations, by what the layout permits");
+  tell(no_stops,
+       "AGVs without a load do not stop at some stations for charging or parking, by what the layout permits");
   return sentences;
 }
 

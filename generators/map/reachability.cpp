@@ -36,7 +36,7 @@ Reachability::Reachability(const LogicalMap& map, std::span<const std::string> v
     };
     in_core_[i] = some(&StationUse::passed);
     if (in_core_[i]) core_.emplace_back(i);
-    if (some(&StationUse::stopped)) stops_.emplace_back(i);
+    if (some(&StationUse::started)) starts_.emplace_back(i);
   }
 }
 
@@ -51,7 +51,8 @@ bool Reachability::may_start_along(std::uint32_t lane, std::uint32_t type) const
 bool Reachability::reaches(StationId from, StationId to, bool loaded, std::uint32_t type) const {
   const StationUse &there = use_of(to, type), &here = use_of(from, type);
   if (states_.empty()) return (here.passed && there.passed) || reaches_without_rules(from, to);
-  if (loaded ? here.picks && there.drops : (here.stopped || here.drops) && (there.stopped || there.picks)) return true;
+  if (loaded && here.picks && there.drops && carries_all(type)) return true;
+  if (!loaded && (here.started || here.drops) && (there.stopped || there.picks)) return true;
   return states_[type].reaches(from, to, loaded);
 }
 

@@ -21,11 +21,15 @@ class Reachability {
   const std::vector<StationId>& core() const { return core_; }
   bool in_core(StationId station) const { return in_core_[station.index()]; }
   double core_share() const { return static_cast<double>(core_.size()) / static_cast<double>(in_core_.size()); }
-  // Those of the core where an AGV of some type can stop without a load.
-  const std::vector<StationId>& stops() const { return stops_; }
+  // Those of the core where an AGV of some type can start.
+  const std::vector<StationId>& starts() const { return starts_; }
   // What AGVs of this type can do there; without rules, everything in the core.
   const StationUse& use_of(StationId station, std::uint32_t type = 0) const { return uses_[of(type)][station.index()]; }
   bool reaches(StationId from, StationId to, bool loaded, std::uint32_t type = 0) const;
+  // Whether every load that is picked somewhere can be dropped wherever one can.
+  bool carries_all(std::uint32_t type) const { return states_.empty() || states_[type].carries_all(); }
+  // Where a load that is picked at `from` can be dropped, by station. Requires: the plant has rules.
+  std::vector<bool> carried_from(StationId from, std::uint32_t type) const { return states_[type].carried_from(from); }
   // Whether the plant lets an AGV of this type drive the lane.
   bool permits(std::uint32_t lane, bool loaded, std::uint32_t type) const;
   // Whether an AGV that stands at the beginning of the lane can leave by it, and come back.
@@ -39,7 +43,7 @@ class Reachability {
   std::vector<DriveStates> states_;            // by vehicle type; none: the plant has no rules
   std::vector<std::vector<StationUse>> uses_;  // by vehicle type, one without rules; then by station
   std::vector<bool> in_core_;                  // by station
-  std::vector<StationId> core_, stops_;
+  std::vector<StationId> core_, starts_;
 };
 
 }  // namespace fleetproof

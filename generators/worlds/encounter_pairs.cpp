@@ -41,7 +41,7 @@ class PairMaker {
         type_(scenario.vehicle_types[0]),
         timetable_(map_, type_),
         starts_(places_to_start(map_, reachability)),
-        stops_(reachability.stops()),
+        anywhere_(reachability.starts()),
         fleet_(types),
         lanes_to_(map_.station_count(), 0) {
     for (const std::uint32_t type : types) {
@@ -61,8 +61,8 @@ class PairMaker {
       const bool hasty = i < (ties_ ? kHastyTriesForTies : kHastyTries);
       if (ties_ && best && !hasty) break;  // the rest of the difference is removed by a later start
       const bool head_on = best && !ties_;
-      const std::size_t looked_at = hasty && !ties_ ? kFewOthers : head_on ? stops_.size() : kManyOthers;
-      const auto found = draw(draws, hasty ? starts_ : stops_, looked_at, head_on);
+      const std::size_t looked_at = hasty && !ties_ ? kFewOthers : head_on ? anywhere_.size() : kManyOthers;
+      const auto found = draw(draws, hasty ? starts_ : anywhere_, looked_at, head_on);
       if (!found || (best && !is_better(found->meeting, best->meeting))) continue;
       best = found;
       if (ties_ ? best->meeting.apart() <= kTie : best->meeting.head_on) break;
@@ -93,14 +93,14 @@ class PairMaker {
     const auto start = starts[draws.below(static_cast<std::uint32_t>(starts.size()))];
     const auto goal = goals_[one_][draws.below(static_cast<std::uint32_t>(goals_[one_].size()))];
     const auto& ways = timetable_.from(start);
-    if (start == goal || !may_stand(start, one_) || !ways.at(goal).unique || !may_go(ways, goal, one_) ||
+    if (start == goal || !may_start(start, one_) || !ways.at(goal).unique || !may_go(ways, goal, one_) ||
         !has_room(start, goal, std::nullopt))
       return std::nullopt;
     const auto way = passed_on(ways, goal);
     std::vector<StationId> others;
     others.reserve(starts.size());
     for (const auto other : starts) {
-      if (other != start && may_stand(other, other_) && (!head_on || may_come_head_on(other, way)))
+      if (other != start && may_start(other, other_) && (!head_on || may_come_head_on(other, way)))
         others.push_back(other);
     }
     if (others_looked_at < others.size()) others = some_of(draws, others, others_looked_at);
@@ -214,7 +214,7 @@ class PairMaker {
     return through[draws.below(static_cast<std::uint32_t>(through.size()))];
   }
 
-  bool may_stand(StationId start, std::uint32_t type) const { return reachability_.use_of(start, type).stopped; }
+  bool may_start(StationId start, std::uint32_t type) const { return reachability_.use_of(start, type).started; }
 
   // Whether the plant permits the quickest way to an empty AGV of this type. The timetable knows no rules.
   bool may_go(const QuickestWays& ways, StationId goal, std::uint32_t type) const {
@@ -249,7 +249,7 @@ class PairMaker {
   bool ties_;
   const VehicleType& type_;
   Timetable timetable_;
-  std::vector<StationId> starts_, stops_;
+  std::vector<StationId> starts_, anywhere_;
   FleetTypes fleet_;
   std::vector<std::vector<StationId>> goals_;  // by type
   std::uint32_t one_ = 0, other_ = 0;          // the types of the pair that is being made
@@ -262,7 +262,7 @@ std::vector<EncounterPair> place_pairs(Scenario& scenario, FleetTypes types, Pla
                                        const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,
                                        RejectionCounts& counts) {
   std::vector<EncounterPair> pairs;
-  if (reachability.stops().size() < 2) return pairs;
+  if (reachability.starts().size() < 2) return pairs;
   PairMaker maker(scenario, reachability, types, placement == Placement::Symmetric, counts);
   while (scenario.agvs.size() + 2 <= types.size()) {
     ++counts.pairs_wanted;
@@ -277,9 +277,11 @@ std::vector<EncounterPair> place_pairs(Scenario& scenario, FleetTypes types, Pla
 void send_to_meet(Scenario& scenario, const std::vector<EncounterPair>& pairs, const std::vector<OrderEnds>& ends) {
   const auto begin_at = [&](AgvSetup& agv, StationId goal) {
     TransportOrder& order = agv.transports[0];
-    const auto& drops = ends[agv.type].drops;
-    if (order.to == goal)
-      order.to = std::ranges::binary_search(drops, order.from) ? order.from : drops[drops[0] == goal ? 1 : 0];
+    const auto& picks = ends[agv.type].picks;
+    const auto pick = std::ranges::lower_bound(picks, goal) - picks.begin();
+    const auto& drops = ends[agv.type].drops_from(static_cast<std::size_t>(pick));
+    const auto may_end = [&](StationId s) { return s != goal && std::ranges::binary_search(drops, s); };
+    if (!may_end(order.to)) order.to = may_end(order.from) ? order.from : drops[drops[0] == goal ? 1 : 0];
     order.from = goal;
   };
   const auto release = [](std::vector<TransportOrder>& orders, Duration at) {

@@ -18,7 +18,7 @@ constexpr std::uint32_t kNoAgv = ~0U;  // item of draws that belong to no AGV
 class Candidates {
  public:
   Candidates(const LogicalMap& map, const Reachability& reachability) {
-    for (const auto station : reachability.stops())
+    for (const auto station : reachability.starts())
       (is_place_to_wait(map.station(station)) ? waiting_ : others_).push_back(station);
   }
 
@@ -95,7 +95,7 @@ bool place_fleet(Scenario& scenario, FleetTypes types, const Reachability& reach
     const std::uint32_t type = types[scenario.agvs.size()];
     Draws draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size()));
     while (true) {
-      const auto station = candidates.draw(draws, [&](StationId s) { return reachability.use_of(s, type).stopped; });
+      const auto station = candidates.draw(draws, [&](StationId s) { return reachability.use_of(s, type).started; });
       if (!station) {
         ++counts.fleets_without_room;
         return false;
@@ -110,7 +110,7 @@ bool place_at_charger_bank(Scenario& scenario, FleetTypes types, const Reachabil
                            std::uint32_t attempt, RejectionCounts& counts) {
   const LogicalMap& map = *scenario.map;
   std::vector<StationId> banks;
-  for (const auto s : reachability.stops()) {
+  for (const auto s : reachability.starts()) {
     if (map.station(s).purposes.has(Purpose::Charging)) banks.push_back(s);
   }
   if (banks.empty()) banks = places_to_start(map, reachability);
@@ -119,7 +119,7 @@ bool place_at_charger_bank(Scenario& scenario, FleetTypes types, const Reachabil
     return false;
   }
   const auto bank = banks[Draws(key, attempt, kNoAgv).below(static_cast<std::uint32_t>(banks.size()))];
-  auto stations = reachability.stops();
+  auto stations = reachability.starts();
   const auto distance = [&](StationId s) {
     return (map.station(s).position_m - map.station(bank).position_m).squaredNorm();
   };
@@ -127,7 +127,7 @@ bool place_at_charger_bank(Scenario& scenario, FleetTypes types, const Reachabil
   for (const auto station : stations) {
     if (scenario.agvs.size() == types.size()) break;
     const std::uint32_t type = types[scenario.agvs.size()];
-    if (!reachability.use_of(station, type).stopped) continue;
+    if (!reachability.use_of(station, type).started) continue;
     Draws draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size()));
     add_agv_at(scenario, reachability, type, station, draws, counts);
   }
@@ -138,10 +138,10 @@ bool place_at_charger_bank(Scenario& scenario, FleetTypes types, const Reachabil
 
 std::vector<StationId> places_to_start(const LogicalMap& map, const Reachability& reachability) {
   std::vector<StationId> places;
-  for (const auto s : reachability.stops()) {
+  for (const auto s : reachability.starts()) {
     if (is_place_to_wait(map.station(s))) places.push_back(s);
   }
-  return places.empty() ? reachability.stops() : places;
+  return places.empty() ? reachability.starts() : places;
 }
 
 bool add_agv(Scenario& scenario, StationId start, const Vec2& heading, RejectionCounts& counts) {

@@ -42,7 +42,7 @@ Placement placement_of_world(Placement placement, std::uint64_t key);
 using FleetTypes = std::span<const std::uint32_t>;
 
 // Adds AGVs of the first vehicle type of the scenario until the fleet has as many AGVs as `types`. Each AGV stands on a
-// station of its own where its type can stop without a load, heading along a lane that leaves it. Places to park,
+// station of its own where its type can start, heading along a lane that leaves it. Places to park,
 // charge or store come first. `key` is the key of the placement stream, `attempt` its topic. The draws of an AGV do not
 // depend on the AGVs after it. Returns false if there is no room; the scenario then contains the AGVs that found a
 // place.

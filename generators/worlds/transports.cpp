@@ -16,36 +16,40 @@ constexpr std::uint32_t kNoAgv = ~0U;  // item of draws that belong to no AGV
 // From one station to another; the second is drawn from the rest.
 TransportOrder draw_order(Draws& draws, const OrderEnds& ends) {
   const auto drawn = [&](std::size_t count) { return draws.below(static_cast<std::uint32_t>(count)); };
-  const StationId from = ends.picks[drawn(ends.picks.size())];
-  const auto without = std::ranges::lower_bound(ends.drops, from);
-  const bool among = without != ends.drops.end() && *without == from;
-  const auto other = drawn(ends.drops.size() - (among ? 1 : 0));
-  return {from, ends.drops[among && other >= without - ends.drops.begin() ? other + 1 : other], {}};
+  const std::size_t pick = drawn(ends.picks.size());
+  const StationId from = ends.picks[pick];
+  const auto& drops = ends.drops_from(pick);
+  const auto without = std::ranges::lower_bound(drops, from);
+  const bool among = without != drops.end() && *without == from;
+  const auto other = drawn(drops.size() - (among ? 1 : 0));
+  return {from, drops[among && other >= without - drops.begin() ? other + 1 : other], {}};
 }
 
 // Stations with unequal shares of the traffic.
 class HotSpots {
  public:
-  HotSpots(const OrderEnds& ends, double skew, Draws draws) {
+  HotSpots(const OrderEnds& ends, double skew, Draws draws) : ends_(ends) {
     std::vector<StationId> all;
     std::ranges::set_union(ends.picks, ends.drops, std::back_inserter(all));
-    double picked = 0.0, dropped = 0.0;
     for (const auto n : draw_some(draws, all.size(), all.size())) {
       stations_.push_back(all[n]);
-      drops_.push_back(std::ranges::binary_search(ends.drops, all[n]));
-      const double share = natural_exp(-skew * natural_log(static_cast<double>(stations_.size())));
-      picked_.push_back(picked += std::ranges::binary_search(ends.picks, all[n]) ? share : 0.0);
-      dropped_.push_back(dropped += drops_.back() ? share : 0.0);
+      shares_.push_back(natural_exp(-skew * natural_log(static_cast<double>(stations_.size()))));
     }
+    picked_ = sums(ends.picks);
+    dropped_ = sums(ends.drops);
   }
 
   // The second is drawn from the rest, by their shares of the rest.
   TransportOrder draw_order(Draws& draws) const {
     const auto from = at(picked_, draws.uniform() * picked_.back());
-    const double before = share_before(dropped_, from), share = dropped_[from] - before;
-    const double drawn = draws.uniform() * (dropped_.back() - share);
-    auto to = at(dropped_, drawn < before ? drawn : drawn + share);
-    if (to == from) to = beside(from);  // rounding, at the edges of a share
+    const auto pick = std::ranges::lower_bound(ends_.picks, stations_[from]) - ends_.picks.begin();
+    const auto& drops = ends_.drops_from(static_cast<std::size_t>(pick));
+    const Sums own = ends_.drops_of.empty() ? Sums() : sums(drops);
+    const Sums& dropped = ends_.drops_of.empty() ? dropped_ : own;
+    const double before = from == 0 ? 0.0 : dropped[from - 1], share = dropped[from] - before;
+    const double drawn = draws.uniform() * (dropped.back() - share);
+    auto to = at(dropped, drawn < before ? drawn : drawn + share);
+    if (to == from) to = beside(from, drops);  // rounding, at the edges of a share
     return {stations_[from], stations_[to], {}};
   }
 
@@ -53,25 +57,50 @@ class HotSpots {
   // By station: the sum of its share and all shares before it.
   using Sums = std::vector<double>;
 
-  static double share_before(const Sums& sums, std::size_t i) { return i == 0 ? 0.0 : sums[i - 1]; }
+  // Only these have a share.
+  Sums sums(const std::vector<StationId>& of) const {
+    Sums sums;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < stations_.size(); ++i)
+      sums.push_back(sum += std::ranges::binary_search(of, stations_[i]) ? shares_[i] : 0.0);
+    return sums;
+  }
   static std::size_t at(const Sums& sums, double drawn) {
     auto found = std::ranges::upper_bound(sums, drawn);
     if (found == sums.end()) found = std::ranges::lower_bound(sums, sums.back());  // rounding: the last with a share
     return static_cast<std::size_t>(found - sums.begin());
   }
-  // The next station where transports end, else the last one before.
-  std::size_t beside(std::size_t from) const {
+  // The next of the drops, else the last one before.
+  std::size_t beside(std::size_t from, const std::vector<StationId>& drops) const {
+    const auto is_drop = [&](std::size_t i) { return std::ranges::binary_search(drops, stations_[i]); };
     for (std::size_t i = from + 1; i < stations_.size(); ++i) {
-      if (drops_[i]) return i;
+      if (is_drop(i)) return i;
     }
-    while (!drops_[--from]) continue;
+    while (!is_drop(--from)) continue;
     return from;
   }
 
-  std::vector<StationId> stations_;
-  std::vector<bool> drops_;  // by station: whether transports end there
+  const OrderEnds& ends_;
+  std::vector<StationId> stations_;  // in a drawn order
+  std::vector<double> shares_;       // by station
   Sums picked_, dropped_;
 };
+
+// Keeps the picks from which a load can be brought to another station.
+void find_pairs(OrderEnds& ends, const Reachability& reachability, std::uint32_t type) {
+  std::vector<StationId> picks;
+  for (const StationId from : ends.picks) {
+    const auto carried = reachability.carried_from(from, type);
+    std::vector<StationId> drops;
+    for (const StationId to : ends.drops) {
+      if (to == from || carried[to.index()]) drops.push_back(to);
+    }
+    if (drops.empty() || (drops.size() == 1 && drops[0] == from)) continue;
+    picks.push_back(from);
+    ends.drops_of.push_back(std::move(drops));
+  }
+  ends.picks = std::move(picks);
+}
 
 OrderEnds ends_where(const LogicalMap& map, const Reachability& reachability, std::uint32_t type,
                      bool (*suits)(const Station&)) {
@@ -81,6 +110,7 @@ OrderEnds ends_where(const LogicalMap& map, const Reachability& reachability, st
     if (reachability.use_of(station, type).picks) ends.picks.push_back(station);
     if (reachability.use_of(station, type).drops) ends.drops.push_back(station);
   }
+  if (!reachability.carries_all(type)) find_pairs(ends, reachability, type);
   if (ends.drops.size() == 1) std::erase(ends.picks, ends.drops[0]);
   if (ends.picks.empty() || ends.drops.empty()) return {};
   return ends;

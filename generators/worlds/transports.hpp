@@ -16,10 +16,14 @@ struct Demand {
   double hot_spot_skew = 0.0;
 };
 
-// Where transports begin and end, in ascending order. Every pick has another station in `drops`.
+// Where transports begin and end, in ascending order. Every pick has another station where its loads can be dropped.
 struct OrderEnds {
-  std::vector<StationId> picks, drops;  // both empty: no AGV can bring a load from one station to another
-  bool storage = false;                 // all of them are for storage
+  std::vector<StationId> picks, drops;             // both empty: no AGV can bring a load from one station to another
+  std::vector<std::vector<StationId>> drops_of{};  // by pick; none: loads get from every pick to every drop
+  bool storage = false;                            // all of them are for storage
+
+  // Where loads of the pick with this number can be dropped.
+  const std::vector<StationId>& drops_from(std::size_t pick) const { return drops_of.empty() ? drops : drops_of[pick]; }
 };
 
 // For AGVs of this type (reachability.hpp): the storage stations of the core where they can pick, and those where they

@@ -98,6 +98,7 @@ class WorldMaker {
     }
     if (family_ != nullptr || spec.mutate) return;
     set_map(std::get<SharedMap>(spec.layout));
+    set_types();
     // No other draw mends a fixed layout.
     for (const auto& problem : world_problems(scenario_, *reachability_))
       throw InputError(scenario_.map->layout().name, problem.sentence);
@@ -127,7 +128,7 @@ class WorldMaker {
     const auto problems = world_problems(scenario_, *reachability_);
     for (const auto& problem : problems) ++counts.of(problem.kind);
     if (!problems.empty()) return false;
-    if (!stored) ++counts.worlds_without_storage;
+    if (!stored && spec_.demand.transports_per_agv_hour > 0.0) ++counts.worlds_without_storage;
     return true;
   }
 

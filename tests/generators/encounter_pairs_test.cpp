@@ -219,7 +219,7 @@ TEST(AdversarialPlacement, PairsAreNotSentWhereThePlantForbidsIt) {
   std::set<std::size_t> forbidden;
   for (std::size_t i = 0; i < layout.segments.size(); ++i) {
     layout.segments[i].permissions = {{"", LoadState::Loaded}};
-    if (Reachability(LogicalMap(layout)).stops().size() == layout.stations.size())
+    if (Reachability(LogicalMap(layout)).starts().size() == layout.stations.size())
       forbidden.insert(i);
     else
       layout.segments[i].permissions.clear();

@@ -32,7 +32,8 @@ TEST(OrderEnds, AreWhereThePlantPermitsPicksAndDrops) {
   EXPECT_THAT(names(map, ends.drops), ElementsAre("sink", "shelf"));
   EXPECT_TRUE(ends.storage);
   EXPECT_EQ(reachability.core().size(), map.station_count());
-  EXPECT_THAT(names(map, reachability.stops()), ElementsAre("r0", "r1", "r2", "r3", "r4", "r5", "charger", "shelf"));
+  EXPECT_THAT(names(map, reachability.starts()),
+              ElementsAre("r0", "r1", "r2", "r3", "r4", "r5", "sink", "charger", "shelf"));
 }
 
 TEST(OrderEnds, EveryPickHasAnotherDrop) {
@@ -72,8 +73,8 @@ TEST(OrderEnds, HoldForEveryPlacementAndDemand) {
   EXPECT_EQ(orders.size(), 3U);
   for (const char* order : {"source to sink", "source to shelf", "shelf to sink"})
     EXPECT_GT(orders[order], 300) << order;
-  EXPECT_FALSE(starts.contains("source") || starts.contains("sink"));
-  EXPECT_TRUE(starts.contains("charger") && starts.contains("shelf"));
+  EXPECT_FALSE(starts.contains("source"));
+  EXPECT_TRUE(starts.contains("sink") && starts.contains("charger") && starts.contains("shelf"));
 }
 
 TEST(OrderEnds, HoldForPairsThatAreSentToMeet) {
@@ -82,7 +83,7 @@ TEST(OrderEnds, HoldForPairsThatAreSentToMeet) {
   scenario.map = std::make_shared<const LogicalMap>(layout);
   scenario.horizon = std::chrono::minutes(1);
   const StationId source{6U}, sink{7U}, shelf{9U};
-  const OrderEnds ends{{source, shelf}, {sink, shelf}, true};
+  const OrderEnds ends{{source, shelf}, {sink, shelf}, {}, true};
   scenario.agvs.resize(2);
   scenario.agvs[0].transports = {{source, shelf, Duration{}}};
   scenario.agvs[1].transports = {{shelf, sink, Duration{}}};
@@ -297,15 +298,15 @@ TEST(OrderEnds, APlantWithoutAnyIsRefused) {
 
 TEST(LimitedUses, AreToldByName) {
   Layout layout = test::source_and_sink();
-  EXPECT_THAT(limited_uses(layout), ElementsAre(HasSubstr("only picks (turns, headings, loads): \"source\""),
-                                                HasSubstr("only drops (turns, headings, loads): \"sink\"")));
+  EXPECT_THAT(limited_uses(layout),
+              ElementsAre(HasSubstr("orders begin and do not end"), HasSubstr("orders end and do not begin")));
   EXPECT_EQ(reachability_text(layout), "all 10 stations can be reached and left");
   layout.stations[8].heading = Vec2(0.0, 1.0);
   layout.stations[9].heading = Vec2(0.0, 1.0);
   EXPECT_THAT(limited_uses(layout), ElementsAre(HasSubstr("source"), HasSubstr("sink"),
-                                                HasSubstr("no pick and no drop (turns, headings, loads): \"shelf\""),
-                                                HasSubstr("no stop without a load (turns, headings, loads): "
-                                                          "\"charger\"")));
+                                                HasSubstr("neither begin nor end at some storage stations, by what the "
+                                                          "layout permits (turns, headings, loads): \"shelf\""),
+                                                HasSubstr("permits (turns, headings, loads): \"charger\"")));
   for (Segment& segment : layout.segments) segment.permissions.clear();
   for (Station& station : layout.stations) station.heading.reset();
   EXPECT_TRUE(limited_uses(layout).empty());
