@@ -75,6 +75,7 @@ TEST_F(FleetRules, OrdersBetweenStationsThatAreNotForStorageAreTold) {
       checked("", "").out,
       HasSubstr("in 1 of these worlds, orders lead between stations that are not for storage: AGVs cannot pick at one "
                 "storage station and drop at another\n"));
+  EXPECT_THAT(checked("", "[world]\ntransports_per_agv_hour = 0\n").out, Not(HasSubstr("orders lead")));
   write("plant.csv",
         "id,x,y,purposes\na,0,0,storage\nb,6,0,storage\nc,12,0,routing\nfrom,to,bidirectional\na,b,false\nb,c,true\n");
   const auto core = run("import csv plant.csv --core-only");

@@ -199,6 +199,9 @@ TEST(Lif, ACorridorIsWideFloor) {
   EXPECT_EQ(width_m(R"(, "corridor": {"leftWidth": 1, "rightWidth": 1, "corridorRefPoint": "CONTOUR"})"), 2.0);
   EXPECT_EQ(width_m(R"(, "corridor": {"maxLeft": 1})", R"(, "corridor": {"maxLeft": 2})"), 2.0) << "of twins the wider";
   EXPECT_EQ(width_m(R"(, "corridor": {}}, {"vehicleTypeId": "w", "corridor": {"maxRight": 3})"), 3.0);
+  EXPECT_EQ(width_m(R"(, "corridor": {"maxLeft": 1, "maxRight": 1, "leftWidth": 1, "rightWidth": 2})"), 3.0)
+      << "two spellings of one corridor";
+  EXPECT_EQ(width_m(R"(, "corridor": {"maxLeft": 80, "maxRight": 80})"), 100.0);
   EXPECT_EQ(width_m(""), 0.0);
   EXPECT_NE(refusal(sample(R"(, "corridor": {"leftWidth": -1})"))
                 .find("corridor/leftWidth: -1 is refused: expected a width of 0 m or more"),
@@ -213,6 +216,7 @@ TEST(Lif, TwoStationsWithOneIdAreRefused) {
     return text;
   };
   EXPECT_EQ(refusal(with("t")), "accepted");
+  EXPECT_EQ(refusal(with("")), "accepted") << "an id that says nothing is not read";
   EXPECT_NE(refusal(with("s")).find("stations/1/stationId: \"s\" is refused: this id is taken already"),
             std::string::npos)
       << refusal(with("s"));

@@ -45,6 +45,10 @@ const Case kCases[] = {
      "be for storage"},
     {"29", "<allowedOperation name='unloadPallet'/><allowedOperation name='recharge2'/>", "",
      "routing storage charging", ""},
+    {"30", "<allowedOperation name='AGVLoad'/><allowedOperation name='StationNo3Charge'/>", "",
+     "routing storage charging", ""},
+    {"31", "<allowedOperation name='Offload'/>", "", "routing storage", ""},
+    {"32", "<allowedOperation name='Reload'/>", "", "routing storage", ""},
     {"Network check", "<allowedOperation name='DOWNLOAD_MAP'/><allowedOperation name='NO_LOAD_HERE'/>", "", "routing",
      "m.xml:4: location type \"Network check\" says nothing that is known here; its points keep their purposes, unless "
      "you name one (--purposes \"Network check=storage\")"},
