@@ -21,7 +21,7 @@ inline constexpr StationUse kEveryUse{true, true, true, true, true};
 
 // Where an AGV of one type can get on a map with rules, with a load and without one. How it may go on depends on the
 // lane by which it has come; a load is picked and dropped at stations. From every station where AGVs start, stop or
-// drop, a way without a load leads to every station where they pick or stop. Which loads get where, carries() says.
+// drop, a way without a load leads to every station where they pick or stop. carried_from() says where loads get.
 class DriveStates {
  public:
   // `vehicle_type` as in LaneRules. Requires: the map outlives the object.
