@@ -87,7 +87,7 @@ class StretchPlanner {
 
   // A stretch from `standing` towards the goals. Empty if there is no way to the first goal.
   Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);
-  // The lanes that the AGV means to drive after the stretch, as far as it announces them. Requires: the stretch is what
+  // What the AGV announces of its way beyond the stretch: the lanes to its next goals. Requires: the stretch is what
   // `towards` returned last, and nothing was planned since.
   std::vector<std::uint32_t> way_on_from(const Stretch& stretch, std::span<const Goal> goals);
   // A stretch to a place where the AGV blocks no other AGV, as far as is known. Empty if there is none. `draw` in [0,

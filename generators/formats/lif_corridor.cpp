@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "generators/map/layout_check.hpp"
+
 namespace fleetproof {
 namespace {
 
-// Left and right. The drafts of LIF 2.0 spell them in two ways, VDA 5050 in a third.
+// The keys of the left and the right side: as two drafts of LIF 2.0 and, between them, VDA 5050 spell them.
 constexpr const char* kSides[][2] = {
     {"maximumLeftWidth", "maximumRightWidth"}, {"leftWidth", "rightWidth"}, {"maxLeft", "maxRight"}};
-constexpr double kWidest_m = 100.0;  // that a layout knows
 
 double side_m(const JsonReader& corridor, const char* key) {
   const auto side = corridor.find(key);
@@ -26,7 +27,7 @@ double corridor_width_m(const std::vector<JsonReader>& rules) {
     for (const auto& [left, right] : kSides)
       widest_m = std::max(widest_m, side_m(*corridor, left) + side_m(*corridor, right));
   }
-  return std::min(widest_m, kWidest_m);
+  return std::min(widest_m, kWidestFloor_m);
 }
 
 }  // namespace fleetproof

@@ -58,7 +58,7 @@ class DriveStates {
   void find_states_for_ever();
   void find_ways(bool loaded);
   void find_uses();
-  // The lanes that are reached from these, by way of lanes in `among`; without it, of all.
+  // The lanes that an AGV can drive which begins with one of `first`; if `among` is given, only through these states.
   std::vector<bool> driven_from(const std::vector<std::uint32_t>& first, bool loaded,
                                 const std::vector<bool>* among) const;
 

@@ -15,8 +15,6 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kWidestFloor_m = 100.0;
-
 class Check {
  public:
   explicit Check(const Layout& layout) : layout_(layout) {}

@@ -11,6 +11,7 @@ namespace fleetproof {
 inline constexpr double kLargestCoordinate_m = 100'000.0;  // from the origin
 inline constexpr double kShortestSegment_m = 0.01;
 inline constexpr double kSharpestBend_m = 0.05;  // radius
+inline constexpr double kWidestFloor_m = 100.0;  // of a lane
 // Sharper bends are none if they turn by less: the curvature of a Bezier curve whose control point lies on its end has
 // no limit there, and the heading hardly changes.
 inline constexpr double kSharpBendTurns_rad = 0.1;

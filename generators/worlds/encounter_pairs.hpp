@@ -25,7 +25,7 @@ struct EncounterPair {
 //   1 s. If no such pair is found, they reach a station by different segments, less than 1 s apart.
 // * Symmetric: they reach a station by different segments at the same instant, if the second AGV leaves `second_after`
 //   the first. This time is less than 1 s, and zero if the layout is symmetric enough.
-// The goals are stations at which transports begin (OrderEnds). Obstacles are avoided.
+// Each goal is a station where transports of the AGV's type begin (OrderEnds). No AGV starts near an obstacle.
 // Requires: the scenario has map, vehicle type and law.
 std::vector<EncounterPair> place_pairs(Scenario& scenario, FleetTypes types, Placement placement,
                                        const Reachability& reachability, std::uint64_t key, std::uint32_t attempt,

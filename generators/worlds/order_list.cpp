@@ -110,6 +110,14 @@ class Ends {
     for (std::size_t i = 0; i < layout_.stations.size(); ++i) stations_.emplace(layout_.stations[i].name, StationId{i});
   }
 
+  // Whether the load of an order gets to its end.
+  void expect_way(const ListedOrder& order, StationId from, StationId to, const std::string& place,
+                  std::uint32_t type) const {
+    if (reachability_.reaches(from, to, true, type)) return;
+    throw InputError(place, fmt::format("no way leads from {} to {} for an AGV with a load; choose another station",
+                                        in_quotes(order.from), in_quotes(order.to)));
+  }
+
   // `column`: "from" or "to".
   StationId find(const std::string& name, std::string_view column, const std::string& place, std::uint32_t type) const {
     const auto found = stations_.find(name);
@@ -164,6 +172,7 @@ void assign_listed_orders(Scenario& scenario, const OrderList& list, const Reach
       throw InputError(place, fmt::format("agv is {}; a fleet of {} has AGVs 0 to {}", agv, fleet, fleet - 1));
     const std::uint32_t type = scenario.agvs[agv].type;
     const auto from = ends.find(order.from, "from", place, type), to = ends.find(order.to, "to", place, type);
+    ends.expect_way(order, from, to, place, type);
     if (order.release < scenario.horizon) scenario.agvs[agv].transports.push_back({from, to, order.release});
   }
   for (auto& agv : scenario.agvs) std::ranges::stable_sort(agv.transports, {}, &TransportOrder::release);

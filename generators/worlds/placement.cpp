@@ -22,7 +22,7 @@ class Candidates {
       (is_place_to_wait(map.station(station)) ? waiting_ : others_).push_back(station);
   }
 
-  // One that suits. The others stay.
+  // A station that suits this AGV. Those that do not suit it remain candidates for other AGVs.
   template <class Suits>
   std::optional<StationId> draw(Draws& draws, const Suits& suits) {
     std::vector<StationId> unsuitable[2];

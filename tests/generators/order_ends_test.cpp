@@ -282,6 +282,45 @@ TEST(OrderEnds, AListMustRespectThem) {
                                                  rest));
 }
 
+// Two rows of stations; between them, AGVs drive without a load alone.
+Layout two_halls() {
+  Layout layout;
+  layout.name = "halls";
+  layout.floor_high_m = {20.0, 20.0};
+  for (std::uint32_t i = 0; i < 6; ++i)
+    layout.stations.push_back({std::to_string(i), {6.0 * (i % 3), i < 3 ? 0.0 : 8.0}, Purpose::Storage});
+  for (const auto& [from, to] : {std::pair(0U, 1U), {1U, 2U}, {3U, 4U}, {4U, 5U}, {2U, 5U}})
+    layout.segments.push_back({std::to_string(from) + "-" + std::to_string(to), StationId{from}, StationId{to}, true});
+  layout.segments.back().permissions = {{"", LoadState::Empty}};
+  return layout;
+}
+
+TEST(OrderEnds, EachHallHasItsOwnOrders) {
+  WorldSpec spec;
+  spec.layout = std::make_shared<const LogicalMap>(two_halls());
+  spec.fleet_size = 1;
+  spec.demand.transports_per_agv_hour = 120.0;
+  int halls[2] = {0, 0};
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    spec.demand.hot_spot_skew = seed % 2 == 0 ? 0.0 : 2.0;
+    spec.placement = kPlacements[seed % kPlacements.size()];
+    RejectionCounts counts;
+    const Scenario s = generate_world(spec, seed, counts);
+    for (const auto& order : s.agvs[0].transports) {
+      EXPECT_EQ(order.from.value / 3, order.to.value / 3) << "no load gets through the door";
+      EXPECT_NE(order.from, order.to);
+      ++halls[order.from.value / 3];
+    }
+  }
+  EXPECT_GT(std::min(halls[0], halls[1]), 50);
+  spec.placement = Placement::Random;
+  spec.orders = std::make_shared<const OrderList>(parse_order_list("release_s,from,to\n1,0,2\n2,0,4\n", "o.csv"));
+  RejectionCounts counts;
+  EXPECT_THAT([&] { generate_world(spec, 1, counts); },
+              testing::ThrowsMessage<InputError>(
+                  HasSubstr("o.csv:3: no way leads from \"0\" to \"4\" for an AGV with a load")));
+}
+
 TEST(OrderEnds, APlantWithoutAnyIsRefused) {
   Layout layout = test::source_and_sink();
   for (Segment& segment : layout.segments) segment.permissions = {{"", LoadState::Empty}};
