@@ -93,15 +93,13 @@ class PairMaker {
     const auto start = starts[draws.below(static_cast<std::uint32_t>(starts.size()))];
     const auto goal = goals_[one_][draws.below(static_cast<std::uint32_t>(goals_[one_].size()))];
     const auto& ways = timetable_.from(start);
-    if (start == goal || !may_start(start, one_) || !ways.at(goal).unique || !may_go(ways, goal, one_) ||
-        !has_room(start, goal, std::nullopt))
+    if (start == goal || !ways.at(goal).unique || !may_go(ways, goal, one_) || !has_room(start, goal, std::nullopt))
       return std::nullopt;
     const auto way = passed_on(ways, goal);
     std::vector<StationId> others;
     others.reserve(starts.size());
     for (const auto other : starts) {
-      if (other != start && may_start(other, other_) && (!head_on || may_come_head_on(other, way)))
-        others.push_back(other);
+      if (other != start && (!head_on || may_come_head_on(other, way))) others.push_back(other);
     }
     if (others_looked_at < others.size()) others = some_of(draws, others, others_looked_at);
     const auto meetings = meetings_with(way, others, head_on);
@@ -214,9 +212,8 @@ class PairMaker {
     return through[draws.below(static_cast<std::uint32_t>(through.size()))];
   }
 
-  bool may_start(StationId start, std::uint32_t type) const { return reachability_.use_of(start, type).started; }
-
-  // Whether the plant permits the quickest way to an empty AGV of this type. The timetable knows no rules.
+  // Whether the plant permits the quickest way to an empty AGV of this type, from its start on. The timetable knows no
+  // rules.
   bool may_go(const QuickestWays& ways, StationId goal, std::uint32_t type) const {
     if (!has_rules(map_.layout())) return true;
     const auto lanes = ways.lanes(map_, goal);

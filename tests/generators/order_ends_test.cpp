@@ -220,6 +220,25 @@ TEST(MixedFleets, EachTypeStartsAndCarriesWhereItMay) {
   EXPECT_EQ(ends[1], tugger);
 }
 
+// Places to wait come first. A place that is not for one type stays free for the others.
+TEST(MixedFleets, NoTypeTakesAPlaceFromAnother) {
+  const std::vector<std::string> names = {"forklift", "tugger"};
+  const std::vector<std::uint32_t> types = {0, 0, 0, 1, 1, 1};
+  Scenario scenario;
+  scenario.map = std::make_shared<const LogicalMap>(two_halves());
+  scenario.vehicle_types = {VehicleType{}};
+  const Reachability reachability(*scenario.map, names);
+  for (std::uint64_t key = 0; key < 50; ++key) {
+    RejectionCounts counts;
+    scenario.agvs.clear();
+    ASSERT_TRUE(place_fleet(scenario, types, reachability, key, 0, counts));
+    for (std::size_t i = 0; i < types.size(); ++i) {
+      EXPECT_GE(scenario.agvs[i].start.value, types[i] == 0 ? 6U : 9U) << key;
+      EXPECT_LT(scenario.agvs[i].start.value, types[i] == 0 ? 9U : 12U) << key;
+    }
+  }
+}
+
 TEST(MixedFleets, ListedOrdersAreJudgedByTheTypeOfTheirAgv) {
   WorldSpec spec;
   spec.layout = std::make_shared<const LogicalMap>(two_halves());
