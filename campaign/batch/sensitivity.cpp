@@ -47,6 +47,7 @@ std::vector<std::string> accusations_of(const Outcome& outcome) {
 
 void count(AgentTally& tally, RunRecord record) {
   ++tally.runs;
+  tally.traces.emplace(record.run_index, record.outcome.digest);
   for (const ProbeCount& probe : record.outcome.probes) {
     if (probe.source == ProbeSource::World) ++tally.met[probe.name];
   }
@@ -115,6 +116,7 @@ FaultFinding finding_of(AgentTally tally, const AgentTally& sound, const Campaig
   const bool violates = runs_with(tally, kViolation) > 0 && runs_with(sound, kViolation) == 0;
   finding.seen_as = violates ? kViolation : more_often(tally, sound);
   finding.by_rate = !violates && !finding.seen_as.empty();
+  finding.tried = !std::ranges::includes(sound.traces, tally.traces);
   if (!finding.seen_as.empty()) {
     const RunRecord& first = tally.first.at(finding.seen_as);
     if (violates) finding.runs = first.run_index + 1;

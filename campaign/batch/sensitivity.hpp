@@ -21,6 +21,8 @@ struct AgentTally {
   std::map<std::string, std::uint64_t> accused;
   std::map<std::string, RunRecord> first;    // of each: the first run, in order of run index
   std::map<std::string, std::uint64_t> met;  // runs that met it, by probe of the world
+  // Digests of what was done, by run index; of the sound agent all, of others those that were simulated.
+  std::map<std::uint64_t, std::uint64_t> traces;
 };
 
 // How a planted fault shows in the worlds of a plan.
@@ -29,6 +31,7 @@ struct FaultFinding {
   // What the fault was accused of; empty: it was missed.
   std::string seen_as;
   bool by_rate = false;    // accused more often than the sound agent, not for the first violation
+  bool tried = true;       // false: in each run it did the same as the sound agent, to the bit
   std::uint64_t runs = 0;  // until the first violation; of a rate, or if it was missed: all
   CellRecord cell;         // of the first such run
   std::string probe;       // the rarest thing of the world that the first such run met; empty: none

@@ -6,6 +6,7 @@
 #include <map>
 #include <thread>
 
+#include "campaign/batch/campaign.hpp"
 #include "campaign/batch/session_log.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/plan/campaign_agents.hpp"
@@ -93,6 +94,10 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   if (file.warnings.size() > kTold)
     talk("warning: {} more; fleetproof import shows all of one layout\n", file.warnings.size() - kTold);
   return file;
+}
+
+void try_first_worlds(const CampaignPlan& plan) {
+  for (const std::string& sentence : build_first_worlds(plan)) talk("warning: {}\n", sentence);
 }
 
 void meet_plugins(const std::string& archive_path, const CampaignRecord& campaign, std::span<const AgentFactor> agents,

@@ -17,6 +17,10 @@ namespace fleetproof::cli {
 // object whose agents have unlike `symbols`.
 CampaignFile load_campaign(const std::string& path, AgentPrograms& programs);
 
+// Draws one world for each layout and fleet size, and prints a warning on stderr for each fleet that may be too large.
+// Throws what build_first_worlds() throws.
+void try_first_worlds(const CampaignPlan& plan);
+
 // &AgentPrograms::know or &AgentPrograms::load.
 using MeetPlugin = std::string (AgentPrograms::*)(const std::string& path, bool global_symbols);
 

@@ -8,6 +8,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/workers/run_host.hpp"
+#include "generators/formats/importer.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -57,7 +58,7 @@ void check_campaign(const std::string& path) {
   AgentPrograms programs;
   const CampaignFile file = load_campaign(path, programs);
   const CampaignPlan& plan = file.plan;
-  for (const std::string& sentence : build_first_worlds(plan)) talk("warning: {}\n", sentence);
+  try_first_worlds(plan);
   const double total_s = mean_run_s(plan, programs) * static_cast<double>(plan.run_count());
   put("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {:.0f} s of one core\n", path, plan.cell_count(),
       plan.replicates, plan.run_count(), plan.horizon_s, total_s);
@@ -72,7 +73,7 @@ void check_scenario(const std::string& path) {
 }
 
 int check(const std::vector<std::string>& files) {
-  for (const std::string& file : files) file.ends_with(".json") ? check_scenario(file) : check_campaign(file);
+  for (const std::string& file : files) has_ending(file, ".json") ? check_scenario(file) : check_campaign(file);
   return kDemonstrated;
 }
 

@@ -3,6 +3,7 @@
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/streams.hpp"
 #include "generators/formats/csv_text.hpp"
+#include "generators/formats/importer.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif_text.hpp"
 
@@ -10,8 +11,8 @@ namespace fleetproof::cli {
 namespace {
 
 OutputKind kind_of(const std::string& path) {
-  if (path.ends_with(".lif.json")) return OutputKind::LifLayout;
-  return path.ends_with(".csv") ? OutputKind::CsvLayout : OutputKind::Layout;
+  if (has_ending(path, ".lif.json")) return OutputKind::LifLayout;
+  return has_ending(path, ".csv") ? OutputKind::CsvLayout : OutputKind::Layout;
 }
 
 std::string text_of(const Layout& layout, OutputKind kind) {

@@ -235,7 +235,7 @@ int plan(const PlanWords& words) {
   const int workers = worker_count(words.jobs);
   std::optional<std::chrono::seconds> budget;
   if (!words.max_time.empty()) budget = duration_of(words.max_time, "--max-time");
-  build_first_worlds(forecast.plan);
+  try_first_worlds(forecast.plan);
   forecast.pilot = run_pilot(forecast.plan, programs, workers, {.time = kPilotLength});
   forecast.file = {forecast.plan.replicates, forecast.pilot.forecast_s(forecast.plan.replicates)};
   if (budget) {

@@ -35,9 +35,12 @@ ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::vector<std::string> pl
 ProgressTalk::~ProgressTalk() { clear_line(); }
 
 CampaignListener ProgressTalk::listener() {
-  return {[this] { started(); }, [this](const RunRecord& record) { run_finished(record); },
-          [this](const Progress& progress) { tick(progress); }, [] { return false; },
-          [this](const Progress& progress, const std::vector<RunUnderWay>& under_way) { status(progress, under_way); }};
+  return {[this] { started(); },
+          [this](const RunRecord& record) { run_finished(record); },
+          [this](const Progress& progress) { tick(progress); },
+          [] { return false; },
+          [this](const Progress& progress, const std::vector<RunUnderWay>& under_way) { status(progress, under_way); },
+          [](const std::string& sentence) { talk("warning: {}\n", sentence); }};
 }
 
 void ProgressTalk::started() { talk("{}\n", opening_); }

@@ -211,7 +211,6 @@ int run(RunWords words) {
       attempt.begin();
       tell();
     };
-    listener.warned = [](const std::string& sentence) { cli::talk("warning: {}\n", sentence); };
     listener.wants_status = [] { return status_wanted.exchange(false); };
     result = run_campaign(file.plan, programs, words.archive, options, listener);
     session.end(result, interrupted().load());

@@ -37,8 +37,10 @@ PlantedFault summary_of(const std::vector<SeededSensitivity>& measured, std::siz
   std::vector<double> runs;
   std::map<std::string, std::uint64_t> seen_as;
   std::uint64_t by_rate = 0;
+  fault.tried = false;
   for (const auto& [seed, found] : measured) {
     const FaultFinding& finding = found.faults[place];
+    fault.tried = fault.tried || finding.tried;
     runs.push_back(finding.seen_as.empty() ? kMissed : static_cast<double>(finding.runs));
     if (finding.seen_as.empty()) continue;
     if (fault.seeds++ == 0) {

@@ -28,6 +28,7 @@ constexpr std::uint64_t kMostSeeds = 100;
 
 void put_fault(const PlantedFault& fault, std::size_t seeds) {
   const std::string found = seeds == 1 ? "" : fmt::format(" with {} of {} seeds", fault.seeds, seeds);
+  if (!fault.tried) return put("  {:24} never tried: in each run the same as the sound agent\n", fault.agent);
   if (fault.seeds == 0) return put("  {:24} missed\n", fault.agent);
   if (fault.by_rate) return put("  {:24} {} more often than the sound agent{}\n", fault.agent, fault.seen_as, found);
   const std::string runs = fault.median_runs ? fmt::format("{:g}", *fault.median_runs) : "too many";
@@ -83,6 +84,7 @@ int sensitivity(const SensitivityWords& words) {
   const OutputFile file{words.out.empty() ? sensitivity_path(archive_name_of(plan.name)) : words.out, "--output",
                         OutputKind::Sensitivity};
   require_writable(file);
+  try_first_worlds(plan);
   const auto measured = measure(plan, programs, options, seeds);
   const SensitivityRecord record = summary_of(plan, programs, measured);
   if (words.json) {

@@ -201,7 +201,8 @@ void require_same_plan(const std::string& where, const CampaignRecord& stored, c
 ShardResult run_shard(const CampaignPlan& plan, const AgentPrograms& programs, const ShardFolder& folder, Shard shard,
                       const RunOptions& options, const ShardListener& listener) {
   for (const AgentFactor& agent : plan.agents) (void)programs.program(agent.program, "factors.agents");
-  build_first_worlds(plan);  // what cannot be built at all is said before anything is written
+  // What cannot be built at all is said before anything is written.
+  for (const std::string& sentence : build_first_worlds(plan)) listener.campaign.warned(sentence);
   folder.make();
   const StoredPlan ours{campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs)};
   publish_plan(folder, ours);

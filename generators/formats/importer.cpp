@@ -57,12 +57,12 @@ constexpr Extension kExtensions[] = {{".xml", "opentcs"}, {".json", "layout"}, {
                                      {".yml", "rmf"},     {".map", "grid"},    {".csv", "csv"}};
 
 const Extension* extension_of(std::string_view path) {
-  const auto found = std::ranges::find_if(kExtensions, [&](const Extension& e) { return path.ends_with(e.ending); });
+  const auto found = std::ranges::find_if(kExtensions, [&](const Extension& e) { return has_ending(path, e.ending); });
   return found == std::end(kExtensions) ? nullptr : &*found;
 }
 
 std::string_view importer_of_json(const std::string& path) {
-  if (path.ends_with(".lif.json")) return "lif";
+  if (has_ending(path, ".lif.json")) return "lif";
   const auto root = parse_json(read_text_file(path), path);
   if (root.find("metaInformation") != nullptr || root.find("layouts") != nullptr) return "lif";
   return root.find("agvs") != nullptr ? "scenario" : "layout";
@@ -104,6 +104,12 @@ const Entry<ReadLayout>& importer(std::string_view name) {
   if (const auto* found = find_entry(importers(), name)) return *found;
   throw InputError("import",
                    fmt::format("there is no importer {}{}", in_quotes(name), name_hint(name, names_of(importers()))));
+}
+
+bool has_ending(std::string_view path, std::string_view ending) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return path.size() >= ending.size() &&
+         std::ranges::equal(path.substr(path.size() - ending.size()), ending, {}, small);
 }
 
 bool is_layout_file(std::string_view path) { return extension_of(path) != nullptr; }

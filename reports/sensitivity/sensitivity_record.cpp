@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSchemaVersion = 2;
+constexpr int kSchemaVersion = 3;
 constexpr const char* kEnding = ".sensitivity.json";
 
 template <class T>
@@ -36,7 +36,8 @@ Json json_of(const PlantedFault& fault, const SensitivityRecord& record) {
           {"median_runs", maybe(fault.median_runs)},
           {"most_runs", maybe(fault.most_runs)},
           {"cell", fault.cell},
-          {"probe", fault.probe}};
+          {"probe", fault.probe},
+          {"tried", fault.tried}};
 }
 
 PlantedFault fault_from(const Json& json) {
@@ -50,6 +51,7 @@ PlantedFault fault_from(const Json& json) {
   take(json, "most_runs", fault.most_runs);
   fault.cell = json.at("cell");
   fault.probe = json.at("probe");
+  fault.tried = json.at("tried");
   return fault;
 }
 

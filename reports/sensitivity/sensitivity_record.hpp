@@ -18,6 +18,7 @@ struct PlantedFault {
   std::optional<double> median_runs;       // until the first violation; absent: by rate, or missed in half of the seeds
   std::optional<std::uint64_t> most_runs;  // absent: by rate, or missed in a seed
   std::string cell, probe;                 // of the first such run of the first seed that detected it
+  bool tried = true;                       // false: in each run of each seed it did the same as the sound agent
 };
 
 // Which planted faults the worlds of a plan detect: what `fleetproof sensitivity` measured.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/base/outside_text.hpp"
@@ -30,18 +31,24 @@ std::string measured_text(const SensitivityRecord& record) {
                             count_text(record.sound_runs, "run"))
               : fmt::format("{} itself had violations in {} of {} runs, so that violations count as rates.",
                             printable(record.sound_agent, 40), record.sound_violations, record.sound_runs);
+  if (!std::ranges::all_of(record.faults, &PlantedFault::tried))
+    text += fmt::format(
+        " A fault was never tried if its agent did the same as {} in each run: nothing in these worlds "
+        "asks for the rule that it breaks.",
+        printable(record.sound_agent, 40));
   return text;
 }
 
 }  // namespace
 
 std::string sensitivity_sentence(const SensitivityRecord& record) {
-  std::vector<std::string> missed;
+  std::vector<std::string> missed, untried;
   for (const PlantedFault& fault : record.faults) {
-    if (!record.detects(fault)) missed.push_back(printable(fault.agent, 40));
+    if (!record.detects(fault)) (fault.tried ? missed : untried).push_back(printable(fault.agent, 40));
   }
-  return fmt::format("detects {} of {}{}", record.detected(), count_text(record.faults.size(), "planted fault"),
-                     missed.empty() ? "" : "; misses " + joined(missed));
+  return fmt::format("detects {} of {}{}{}", record.detected(), count_text(record.faults.size(), "planted fault"),
+                     missed.empty() ? "" : "; misses " + joined(missed),
+                     untried.empty() ? "" : "; never tries " + joined(untried));
 }
 
 Table sensitivity_table(const SensitivityRecord& record) {
@@ -57,7 +64,8 @@ Table sensitivity_table(const SensitivityRecord& record) {
   for (const PlantedFault& fault : record.faults) {
     table.rows.push_back({printable(fault.agent, 40), printable(fault.text, 80),
                           fmt::format("{} of {}", fault.seeds, record.seeds.size()), runs_text(fault), most_text(fault),
-                          or_dash(fault.seen_as), or_dash(fault.cell), or_dash(fault.probe)});
+                          fault.tried ? or_dash(fault.seen_as) : "never tried", or_dash(fault.cell),
+                          or_dash(fault.probe)});
   }
   return table;
 }

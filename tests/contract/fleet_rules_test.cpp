@@ -58,15 +58,16 @@ TEST_F(FleetRules, AFleetWithoutAWayIsToldWhichTypesHaveOne) {
 
 TEST_F(FleetRules, AFleetThatFillsTheFloorIsToldBeforeTheCampaign) {
   const auto told = [&](const std::string& verb, int fleet) {
-    write("c.toml", "horizon_s = 1\n[factors]\nagents = [\"hull-lock\"]\nlayouts = [\"plant/20\"]\nfleet_sizes = [" +
-                        std::to_string(fleet) + "]\n");
+    const std::string factors = "agents = [\"hull-lock\"]\nlayouts = [\"plant/20\"]\nfleet_sizes = [";
+    write("c.toml", "horizon_s = 1\nreplicates = 1\n[factors]\n" + factors + std::to_string(fleet) + "]\n");
     return run(verb).err;
   };
   const char* crowded =
       "warning: \"plant/20\": 11 AGVs on 20 stations; with more than one for two stations, 10 here, a "
       "fleet may stand still\n";
-  EXPECT_THAT(told("check c.toml", 11), HasSubstr(crowded));
-  EXPECT_THAT(told("run c.toml --db c.db", 11), HasSubstr(crowded));
+  for (const char* verb : {"check c.toml", "run c.toml --db c.db", "run c.toml --shard 1/1 --out shards", "plan c.toml",
+                           "sensitivity c.toml --runs 1 --agent asks-once"})
+    EXPECT_THAT(told(verb, 11), HasSubstr(crowded)) << verb;
   EXPECT_THAT(told("check c.toml", 10), Not(HasSubstr("stand still")));
 }
 

@@ -49,7 +49,19 @@ TEST(Sensitivity, AFaultThatDoesNothingIsMissed) {
       measure_sensitivity(test::small_plan(), AgentPrograms(), {.workers = 2, .agents = {"wraps-at-256"}});
   EXPECT_EQ(found.faults[0].seen_as, "");
   EXPECT_EQ(found.faults[0].tally.accused, found.sound.accused);
+  EXPECT_FALSE(found.faults[0].tried);
   EXPECT_EQ(found.detected(), 0U);
+}
+
+// What is missed is told apart from what these worlds never ask for: here no AGV restarts, and each sends now and then.
+TEST(Sensitivity, AMissedFaultActsAndAnUntriedOneDoesNot) {
+  const Sensitivity found =
+      measure_sensitivity(test::small_plan(), AgentPrograms(),
+                          {.runs = 1, .workers = 2, .agents = {"restart-forgets-lane", "grants-at-boot", "asks-once"}});
+  EXPECT_FALSE(found.faults[0].tried);
+  EXPECT_FALSE(found.faults[1].tried);
+  EXPECT_TRUE(found.faults[2].tried) << "a lost message is not sent again";
+  EXPECT_EQ(found.faults[2].seen_as, "") << "one run shows no rate";
 }
 
 // Where even the sound agent is accused, one violation shows nothing.
@@ -89,8 +101,8 @@ TEST_F(Sensitive, SaysWhatItDetectsAndWhatItMisses) {
   write("a.toml", kCorridor);
   const auto finished = run("sensitivity a.toml --agent grants-for-good --agent wraps-at-256");
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_THAT(finished.out, HasSubstr("detects 1 of 2 planted faults; misses wraps-at-256\n"));
-  EXPECT_THAT(finished.out, HasSubstr("  wraps-at-256             missed\n"));
+  EXPECT_THAT(finished.out, HasSubstr("detects 1 of 2 planted faults; never tries wraps-at-256\n"));
+  EXPECT_THAT(finished.out, HasSubstr("  wraps-at-256             never tried: in each run the same as the sound"));
   EXPECT_THAT(finished.out, HasSubstr("(corridor-sidings, 4 AGVs, 40 %, 2 s"));
   EXPECT_THAT(finished.err, Not(HasSubstr("warning")));
   const auto unknown = run("sensitivity a.toml --agent reckless");
@@ -127,9 +139,9 @@ TEST_F(Sensitive, StandsInTheReportOfThePlan) {
   EXPECT_THAT(run("report a.db").out, HasSubstr("Not measured."));
   ASSERT_EQ(run("sensitivity a.toml --agent grants-for-good --agent wraps-at-256 --seeds 2 --seed 7").exit_code, 0);
   const std::string page = run("report a.db --format markdown").out;
-  EXPECT_THAT(page, HasSubstr("a campaign in these worlds detects 1 of 2 planted faults; misses wraps-at-256."));
+  EXPECT_THAT(page, HasSubstr("a campaign in these worlds detects 1 of 2 planted faults; never tries wraps-at-256."));
   EXPECT_THAT(page, HasSubstr("grants all requests of an AGV once it has granted one"));
-  EXPECT_THAT(page, HasSubstr("hull-lock had no violation in 20 runs."));
+  EXPECT_THAT(page, HasSubstr("hull-lock had no violation in 20 runs. A fault was never tried if its agent did the"));
   const auto json = nlohmann::json::parse(run("report a.db --json").out)["sensitivity"];
   EXPECT_EQ(json["seeds"], (nlohmann::json{7, 8}));
   EXPECT_EQ(json["faults"][1]["agent"], "wraps-at-256");
@@ -144,7 +156,7 @@ TEST_F(Sensitive, OfOtherWorldsOrDamagedIsNotShown) {
   ASSERT_EQ(run("sensitivity b.toml --runs 1 --agent asks-once -o a.sensitivity.json").exit_code, 0);
   const auto page = [&] { return run("report a.db --format markdown").out; };
   EXPECT_THAT(page(), HasSubstr("Not known: a.sensitivity.json was measured in the worlds of another plan"));
-  for (const char* text : {"", "{}", "{\"schema_version\":2}", "[1", "{\"schema_version\":[]}"}) {
+  for (const char* text : {"", "{}", "{\"schema_version\":3}", "[1", "{\"schema_version\":[]}"}) {
     write("a.sensitivity.json", text);
     EXPECT_THAT(page(), HasSubstr("Not known: a.sensitivity.json is damaged")) << text;
   }

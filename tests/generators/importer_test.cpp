@@ -62,6 +62,9 @@ TEST_F(ImporterTest, TheExtensionChooses) {
   const std::string nav_graph = "levels: {L1: {vertices: [[0, 0, {}], [4, 0, {}]], lanes: [[0, 1, {}]]}}\n";
   EXPECT_EQ(read(file("f.yaml", nav_graph)).segments.size(), 1U);
   EXPECT_EQ(read(file("g.yml", nav_graph)).segments.size(), 1U);
+  EXPECT_EQ(read(file("D.CSV", to_csv(crossdock_))).segments.size(), 31U);
+  EXPECT_EQ(read(file("A.LIF.json", to_lif(crossdock_))).segments.size(), 31U);
+  EXPECT_EQ(importer_of_file("PLANT.Xml"), "opentcs");
 }
 
 TEST_F(ImporterTest, UnknownNamesAreExplained) {

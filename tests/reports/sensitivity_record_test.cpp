@@ -41,6 +41,19 @@ TEST(SensitivityRecord, AFaultIsDetectedByNineOfTenSeeds) {
   EXPECT_EQ(sensitivity_sentence(record), "detects 2 of 3 planted faults; misses slow");
 }
 
+TEST(SensitivityRecord, SaysWhatWasNeverTried) {
+  SensitivityRecord record = sample();
+  PlantedFault& fault = record.faults.emplace_back();
+  fault.agent = "boots";
+  fault.tried = false;
+  EXPECT_EQ(sensitivity_sentence(record), "detects 2 of 4 planted faults; misses rare; never tries boots");
+  EXPECT_EQ(sensitivity_table(record).rows[3][5], "never tried");
+  const auto read = parse_sensitivity(sensitivity_text(record));
+  ASSERT_TRUE(read);
+  EXPECT_FALSE(read->faults[3].tried);
+  EXPECT_TRUE(read->faults[2].tried);
+}
+
 TEST(SensitivityRecord, WorldsAreWhatDecidesInWhichWorldsAgentsAreTried) {
   const auto plan = [](const std::string& more) { return "{\"horizon_s\":60" + more + "}"; };
   const std::string worlds = worlds_of(plan(""));
