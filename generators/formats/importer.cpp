@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/base/letter_case.hpp"
 #include "core/scenario/lane_rules.hpp"
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/layout_file.hpp"
@@ -107,9 +108,7 @@ const Entry<ReadLayout>& importer(std::string_view name) {
 }
 
 bool has_ending(std::string_view path, std::string_view ending) {
-  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return path.size() >= ending.size() &&
-         std::ranges::equal(path.substr(path.size() - ending.size()), ending, {}, small);
+  return path.size() >= ending.size() && same_letters(path.substr(path.size() - ending.size()), ending);
 }
 
 bool is_layout_file(std::string_view path) { return extension_of(path) != nullptr; }

@@ -35,7 +35,7 @@ extern const OptionFormats kFormatsWithTwins, kFormatsWithWords, kFormatsWithLev
 // Throws InputError with a hint if there is no such importer.
 const Entry<ReadLayout>& importer(std::string_view name);
 
-// Whether the name of a file ends in `ending`, which is in small letters; the name may have capitals.
+// Whether the name of a file ends so, in small letters or capitals.
 bool has_ending(std::string_view path, std::string_view ending);
 
 // Whether a file of this name is a layout file, by its extension.

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/letter_case.hpp"
+
 namespace fleetproof {
 namespace {
 
@@ -22,15 +24,12 @@ constexpr KnownWord kKnownWords[] = {
     {"work", Purpose::Storage},     {"park", Purpose::Parking},
 };
 
-bool is_small(char c) { return c >= 'a' && c <= 'z'; }
-bool is_large(char c) { return c >= 'A' && c <= 'Z'; }
-
 // "Load cargo", "LOAD_CARGO", "load:2", "LoadCargo" and "AGVLoad": in small letters; digits are words, too. All else
 // parts words.
 std::vector<std::string> words_in(std::string_view text) {
   enum class Kind : std::uint8_t { Other, Small, Large, Digit };
   const auto kind_of = [](char c) {
-    return is_small(c) ? Kind::Small : is_large(c) ? Kind::Large : c >= '0' && c <= '9' ? Kind::Digit : Kind::Other;
+    return is_small(c) ? Kind::Small : is_capital(c) ? Kind::Large : c >= '0' && c <= '9' ? Kind::Digit : Kind::Other;
   };
   std::vector<std::string> words(1);
   Kind before = Kind::Other;
@@ -39,7 +38,7 @@ std::vector<std::string> words_in(std::string_view text) {
     const bool hump = kind == Kind::Large && (before == Kind::Small || (before == Kind::Large && after == Kind::Small));
     const bool goes_on = kind == before || (before == Kind::Large && kind == Kind::Small);
     if (hump || !goes_on) words.emplace_back();
-    if (kind != Kind::Other) words.back() += kind == Kind::Large ? static_cast<char>(text[i] - 'A' + 'a') : text[i];
+    if (kind != Kind::Other) words.back() += to_small(text[i]);
     before = kind;
   }
   std::erase(words, "");

@@ -7,6 +7,7 @@
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/letter_case.hpp"
 #include "core/base/outside_text.hpp"
 #include "generators/text/name_list.hpp"
 
@@ -14,11 +15,6 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kListed = 12;  // texts of files in a sentence
-
-bool same_word(std::string_view a, std::string_view b) {
-  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::ranges::equal(a, b, {}, small, small);
-}
 
 }  // namespace
 
@@ -71,7 +67,7 @@ PurposeWords purpose_words_of(std::string_view text, const std::string& place) {
 
 void PurposeWords::add(PurposeWord word) {
   for (const auto& other : words_) {
-    if (same_word(other.word, word.word))
+    if (same_letters(other.word, word.word))
       throw InputError(word.place, fmt::format("{} is there twice; remove one of them", in_quotes(word.word)));
   }
   words_.push_back(std::move(word));
@@ -80,7 +76,8 @@ void PurposeWords::add(PurposeWord word) {
 std::optional<Purposes> PurposeWords::said_of(std::string_view text) const {
   if (words_.empty() || text.empty()) return std::nullopt;
   texts_->emplace(text);
-  const auto found = std::ranges::find_if(words_, [&](const PurposeWord& word) { return same_word(word.word, text); });
+  const auto found =
+      std::ranges::find_if(words_, [&](const PurposeWord& word) { return same_letters(word.word, text); });
   return found == words_.end() ? std::nullopt : std::optional(found->purposes);
 }
 
@@ -89,7 +86,7 @@ std::vector<PurposeWords::Unheard> PurposeWords::unheard() const {
   const std::vector<std::string_view> known(texts.begin(), texts.end());
   std::vector<Unheard> found;
   for (const auto& [word, purposes, place] : words_) {
-    if (std::ranges::any_of(texts, [&](const std::string& text) { return same_word(text, word); })) continue;
+    if (std::ranges::any_of(texts, [&](const std::string& text) { return same_letters(text, word); })) continue;
     const auto nearest = nearest_name(word, known);
     found.push_back({place, fmt::format("{} is no word of the layouts{}", in_quotes(word),
                                         nearest         ? "; did you mean " + in_quotes(*nearest) + "?"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/base/letter_case.hpp"
 #include "reports/html/quality_maps.hpp"
 #include "reports/wording.hpp"
 
@@ -37,9 +38,8 @@ Element list_of(const std::vector<Remark>& remarks) {
 std::string id_of(std::string_view title) {
   std::string id;
   for (const char c : title.substr(0, kLongestId)) {
-    const bool is_upper = c >= 'A' && c <= 'Z', is_kept = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (is_upper || is_kept) {
-      id += is_upper ? static_cast<char>(c - 'A' + 'a') : c;
+    if (is_small(c) || is_capital(c) || (c >= '0' && c <= '9')) {
+      id += to_small(c);
     } else if (!id.empty() && id.back() != '-') {
       id += '-';
     }
