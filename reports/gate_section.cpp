@@ -162,8 +162,8 @@ std::string finding_text(const ReportInput& input, std::size_t index) {
   if (const std::string named = filter_text(gate.where); !named.empty()) text += fmt::format("({}) ", named);
   if (!result.claim) return text + "in " + count_text(result.counts.failing_runs, "run");
   text += counted_text(gate, result);
-  if (result.claim->units == 0) return text;
   const bool violated = result.verdict == Verdict::Violated;
+  if ((violated ? result.optimistic : result.claim)->units == 0) return text;
   const double bound = violated ? result.optimistic->lower : result.claim->upper;
   if (violated && bound <= 0.0) return text;  // one failing run refutes a gate that allows none; it shows no rate
   return text + fmt::format("; the true {} is at {} {} ({}{})", gate.unit == GateUnit::AgvHour ? "rate" : "share",

@@ -91,7 +91,7 @@ std::vector<BreakdownRow> Breakdown::rows() const {
     for (const std::uint32_t cell : group.events.pool().cells) tally.add(tallies_[cell]);
     Pool worlds = group.events.pool();
     worlds.rule.unit = GateUnit::World;
-    worlds.units = replicates_;
+    worlds.units = worlds.most_units = replicates_;
     list.push_back({group.key, tally, std::move(worlds), group.events.pool(), group.stalled,
                     static_cast<double>(tally.longest_ns) / 1e9});
   }

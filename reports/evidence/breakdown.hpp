@@ -23,7 +23,7 @@ struct BreakdownRow {
   BreakdownKey key;
   Tally tally;                // over complete replicates, as all counts here
   Pool violations;            // worlds with a violation or an unknown outcome
-  Pool violations_per_hour;   // the same events by exposure, which ends at the first in a world
+  Pool violations_per_hour;   // the same events by the time at risk of one
   std::uint64_t stalled = 0;  // worlds with a deadlock, livelock or starvation that nothing else explains
   double run_length_s = 0.0;  // the longest run
 };

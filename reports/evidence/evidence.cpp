@@ -173,12 +173,14 @@ GateResult Evidence::judge(std::size_t index) const {
   if (due.empty()) due = pool.cells;
   Tally progress;
   GateCounts counts;
+  counts.due_cells = due.size();
   for (const auto cell : due) {
     progress.add(tallies_[cell]);
     counts.idle_cells += tallies_[cell].transports_done == 0;
   }
   counts.cells = pool.cells.size();
   counts.units = pool.units;
+  counts.most_units = pool.most_units;
   counts.replicates = replicates_;
   counts.planned = planned_;
   counts.failing = pool.failing;

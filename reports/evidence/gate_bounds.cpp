@@ -6,6 +6,7 @@
 
 #include "reports/evidence/confidence_sequence.hpp"
 #include "reports/evidence/exposure.hpp"
+#include "reports/evidence/gate_table.hpp"
 #include "reports/evidence/poisson_rate.hpp"
 #include "reports/evidence/refutation.hpp"
 #include "reports/evidence/release_gate.hpp"
@@ -38,19 +39,26 @@ RateInterval bounds_at(const GateRecord& gate, std::uint64_t failing, std::uint6
   return {refuted_limit(failing, units, confidence), largest_limit_not_passed(failing, units, confidence)};
 }
 
-}  // namespace
-
-RateInterval gate_bounds(const GateRecord& gate, std::uint64_t failing, std::uint64_t units) {
-  return bounds_at(gate, failing, units, gate.confidence);
+RateInterval bounds_of_worst(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, std::size_t cells,
+                             Confidence confidence) {
+  RateInterval bounds = bounds_at(gate, failing, units, confidence);
+  if (gate.unit == GateUnit::Run && cells > 1)
+    bounds.lower = bounds_at(gate, failing, units, confidence.shared(static_cast<double>(cells))).lower;
+  return bounds;
 }
 
-RateInterval gate_interval_95(const GateRecord& gate, std::uint64_t failing, std::uint64_t units) {
-  return bounds_at(gate, failing, units, Confidence(0.95).shared(2.0));
+}  // namespace
+
+RateInterval gate_bounds(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, std::size_t cells) {
+  return bounds_of_worst(gate, failing, units, cells, gate.confidence);
+}
+
+RateInterval gate_interval_95(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, std::size_t cells) {
+  return bounds_of_worst(gate, failing, units, cells, Confidence(0.95).shared(2.0));
 }
 
 std::optional<std::uint64_t> units_to_pass(const GateRecord& gate, std::uint64_t failing, std::uint64_t units) {
-  if (gate.method == GateMethod::AnyTime)
-    return failing < gate.table.passes_from.size() ? std::optional(gate.table.passes_from[failing]) : std::nullopt;
+  if (gate.method == GateMethod::AnyTime) return passes_from(gate.table, failing);
   if (gate.unit == GateUnit::AgvHour) {
     if (gate.limit <= 0.0) return std::nullopt;
     return static_cast<std::uint64_t>(std::ceil(exposure_needed(failing, gate.limit, gate.confidence) * kAgvUsPerHour));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -13,19 +14,24 @@ namespace fleetproof {
 // Any-time, shares: the upper bound is the largest limit that the release gate (release_gate.hpp) would not pass, so
 // that bound and decision are one: e(limit) grows with the limit, and all limits that it has not rejected form a
 // confidence sequence. The lower bound is the largest limit that is refuted (refutation.hpp). Any-time, AGV-hours: the
-// Gamma-Poisson sequence. Fixed: Clopper-Pearson or Garwood, one-sided. Requires: failing <= units, but for AGV-hours.
-RateInterval gate_bounds(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
+// Gamma-Poisson sequence. Fixed: Clopper-Pearson or Garwood, one-sided.
+//
+// If each of several `cells` is judged for itself (unit Run), the counts are those of the worst one. The upper bound
+// needs no correction; for the lower one, the cells share the risk. Requires: failing <= units, if the unit is not the
+// AGV-hour.
+RateInterval gate_bounds(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, std::size_t cells = 1);
 
 // The number of units that meets the limit if no unit fails beyond the `failing` that did; none if there is no such
 // number. Requires: an any-time gate has its table.
 std::optional<std::uint64_t> units_to_pass(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
 
 // The same if units go on to fail as `failing` of `units` did; none if a gate that fails so often never passes, as far
-// as its table reaches. Of any-time gates alone. Requires: units > 0.
+// as its table reaches. Requires: the method is any-time; units > 0.
 std::optional<std::uint64_t> units_to_pass_at_this_rate(const GateRecord& gate, std::uint64_t failing,
                                                         std::uint64_t units);
 
 // Two-sided at 95 %: both one-sided bounds, each with half of the risk.
-RateInterval gate_interval_95(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
+RateInterval gate_interval_95(const GateRecord& gate, std::uint64_t failing, std::uint64_t units,
+                              std::size_t cells = 1);
 
 }  // namespace fleetproof

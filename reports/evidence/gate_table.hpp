@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "reports/evidence/confidence.hpp"
 #include "storage/records.hpp"
@@ -11,10 +12,12 @@ namespace fleetproof {
 // The decisions of a gate of the method any-time, as whole numbers: release_gate.hpp says when it passes,
 // refutation.hpp when it is refuted. `cells` of the gate: if each is judged for itself (unit Run), they share the risk
 // of a wrong refutation. The table ends where more failures need 16 times the planned replicates, or after 256
-// failures; a gate with more failures than that does not pass, and is refuted in proportion to the last row. Empty for
-// the method Fixed.
+// failures; with more failures than that, a gate passes and is refuted in proportion to the last row. Empty for the
+// method Fixed.
 GateTable gate_table(const GateRecord& gate, std::size_t cells, std::uint64_t planned_replicates);
 
+// The smallest number of units that meets the limit after so many failures; none if there is no such number.
+std::optional<std::uint64_t> passes_from(const GateTable& table, std::uint64_t failing);
 bool passes(const GateTable& table, std::uint64_t failing, std::uint64_t units);
 bool refutes(const GateTable& table, std::uint64_t failing, std::uint64_t units);
 

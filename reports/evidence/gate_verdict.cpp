@@ -30,6 +30,7 @@ std::string more_text(const GateRecord& gate, std::uint64_t units) {
 // a fixed one the number would have to be fixed beforehand.
 std::string bound_too_high(const GateRecord& gate, GateResult& result) {
   const auto& claim = *result.claim;
+  if (claim.units == 0) return "no AGV-hour counts: the first run of each replicate ended unknown";
   std::string text = fmt::format("the upper bound {} is above the limit {}", value_text(gate, claim.upper, rounded_up),
                                  limit_text(gate));
   const auto unknown = result.counts.failing_or_unknown - result.counts.failing;
@@ -60,11 +61,6 @@ std::string bound_too_high(const GateRecord& gate, GateResult& result) {
   return text + "; if failures go on as they were seen, more runs will not help";
 }
 
-bool meets_limit(const GateRecord& gate, const GateResult& result) {
-  if (gate.method == GateMethod::AnyTime) return passes(gate.table, result.claim->failing, result.claim->units);
-  return result.claim->upper <= gate.limit;
-}
-
 bool asks_for_progress(const GateRecord& gate) { return !(gate.min_transports_per_agv_hour <= 0.0); }
 
 // Everything that is missing for "demonstrated"; empty if nothing is missing.
@@ -77,7 +73,7 @@ std::string missing_for_demonstration(const GateRecord& gate, GateResult& result
         fmt::format("stopped after {} of {} planned replicates; the bound holds only for the number fixed beforehand",
                     counts.replicates, counts.planned));
   }
-  if (!meets_limit(gate, result)) add_sentence_part(missing, bound_too_high(gate, result));
+  if (!meets_limit(gate, *result.claim)) add_sentence_part(missing, bound_too_high(gate, result));
   if (counts.met_nobody)
     add_sentence_part(missing, "no run met an encounter of two AGVs: what this gate claims was never put to the test");
   if (!asks_for_progress(gate)) return missing;
@@ -89,7 +85,8 @@ std::string missing_for_demonstration(const GateRecord& gate, GateResult& result
   }
   if (counts.idle_cells > 0)
     add_sentence_part(missing,
-                      fmt::format("in {} of {} cells no transport was completed", counts.idle_cells, counts.cells));
+                      fmt::format("in {} of {} cells{} no transport was completed", counts.idle_cells, counts.due_cells,
+                                  counts.due_cells < counts.cells ? " of the contract region" : ""));
   return missing;
 }
 
@@ -100,7 +97,7 @@ std::optional<std::string> refutation(const GateRecord& gate, const GateResult& 
     return fmt::format("{} {} failed and this gate allows none", counts.failing_runs,
                        counts.failing_runs == 1 ? "run" : "runs");
   }
-  if (counts.counts_only || counts.units == 0) return std::nullopt;
+  if (counts.counts_only || result.optimistic->units == 0) return std::nullopt;
   const bool refuted = gate.method == GateMethod::AnyTime
                            ? refutes(gate.table, result.optimistic->failing, result.optimistic->units)
                            : counts.complete() && result.optimistic->lower > gate.limit;
@@ -133,10 +130,15 @@ std::optional<double> Estimate::rate() const {
   return static_cast<double>(failing) / exposure;
 }
 
-Estimate estimate(const GateRecord& gate, std::uint64_t failing, std::uint64_t units) {
-  const RateInterval bounds = gate_bounds(gate, failing, units);
+Estimate estimate(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, std::size_t cells) {
+  const RateInterval bounds = gate_bounds(gate, failing, units, cells);
   const double exposure = gate.unit == GateUnit::AgvHour ? agv_hours(units) : static_cast<double>(units);
-  return {units, failing, exposure, bounds.lower, bounds.upper, gate_interval_95(gate, failing, units)};
+  return {units, failing, exposure, bounds.lower, bounds.upper, gate_interval_95(gate, failing, units, cells)};
+}
+
+bool meets_limit(const GateRecord& gate, const Estimate& estimate) {
+  if (gate.method == GateMethod::AnyTime) return passes(gate.table, estimate.failing, estimate.units);
+  return estimate.upper <= gate.limit;
 }
 
 GateResult judge_gate(const GateRecord& gate, const GateCounts& counts) {
@@ -146,8 +148,9 @@ GateResult judge_gate(const GateRecord& gate, const GateCounts& counts) {
   result.counts = counts;
   result.unit = unit_of(gate, counts);
   if (!counts.counts_only) {
-    result.claim = estimate(gate, counts.failing_or_unknown, counts.units);
-    result.optimistic = estimate(gate, counts.failing, counts.units);
+    const std::uint64_t most_units = gate.unit == GateUnit::AgvHour ? counts.most_units : counts.units;
+    result.claim = estimate(gate, counts.failing_or_unknown, counts.units, counts.cells);
+    result.optimistic = estimate(gate, counts.failing, most_units, counts.cells);
   }
   if (const auto reason = refutation(gate, result)) {
     result.verdict = Verdict::Violated;
@@ -159,7 +162,7 @@ GateResult judge_gate(const GateRecord& gate, const GateCounts& counts) {
         fmt::format("no cell of the campaign lies in the region of this gate for agent {}", printable(gate.agent, 40));
   } else if (counts.counts_only) {
     result.reason = "a search campaign gives counts, not rates; use kind \"claim\" to demonstrate";
-  } else if (counts.units == 0) {
+  } else if (result.optimistic->units == 0) {
     result.units_needed = units_to_pass(gate, 0, 0);
     result.reason = "no replicate is complete";
     if (result.units_needed)

@@ -26,19 +26,25 @@ struct Estimate {
   RateInterval interval_95;            // two-sided
   std::optional<double> rate() const;  // absent without units
 };
-Estimate estimate(const GateRecord& gate, std::uint64_t failing, std::uint64_t units);
+// `cells`: as gate_bounds() has it.
+Estimate estimate(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, std::size_t cells = 1);
+
+// Whether the upper bound is at or below the limit; the table of an any-time gate decides.
+bool meets_limit(const GateRecord& gate, const Estimate& estimate);
 
 // What was counted in the cells of one gate.
 struct GateCounts {
   std::size_t cells = 0;
   std::uint64_t units = 0;               // complete replicates (with one cell: its runs), or microseconds of an AGV
+  std::uint64_t most_units = 0;          // AGV-hours: microseconds if unknown runs passed; otherwise as `units`
   std::uint64_t replicates = 0;          // complete
   std::uint64_t planned = 0;             // replicates: the bounds of the method Fixed hold for this number only
   std::uint64_t failing = 0;             // of the units: at least one run is known to have failed
   std::uint64_t failing_or_unknown = 0;  // of the units: at least one run failed, or ended before it could be told
   std::uint64_t failing_runs = 0;        // known failures among all runs read so far, complete replicate or not
   std::optional<double> transports_per_agv_hour;
-  std::size_t idle_cells = 0;  // cells in which progress is due and no transport was done
+  std::size_t due_cells = 0;   // cells in which progress is due: those of the contract region, or all if it has none
+  std::size_t idle_cells = 0;  // of these, cells in which no transport was done
   bool met_nobody = false;     // encounters are required, but no run had one
   bool counts_only = false;    // the campaign searches for failures, so its counts are not a sample
   bool complete() const { return replicates >= planned; }

@@ -17,8 +17,6 @@ RunResult worse(RunResult a, RunResult b) {
   return a == RunResult::Unknown || b == RunResult::Unknown ? RunResult::Unknown : RunResult::Passed;
 }
 
-std::uint64_t agv_us(const Outcome& outcome) { return outcome.simulated_ns / 1000 * outcome.agv_count; }
-
 }  // namespace
 
 void PoolCounter::Count::add(RunResult result) {
@@ -31,13 +29,19 @@ PoolCounter::PoolCounter(Pool pool) : pool_(std::move(pool)) {
 }
 
 RunResult PoolCounter::add(const RunRecord& run, RunResult violation) {
-  if (pending_.result == RunResult::Passed) pending_.exposure_us += agv_us(run.outcome);
   const RunResult result = result_of_run(run.outcome, violation);
+  if (pool_.rule.unit == GateUnit::AgvHour) add_time(run.outcome, result);
   pending_.result = worse(pending_.result, result);
   ++pending_.runs;
   if (pool_.rule.unit == GateUnit::Run) pending_.by_cell.push_back(result);
   if (result == RunResult::Failed) ++pool_.failing_runs;
   return result;
+}
+
+void PoolCounter::add_time(const Outcome& outcome, RunResult result) {
+  const TimeAtRisk time = time_at_risk(outcome, pool_.rule.end_point, result);
+  if (pending_.result == RunResult::Passed) pending_.at_risk.least_us += time.least_us;
+  if (pending_.result != RunResult::Failed) pending_.at_risk.most_us += time.most_us;
 }
 
 RunResult PoolCounter::result_of_run(const Outcome& outcome, RunResult violation) {
@@ -72,7 +76,9 @@ void PoolCounter::finish_replicate() {
   }
   Count world{pool_.failing, pool_.failing_or_unknown};
   world.add(pending_.result);
-  pool_.units += pool_.rule.unit == GateUnit::AgvHour ? pending_.exposure_us : 1;
+  const bool by_time = pool_.rule.unit == GateUnit::AgvHour;
+  pool_.units += by_time ? pending_.at_risk.least_us : 1;
+  pool_.most_units += by_time ? pending_.at_risk.most_us : 1;
   pool_.failing = world.failing;
   pool_.failing_or_unknown = world.failing_or_unknown;
   if (pool_.rule.unit == GateUnit::Run) count_cells();
@@ -83,13 +89,14 @@ void PoolCounter::add(const QuietReplicates& quiet) {
   ensure(pool_.rule.end_point != EndPoint::Throughput, "whether a run was slow is not known of many together");
   ensure(pending_.runs == 0, "whole replicates follow whole replicates");
   if (pool_.cells.empty()) return;
-  if (pool_.rule.unit != GateUnit::AgvHour) {
-    pool_.units += quiet.replicates;
-    return;
+  std::uint64_t units = quiet.replicates;
+  if (pool_.rule.unit == GateUnit::AgvHour) {
+    Tally exposure;
+    for (const std::uint32_t cell : pool_.cells) exposure.add(quiet.by_cell[cell]);
+    units = exposure.agv_us;
   }
-  Tally exposure;
-  for (const std::uint32_t cell : pool_.cells) exposure.add(quiet.by_cell[cell]);
-  pool_.units += exposure.agv_us;
+  pool_.units += units;
+  pool_.most_units += units;
 }
 
 void PoolCounter::count_cells() {

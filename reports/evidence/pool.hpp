@@ -20,12 +20,16 @@ struct PoolRule {
 // run in every cell. A world fails if any of its runs fails. Cells share worlds and are not independent, so their runs
 // must not be counted one by one. With one cell, worlds are runs.
 //
-// Of the unit Run the counts are those of the cell with the most failures. Of the unit AgvHour a unit is a microsecond
-// of one AGV, and `failing` counts worlds: the exposure of a world ends with the run that fails or stays unknown.
+// If the unit is Run, the counts are those of one cell: the cell with the most failures. If it is AgvHour, a unit is a
+// microsecond of one AGV, and `failing` counts worlds: a world has one event at most, and is at risk until then
+// (TimeAtRisk). Its runs count one after the other, in the order of the cells.
 struct Pool {
   PoolRule rule;
   std::vector<std::uint32_t> cells;
-  std::uint64_t units = 0, failing = 0, failing_or_unknown = 0;  // over complete replicates
+  // Over complete replicates.
+  std::uint64_t units = 0;       // AgvHour: at risk until a run failed or stayed unknown
+  std::uint64_t most_units = 0;  // AgvHour: at risk until a run failed; otherwise as many as `units`
+  std::uint64_t failing = 0, failing_or_unknown = 0;
   std::uint64_t failing_runs = 0;  // over all runs read so far; of Throughput: as `failing`
 };
 
@@ -52,13 +56,15 @@ class PoolCounter {
   // Of the replicate that is not complete yet.
   struct Pending {
     RunResult result = RunResult::Passed;  // the worst so far: Failed, then Unknown
-    std::uint64_t exposure_us = 0, transports_done = 0, agv_us = 0;
+    TimeAtRisk at_risk;                    // of the unit AgvHour
+    std::uint64_t transports_done = 0, agv_us = 0;
     bool foreign_body_lay = false;  // a low throughput is then no finding
     std::size_t runs = 0;
     std::vector<RunResult> by_cell;  // of the unit Run
   };
 
   RunResult result_of_run(const Outcome& outcome, RunResult violation);
+  void add_time(const Outcome& outcome, RunResult result);
   RunResult throughput_result(std::uint64_t transports_done, std::uint64_t agv_us, bool foreign_body_lay) const;
   void count_cells();
 

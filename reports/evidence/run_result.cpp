@@ -3,39 +3,81 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "reports/evidence/exposure.hpp"
 #include "reports/evidence/first_cause.hpp"
 #include "reports/evidence/foreign_bodies.hpp"
 
 namespace fleetproof {
 namespace {
 
+// What a run says about an end point: between which instants its first event lies, and whether something else leaves
+// the end point undecided.
+class Findings {
+ public:
+  explicit Findings(bool undecided) : undecided_(undecided) {}
+
+  void event(SimTime earliest, SimTime latest) {
+    failed_ = true;
+    earliest_ = std::min(earliest_, earliest);
+    latest_ = std::min(latest_, latest);
+  }
+  void leave_undecided() { undecided_ = true; }
+
+  RunResult result() const {
+    if (failed_) return RunResult::Failed;
+    return undecided_ ? RunResult::Unknown : RunResult::Passed;
+  }
+  SimTime earliest() const { return earliest_; }
+  SimTime latest() const { return latest_; }
+
+ private:
+  bool failed_ = false, undecided_;
+  SimTime earliest_ = kForever, latest_ = kForever;
+};
+
 bool ended_early(const Outcome& outcome) {
   return outcome.crash || outcome.hang || outcome.indeterminate || outcome.engine_error;
 }
 
-RunResult failed_or(bool failed, bool unknown) {
-  if (failed) return RunResult::Failed;
-  return unknown ? RunResult::Unknown : RunResult::Passed;
+// Of events of which an outcome tells no instant.
+Findings some_time(const Outcome& outcome, bool happened) {
+  Findings findings(ended_early(outcome));
+  if (happened) findings.event(kStart, kForever);
+  return findings;
 }
 
 // At least of this level. Without a list of violations, the flags of the outcome say it.
-RunResult violation_result(const Outcome& outcome, ViolationLevel level) {
-  const bool unknown = ended_early(outcome);
+Findings violations(const Outcome& outcome, ViolationLevel level) {
   if (outcome.violations.empty()) {
-    const bool violated = level == ViolationLevel::SafetyDistance ? outcome.violation || outcome.contact
-                                                                  : level == ViolationLevel::Contact && outcome.contact;
-    return failed_or(violated, unknown);
+    return some_time(outcome, level == ViolationLevel::SafetyDistance
+                                  ? outcome.violation || outcome.contact
+                                  : level == ViolationLevel::Contact && outcome.contact);
   }
+  Findings findings(ended_early(outcome));
   const std::vector<bool> answers = answerable(outcome);
-  bool own = false, foreign = false;
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    if (level_of(outcome.violations[i]) >= level) (answers[i] ? own : foreign) = true;
+    const Violation& violation = outcome.violations[i];
+    if (level_of(violation) < level) continue;
+    if (!answers[i]) {
+      findings.leave_undecided();
+      continue;
+    }
+    findings.event(violation.first, level == ViolationLevel::SafetyDistance ? violation.first : violation.last);
   }
-  return failed_or(own, foreign || unknown);
+  return findings;
 }
 
 bool is_wrong_load(const Incident& incident) {
   return incident.kind >= IncidentKind::LoadHeldByTwo && incident.kind <= IncidentKind::LoadMovedByNobody;
+}
+
+template <class Is>
+Findings incidents(const Outcome& outcome, Is is) {
+  Findings findings(ended_early(outcome));
+  for (const Incident& incident : outcome.incidents) {
+    if (is(incident)) findings.event(incident.first, incident.first);
+  }
+  return findings;
 }
 
 // The beginning of the first pair that ended in a contact; kForever without one.
@@ -47,51 +89,65 @@ SimTime first_wreck(const Outcome& outcome) {
   return first;
 }
 
-RunResult progress_result(const Outcome& outcome, IncidentKind kind) {
+Findings lack_of_progress(const Outcome& outcome, IncidentKind kind) {
   const SimTime wreck = first_wreck(outcome);
-  bool by_itself = false, consequence = false;
+  Findings findings(ended_early(outcome) || wreck != kForever);
   for (const Incident& incident : outcome.incidents) {
     if (incident.kind != kind) continue;
-    (surely_began(incident) < wreck && !foreign_body_lay(outcome, incident) ? by_itself : consequence) = true;
+    const SimTime began = surely_began(incident);
+    if (ended_early(outcome) || began >= wreck || foreign_body_lay(outcome, incident)) {
+      findings.leave_undecided();
+    } else {
+      findings.event(incident.first, began);
+    }
   }
-  const bool lost_an_agv = ended_early(outcome) || wreck != kForever;
-  return failed_or(by_itself && !ended_early(outcome), consequence || lost_an_agv);
+  return findings;
 }
 
-}  // namespace
-
-RunResult result_of(const Outcome& outcome, EndPoint end_point) {
-  const bool unknown = ended_early(outcome);
-  const auto has = [&](IncidentKind kind) {
-    return std::ranges::find(outcome.incidents, kind, &Incident::kind) != outcome.incidents.end();
-  };
+Findings findings_of(const Outcome& outcome, EndPoint end_point) {
   switch (end_point) {
     case EndPoint::Violation:
-      return violation_result(outcome, ViolationLevel::SafetyDistance);
+      return violations(outcome, ViolationLevel::SafetyDistance);
     case EndPoint::Contact:
-      return violation_result(outcome, ViolationLevel::Contact);
+      return violations(outcome, ViolationLevel::Contact);
     case EndPoint::HazardousContact:
-      return violation_result(outcome, ViolationLevel::HazardousContact);
+      return violations(outcome, ViolationLevel::HazardousContact);
     case EndPoint::Deadlock:
-      return progress_result(outcome, IncidentKind::Deadlock);
+      return lack_of_progress(outcome, IncidentKind::Deadlock);
     case EndPoint::Livelock:
-      return progress_result(outcome, IncidentKind::Livelock);
+      return lack_of_progress(outcome, IncidentKind::Livelock);
     case EndPoint::Starvation:
-      return progress_result(outcome, IncidentKind::Starvation);
+      return lack_of_progress(outcome, IncidentKind::Starvation);
     case EndPoint::Standstill:
-      return progress_result(outcome, IncidentKind::StandstillInContract);
+      return lack_of_progress(outcome, IncidentKind::StandstillInContract);
     case EndPoint::WrongLoad:
-      return failed_or(std::ranges::any_of(outcome.incidents, is_wrong_load), unknown);
+      return incidents(outcome, is_wrong_load);
     case EndPoint::EmptyBattery:
-      return failed_or(has(IncidentKind::BatteryEmpty), unknown);
+      return incidents(outcome, [](const Incident& i) { return i.kind == IncidentKind::BatteryEmpty; });
     case EndPoint::Crash:
-      return failed_or(outcome.crash, unknown);
+      return some_time(outcome, outcome.crash);
     case EndPoint::Hang:
-      return failed_or(outcome.hang, unknown);
+      return some_time(outcome, outcome.hang);
     case EndPoint::Throughput:
       break;
   }
   invariant_violated("the throughput of a unit is judged over its runs");
+}
+
+}  // namespace
+
+RunResult result_of(const Outcome& outcome, EndPoint end_point) { return findings_of(outcome, end_point).result(); }
+
+TimeAtRisk time_at_risk(const Outcome& outcome, EndPoint end_point, RunResult result) {
+  const std::uint64_t whole_us = agv_us(outcome);
+  if (result == RunResult::Passed) return {whole_us, whole_us};
+  if (result == RunResult::Unknown) return {0, whole_us};
+  const auto until = [&](SimTime instant) {
+    const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(to_ns(instant), 0));
+    return std::min(ns, outcome.simulated_ns) / 1000 * outcome.agv_count;
+  };
+  const Findings findings = findings_of(outcome, end_point);
+  return {until(findings.earliest()), until(findings.latest())};
 }
 
 }  // namespace fleetproof

@@ -11,10 +11,20 @@ namespace fleetproof {
 enum class RunResult : std::uint8_t { Passed, Failed, Unknown };
 
 // A run fails an end point of progress (deadlock, livelock, starvation, standstill) only by what happened before its
-// first contact: what stands behind a wreck is its consequence, and then the end point is unknown. The same holds if an
-// agent crashed or hung. A run in which AGVs came too close to fallen loads or obstacles only, which control software
-// is never told of, is unknown; so is a standstill while such a body lay on the floor (foreign_bodies.hpp). Requires:
-// `end_point` is not Throughput, which takes more than one run.
+// first contact: what stands behind a wreck is its consequence, and then the end point is unknown. If an agent crashed
+// or hung, or the run ended early for another reason, these end points are unknown, also if the incident came before. A
+// run in which AGVs came too close to fallen loads or obstacles only, which control software is never told of, is
+// unknown; so is a standstill while such a body lay on the floor (foreign_bodies.hpp). Requires: `end_point` is not
+// Throughput, which takes more than one run.
 RunResult result_of(const Outcome& outcome, EndPoint end_point);
+
+// How long a run was at risk of failing an end point, in microseconds of one AGV: until its first event, else to its
+// end. Bounds, where an outcome does not hold the instant: a contact may come after the approach, nobody knows when an
+// agent crashed, and an unknown run may have failed at once.
+struct TimeAtRisk {
+  std::uint64_t least_us = 0, most_us = 0;
+};
+// Requires: `result` is result_of(outcome, end_point).
+TimeAtRisk time_at_risk(const Outcome& outcome, EndPoint end_point, RunResult result);
 
 }  // namespace fleetproof

@@ -122,10 +122,12 @@ def any_time_rate(k, hours, risk):
     return lower, bisected(lambda r: log_m(r) >= goal, best, most)
 
 
-def bounds(method, unit, k, units, risk):
-    """One-sided lower and upper bound at `risk`. Units of AGV-hours are microseconds."""
+def bounds(method, unit, k, units, risk, cells=1):
+    """One-sided lower and upper bound at `risk`. Units of AGV-hours are microseconds. If each of several cells is judged
+    for itself (unit "run") and k is of the worst, the cells share the risk of the lower bound."""
     if unit != "agv-hour":
-        return (any_time_share if method == "any-time" else fixed_share)(k, units, risk)
+        share = any_time_share if method == "any-time" else fixed_share
+        return share(k, units, risk / cells if unit == "run" and cells else risk)[0], share(k, units, risk)[1]
     if units == 0:
         return 0.0, inf
     return (any_time_rate if method == "any-time" else fixed_rate)(k, units / 3.6e9, risk)

@@ -11,8 +11,10 @@ KINDS = {1: "battery-empty", 2: "channel-saturated", 3: "interference-losses", 4
          18: "fault-injected", 19: "foreign-body"}
 EARLY = "(crash OR hang OR indeterminate OR engine_error)"
 
-# By run: whether each end point failed (1), stayed unknown (2) or neither (0). Behind the first contact a lack of
-# progress is a consequence, hence unknown.
+NEVER = 2**62
+
+# By run: whether each end point failed (1), stayed unknown (2) or neither (0); and between which instants the first
+# event lies, if it failed. Behind the first contact a lack of progress is a consequence, hence unknown.
 # While a foreign body (a fallen load, an obstacle) lay on the floor, nobody knows what the fleet waited for.
 def progress(kind):
     lay = ("EXISTS (SELECT 1 FROM incidents b WHERE b.run_index = r.run_index AND b.kind = 19 AND b.first_ns < i.last_ns "
@@ -21,30 +23,38 @@ def progress(kind):
     began = "last_ns" if kind in (13, 14) else "first_ns"  # livelock and starvation are dated from the last progress
     before = f"EXISTS ({of_kind} AND {began} < w AND NOT {lay})"
     behind = f"EXISTS ({of_kind} AND ({began} >= w OR {lay}))"
-    return f"CASE WHEN {before} AND NOT {EARLY} THEN 1 WHEN {behind} OR {EARLY} OR w < {2**62} THEN 2 ELSE 0 END"
+    result = f"CASE WHEN {before} AND NOT {EARLY} THEN 1 WHEN {behind} OR {EARLY} OR w < {NEVER} THEN 2 ELSE 0 END"
+    earliest, latest = (f"(SELECT min({at}) FROM incidents i WHERE i.run_index = r.run_index AND i.kind = {kind} AND "
+                        f"{began} < w AND NOT {lay})" for at in ("first_ns", began))
+    return result, earliest, latest
 
 
 # The software answers for violations that have no row in temp.foreign. A run without rows has its flags alone.
-def violation(condition, flags):
+def violation(condition, flags, at="first_ns"):
     rows = f"SELECT 1 FROM violations v WHERE v.run_index = r.run_index AND {condition}"
-    own = (f"EXISTS ({rows} AND NOT EXISTS (SELECT 1 FROM temp.foreign_bodies f WHERE f.run_index = v.run_index AND "
-           "f.ordinal = v.ordinal))")
+    own_rows = (f"{rows} AND NOT EXISTS (SELECT 1 FROM temp.foreign_bodies f WHERE f.run_index = v.run_index AND "
+                "f.ordinal = v.ordinal)")
+    own = f"EXISTS ({own_rows})"
     bare = "NOT EXISTS (SELECT 1 FROM violations v WHERE v.run_index = r.run_index)"
-    return f"CASE WHEN {own} OR ({flags} AND {bare}) THEN 1 WHEN EXISTS ({rows}) OR {EARLY} THEN 2 ELSE 0 END"
+    earliest, latest = (own_rows.replace("SELECT 1", f"SELECT min({column})", 1) for column in ("first_ns", at))
+    return (f"CASE WHEN {own} OR ({flags} AND {bare}) THEN 1 WHEN EXISTS ({rows}) OR {EARLY} THEN 2 ELSE 0 END",
+            f"coalesce(({earliest}), 0)", f"coalesce(({latest}), {NEVER})")
 
 
-def failed_or(failed):
-    return f"CASE WHEN {failed} THEN 1 WHEN {EARLY} THEN 2 ELSE 0 END"
+def failed_or(failed, earliest="0", latest=str(NEVER)):
+    return f"CASE WHEN {failed} THEN 1 WHEN {EARLY} THEN 2 ELSE 0 END", earliest, latest
 
 
 def incident(condition):
-    return failed_or(f"EXISTS (SELECT 1 FROM incidents i WHERE i.run_index = r.run_index AND {condition})")
+    rows = f"FROM incidents i WHERE i.run_index = r.run_index AND {condition}"
+    first = f"(SELECT min(first_ns) {rows})"
+    return failed_or(f"EXISTS (SELECT 1 {rows})", first, first)
 
 
 END_POINTS = {
     "violation": violation("1", "(r.violation OR r.contact)"),
-    "contact": violation("v.contact", "r.contact"),
-    "hazardous-contact": violation("v.contact AND v.relative_speed_um_s > 300000", "0"),
+    "contact": violation("v.contact", "r.contact", "last_ns"),
+    "hazardous-contact": violation("v.contact AND v.relative_speed_um_s > 300000", "0", "last_ns"),
     "deadlock": progress(10), "livelock": progress(13), "starvation": progress(14), "standstill": progress(16),
     "wrong-load": incident("i.kind BETWEEN 4 AND 9"), "empty-battery": incident("i.kind = 1"),
     "crash": failed_or("crash"), "hang": failed_or("hang")}
@@ -99,20 +109,22 @@ class Archive:
         return cell["loss_to"] <= 0.4 and cell["delay_to_s"] <= 2.0
 
     def results(self, end_point, cells):
-        """(replicate, run, cell, result, agv_us, transports) of the complete replicates, in order."""
+        """(replicate, run, cell, result, agv_us, at risk at least and at most, transports) of the complete replicates,
+        in order."""
         listed = ",".join(str(cell) for cell in cells) or "-1"
-        what = END_POINTS[end_point] if end_point != "throughput" else failed_or("crash")
+        what, earliest, latest = END_POINTS[end_point] if end_point != "throughput" else failed_or("crash")
         return self.db.execute(
             f"SELECT replicate, r.run_index, cell, {what} AS result, simulated_ns / 1000 * agv_count AS agv_us, "
-            f"transports_done, EXISTS (SELECT 1 FROM temp.met_foreign m WHERE m.run_index = r.run_index) AS foreign_body "
-            f"FROM (SELECT runs.*, coalesce(w, {2**62}) AS w FROM runs LEFT JOIN temp.wrecks "
+            f"min(simulated_ns, {earliest}) / 1000 * agv_count AS least_us, "
+            f"min(simulated_ns, {latest}) / 1000 * agv_count AS most_us, transports_done, EXISTS (SELECT 1 FROM temp.met_foreign m WHERE m.run_index = r.run_index) AS foreign_body "
+            f"FROM (SELECT runs.*, coalesce(w, {NEVER}) AS w FROM runs LEFT JOIN temp.wrecks "
             f"USING (run_index)) r WHERE cell IN ({listed}) AND replicate < {self.replicates} ORDER BY r.run_index")
 
     def units(self, end_point, unit, cells, floor=0.0):
-        """(units, failing, failing or unknown) over the complete replicates."""
+        """(units, failing, failing or unknown, units if unknown runs passed) over the complete replicates."""
         if unit == "run":
             return self.worst_cell(end_point, cells, floor)
-        failing = unknown = exposure_us = 0
+        failing = unknown = exposure_us = most_us = 0
         replicate, worst, agv_us, done, foreign = None, 0, 0, 0, 0
 
         def close():
@@ -132,15 +144,18 @@ class Archive:
             if end_point == "throughput" and result:
                 result = 2
             if worst == 0:
-                exposure_us += row["agv_us"]
+                exposure_us += (row["agv_us"], row["least_us"], 0)[result]
+            if worst != 1:
+                most_us += row["most_us"] if result == 1 else row["agv_us"]
             worst = 1 if 1 in (worst, result) else max(worst, result)
             agv_us += row["agv_us"]
             done += row["transports_done"]
             foreign |= row["foreign_body"]
         if replicate is not None:
             close()
-        units = exposure_us if unit == "agv-hour" else (self.replicates if cells else 0)
-        return units, failing, failing + unknown
+        units = self.replicates if cells else 0
+        return (exposure_us if unit == "agv-hour" else units, failing, failing + unknown,
+                most_us if unit == "agv-hour" else units)
 
     def worst_cell(self, end_point, cells, floor):
         failing, unknown = defaultdict(int), defaultdict(int)
@@ -153,7 +168,7 @@ class Archive:
             failing[row["cell"]] += result == 1
             unknown[row["cell"]] += result != 0
         units = self.replicates if cells else 0
-        return units, max(failing.values(), default=0), max(unknown.values(), default=0)
+        return units, max(failing.values(), default=0), max(unknown.values(), default=0), units
 
     def stalled_worlds(self, cells):
         worlds = set()
@@ -165,7 +180,7 @@ class Archive:
         """Sums over the complete replicates."""
         listed = ",".join(str(cell) for cell in cells) or "-1"
         return self.one(
-            f"SELECT count(*) AS runs, coalesce(sum(({END_POINTS['violation']}) = 1), 0) AS violating, "
+            f"SELECT count(*) AS runs, coalesce(sum(({END_POINTS['violation'][0]}) = 1), 0) AS violating, "
             "coalesce(sum(contact), 0) AS contact, coalesce(sum(stuck), 0) AS stuck, "
             "coalesce(sum(crash) + sum(hang), 0) AS ended, min(min_clearance_um) AS closest_um, "
             "coalesce(sum(transports_done), 0) AS done, coalesce(sum(simulated_ns / 1000 * agv_count), 0) AS agv_us, "

@@ -38,7 +38,7 @@ def field_maps(archive):
                 cells = by_place.get((loss, delay))
                 if not cells or archive.replicates == 0:
                     continue
-                units, _, failing = archive.units("violation", "world", cells)
+                units, _, failing, _ = archive.units("violation", "world", cells)
                 tally = archive.tally(cells)
                 risk.append(f"{failing}/{units}")
                 risk.append("counts only" if archive.search else "≤ " + w.up(share(archive, agent, failing, units)[0]))
@@ -95,7 +95,7 @@ def envelope_fields(archive, agent, losses, delays, by_place):
     for r, loss in enumerate(losses):
         for d, delay in enumerate(delays):
             cells = by_place.get((loss, delay), [])
-            units, _, failing = archive.units("violation", "world", cells)
+            units, _, failing, _ = archive.units("violation", "world", cells)
             if units == 0:
                 enough = False
             elif gate["method"] == "any-time":

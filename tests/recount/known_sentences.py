@@ -81,7 +81,7 @@ def is_weak_point(archive, found):
     return (cells, of) == (int(found[1]), int(found[2]))
 
 
-EARLY_UNKNOWN = f"({END_POINTS['violation']}) = 2"
+EARLY_UNKNOWN = f"({END_POINTS['violation'][0]}) = 2"
 
 
 def probes_missing(archive, found):
@@ -112,7 +112,7 @@ def is_envelope(archive, found):
 def foreign_body_runs(archive, found):
     return int(found[1]) == archive.one(
         f"SELECT count(*) AS n FROM runs r JOIN cells USING (cell) WHERE agent = ? AND r.loss <= 0.4 AND r.delay_s <= 2.0 "
-        f"AND run_index < ? AND (violation OR contact) AND ({END_POINTS['violation']}) != 1", found[2],
+        f"AND run_index < ? AND (violation OR contact) AND ({END_POINTS['violation'][0]}) != 1", found[2],
         archive.runs)["n"]
 
 
@@ -127,7 +127,7 @@ def seed(archive, found):
 def layouts(archive, found):
     """"Layouts as units: runs of A failed or stayed unknown on 2 of 4 layouts (design effect 3.10). ... 4 units"."""
     runs = [(row["failing"], row["n"]) for row in archive.all(
-        f"SELECT layout, count(*) AS n, sum(({END_POINTS['violation']}) != 0) AS failing FROM (SELECT r.*, layout FROM "
+        f"SELECT layout, count(*) AS n, sum(({END_POINTS['violation'][0]}) != 0) AS failing FROM (SELECT r.*, layout FROM "
         "runs r JOIN cells USING (cell) WHERE agent = ? AND loss_to <= 0.4 AND delay_to_s <= 2.0 AND replicate < ?) r "
         "GROUP BY layout", found[1], archive.replicates)]
     rate, units = sum(f for f, _ in runs) / sum(n for _, n in runs), sum(n for _, n in runs)

@@ -45,7 +45,7 @@ def needed_at_this_rate(gate, failing, units, risk):
 
 
 def numbers_of_gate(archive, gate, counts):
-    units, known, failing = counts
+    units, known, failing, most, _ = counts
     hourly, risk = gate["unit"] == "agv-hour", round(1.0 - gate["confidence"], 12)
     cells = archive.cells_of_gate(gate)
     share = (lambda rounded, value: rounded(value)) if hourly else (lambda rounded, value: rounded(100.0 * value))
@@ -53,7 +53,7 @@ def numbers_of_gate(archive, gate, counts):
              str(archive.replicates), str(archive.campaign["replicates"]), str(failing), str(known),
              str(failing - known), str(failing_runs(archive, gate, cells))}
     texts |= {share(w.up, bounds(gate["method"], gate["unit"], failing, units, risk)[1]),
-              share(w.down, bounds(gate["method"], gate["unit"], known, units, risk)[0]),
+              share(w.down, bounds(gate["method"], gate["unit"], known, most, risk, len(cells))[0]),
               share(w.up, bounds(gate["method"], gate["unit"], known, units, risk)[1])}
     amount = (lambda n: f"{n / 3.6e9:.6g}") if hourly else str
     texts.add(amount(units))
@@ -61,6 +61,7 @@ def numbers_of_gate(archive, gate, counts):
     if units:
         texts.add(share(w.rate, failing / (units / 3.6e9 if hourly else units)))
     due = [cell for cell in cells if archive.inside(archive.cells[cell])] or cells
+    texts.add(str(len(due)))
     tally = archive.tally(due)
     texts.add(w.per_hour(tally["done"], tally["agv_us"]))
     texts.add(str(sum(archive.tally([cell])["done"] == 0 for cell in due)))

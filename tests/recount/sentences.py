@@ -25,11 +25,11 @@ def title(archive):
 
 def gate_sentence(gate, counts):
     """What the remark about a gate must begin with."""
-    units, known, failing = counts
+    units, known, failing, _, cells = counts
     hourly, risk = gate["unit"] == "agv-hour", round(1.0 - gate["confidence"], 12)
     exposure = units / 3.6e9 if hourly else units
     upper = bounds(gate["method"], gate["unit"], failing, units, risk)[1]
-    pair = bounds(gate["method"], gate["unit"], failing, units, 0.025)
+    pair = bounds(gate["method"], gate["unit"], failing, units, 0.025, cells)
     text = (f"\"{gate['name']}\": " + (f"{w.count(failing, 'event')} in {exposure:.6g} AGV-hours" if hourly else
                                        f"{known} of {units} UNIT failed"))
     if failing > known and not hourly:
@@ -52,7 +52,7 @@ def subject(gate):
 
 def finding(gate, counts, verdict):
     """The claim about a gate in the head of the page, as a pattern."""
-    units, known, failing = counts
+    units, known, failing, most, cells = counts
     if gate["end_point"] not in FAILURES:
         return None
     hourly = gate["unit"] == "agv-hour"
@@ -61,12 +61,12 @@ def finding(gate, counts, verdict):
         re.escape(f"in {known} of {units} ") + "(runs|worlds)"
     if failing > known:
         text += re.escape(f", and {failing - known} more ended unknown and count as failing")
-    if units == 0:
+    violated = verdict == "violated"
+    if (most if violated else units) == 0:
         return text
     risk = round(1.0 - gate["confidence"], 12)
-    violated = verdict == "violated"
-    lower, upper = (bounds(gate["method"], gate["unit"], count, units, risk)[i] for i, count in
-                    enumerate((known, failing)))
+    lower = bounds(gate["method"], gate["unit"], known, most, risk, cells)[0]
+    upper = bounds(gate["method"], gate["unit"], failing, units, risk)[1]
     if violated and lower <= 0.0:
         return text
     number = w.down(lower if hourly else 100.0 * lower) if violated else w.up(upper if hourly else 100.0 * upper)
@@ -91,7 +91,7 @@ def violation_headlines(archive):
     """agent -> runs that broke the distance within the contract, of the agents under test."""
     deciding = {gate["agent"] for gate in archive.gates if gate["decides"]}
     rows = archive.all(f"SELECT agent, count(*) AS runs FROM runs r JOIN cells USING (cell) WHERE "
-                       f"({END_POINTS['violation']}) = 1 AND r.loss <= 0.4 AND r.delay_s <= 2.0 AND run_index < ? GROUP BY agent", archive.runs)
+                       f"({END_POINTS['violation'][0]}) = 1 AND r.loss <= 0.4 AND r.delay_s <= 2.0 AND run_index < ? GROUP BY agent", archive.runs)
     return [f"agent {row['agent']} broke the safety distance in {w.count(row['runs'], 'run')} within the contract region"
             for row in rows if not deciding or row["agent"] in deciding]
 

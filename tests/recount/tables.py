@@ -36,7 +36,7 @@ def condition_tables(archive):
     for agent, low, high, cells in archive.conditions():
         indices = [cell["cell"] for cell in cells]
         tally = archive.tally(indices)
-        units, known, failing = archive.units("violation", "world", indices)
+        units, known, failing, _ = archive.units("violation", "world", indices)
         row = [agent] + ["none" if w.SHOWN[i][3] and high[i] == 0.0 else w.span(i, low[i], high[i]) for i in shown]
         row += [str(tally["runs"]), str(tally["violating"])]
         if not archive.search:
@@ -52,13 +52,13 @@ def condition_tables(archive):
 
 def group_row(archive, agent, name, inside, cells):
     tally = archive.tally(cells)
-    units, known, failing = archive.units("violation", "world", cells)
+    units, known, failing, _ = archive.units("violation", "world", cells)
     row = [agent, name, "contract" if inside else "beyond", str(tally["runs"])]
     if archive.search:
         row.append(str(tally["violating"]))
     else:
         row += [f"{w.failed(known, failing)}/{units}", w.up(share(archive, agent, failing, units)[0]) if units else "-"]
-        agv_us, _, events = archive.units("violation", "agv-hour", cells)
+        agv_us, _, events, _ = archive.units("violation", "agv-hour", cells)
         if agv_us == 0:
             row += ["-", "-"]
         else:
@@ -89,8 +89,8 @@ def gate_rows(archive):
     rows = []
     for gate in archive.gates:
         cells = archive.cells_of_gate(gate)
-        counts = archive.units(gate["end_point"], gate["unit"], cells, gate["min_transports_per_agv_hour"])
-        units, known, failing = counts
+        counts = *archive.units(gate["end_point"], gate["unit"], cells, gate["min_transports_per_agv_hour"]), len(cells)
+        units, known, failing = counts[:3]
         what = gate["end_point"] + (f" >= {gate['min_transports_per_agv_hour']:g}/AGV-h" if gate["end_point"] ==
                                     "throughput" else "") + (f" [{gate['requirement']}]" if gate["requirement"] else "")
         named = w.named_cells(gate)

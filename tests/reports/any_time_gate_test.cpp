@@ -10,6 +10,7 @@
 #include "reports/evidence/gate_bounds.hpp"
 #include "reports/evidence/gate_table.hpp"
 #include "reports/evidence/refutation.hpp"
+#include "reports/evidence/release_gate.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
 namespace fleetproof {
@@ -27,6 +28,11 @@ GateRecord any_time(double limit, EndPoint end_point = EndPoint::Violation, Gate
   gate.end_point = end_point;
   gate.unit = unit;
   gate.limit = limit;
+  return gate;
+}
+
+GateRecord with_table(GateRecord gate, const GateTable& table) {
+  gate.table = table;
   return gate;
 }
 
@@ -49,7 +55,36 @@ TEST(AnyTimeGate, PassesAtTheFirstNumberAtWhichTheEvidenceIsTwentyfold) {
     EXPECT_TRUE(passes(table, failing, first));
     EXPECT_FALSE(passes(table, failing, first - 1));
   }
-  EXPECT_FALSE(passes(table, 100'000, 100'000'000)) << "more failures than the table has";
+}
+
+// The table of 20 planned worlds ends early. Beyond it, the evidence is looked at in logarithms: it is too great.
+TEST(AnyTimeGate, PassesBeyondItsTableToo) {
+  const GateTable table = gate_table(any_time(0.1), 1, 20);
+  const std::uint64_t last = table.passes_from.size() - 1;
+  ASSERT_LT(last, 100U);
+  std::uint64_t before = table.passes_from[last];
+  for (std::uint64_t failing = last + 1; failing < 40 * last; failing += 7) {
+    const std::uint64_t units = passes_from(table, failing).value();
+    EXPECT_GE(log_e_values(failing, units, 0.1).gate, std::log(20.0)) << failing << " of " << units;
+    EXPECT_TRUE(passes(table, failing, units));
+    EXPECT_FALSE(passes(table, failing, units - 1));
+    EXPECT_GT(units, before);
+    EXPECT_EQ(units_to_pass(with_table(any_time(0.1), table), failing, 1), units);
+    before = units;
+  }
+  EXPECT_TRUE(passes(table, 300, 10'000)) << "as `fleetproof evidence release-gate` says";
+  EXPECT_FALSE(passes(gate_table(any_time(1e-12), 1, 20), 1, 1'000'000)) << "a table of one row says nothing of others";
+}
+
+// Far more hours than 10^15 us, which are 278 000 hours.
+TEST(AnyTimeGate, ARateOfOneInAMillionHoursCanBeDemonstrated) {
+  const GateRecord gate = any_time(1e-6, EndPoint::Violation, GateUnit::AgvHour);
+  const GateTable table = gate_table(gate, 1, 1000);
+  ASSERT_FALSE(table.passes_from.empty());
+  const double hours = agv_hours(table.passes_from[0]);
+  EXPECT_LE(any_time_rate(0, hours, 0.95).upper, 1e-6);
+  EXPECT_GT(any_time_rate(0, 0.999 * hours, 0.95).upper, 1e-6);
+  EXPECT_GT(hours, 3e6) << "more than 3 / limit";
 }
 
 TEST(AnyTimeGate, ItsBoundIsTheLimitThatItWouldJustPass) {
@@ -165,16 +200,61 @@ TEST(AnyTimeGate, OfRunsIsDecidedByTheWorstCell) {
       << "two cells share the risk of a wrong refutation";
 }
 
-TEST(AnyTimeGate, OfAgvHoursEndsTheExposureOfAWorldWithItsFirstEvent) {
+// One world has a violation after 12.3 s in both of its cells: it is at risk for 12.3 s, and its second run counts no
+// more.
+TEST(AnyTimeGate, OfAgvHoursEndsTheTimeAtRiskOfAWorldWithItsFirstEvent) {
   const auto cells = grid({"sound"}, {0.0, 0.4}, {2.0});
   const GateRecord gate = any_time(0.5, EndPoint::Violation, GateUnit::AgvHour);
   const auto input = report_of(campaign_of("claim", 60), cells, {gate}, [](RunRecord& run) {
-    if (run.replicate == 5) samples::violate(run);  // in both of its runs
+    if (run.replicate == 5) samples::violate(run);
   });
   EXPECT_EQ(input.gates[0].claim->failing, 1U);
-  EXPECT_NEAR(input.gates[0].claim->exposure, (2 * 60 - 1) * 5 / 6.0, 1e-9) << "five AGVs for 600 s a run";
+  EXPECT_NEAR(input.gates[0].claim->exposure, (59 * 2 * 600.0 + 12.3) * 5 / 3600.0, 1e-6) << "five AGVs, runs of 600 s";
+  EXPECT_EQ(input.gates[0].optimistic->units, input.gates[0].claim->units);
   EXPECT_EQ(input.gates[0].unit, "AGV-hours");
   EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated) << input.gates[0].reason;
+}
+
+// Each world fails after 12.3 s, so each AGV has 59 violations an hour. Whole runs would make it 1.2.
+TEST(AnyTimeGate, OfAgvHoursIsNotDilutedByTheTimeAfterTheEvent) {
+  const auto input =
+      report_of(campaign_of("claim", 60), grid({"sound"}, {0.4}, {2.0}),
+                {any_time(2.0, EndPoint::Violation, GateUnit::AgvHour)}, [](RunRecord& run) { samples::violate(run); });
+  EXPECT_NEAR(*input.gates[0].claim->rate(), 3600.0 / (5 * 12.3), 1e-6);
+  EXPECT_EQ(input.gates[0].verdict, Verdict::Violated) << input.gates[0].reason;
+}
+
+// The first run of a world crashed, the second one failed: whether the world failed at once or after 612.3 s is open.
+TEST(AnyTimeGate, OfAgvHoursCountsUnknownRunsInFullOnlyWhereTheyPassed) {
+  const auto input = report_of(campaign_of("claim", 1), grid({"sound"}, {0.0, 0.4}, {2.0}),
+                               {any_time(2.0, EndPoint::Violation, GateUnit::AgvHour)}, [](RunRecord& run) {
+                                 if (run.cell == 0) run.outcome.crash = true;
+                                 if (run.cell == 1) samples::violate(run);
+                               });
+  EXPECT_EQ(input.gates[0].claim->failing, 1U);
+  EXPECT_EQ(input.gates[0].claim->exposure, 0.0);
+  EXPECT_EQ(input.gates[0].optimistic->failing, 1U);
+  EXPECT_NEAR(input.gates[0].optimistic->exposure, (600.0 + 12.3) * 5 / 3600.0, 1e-9);
+  EXPECT_EQ(input.gates[0].verdict, Verdict::NotDemonstrated);
+  EXPECT_THAT(input.gates[0].reason, HasSubstr("no AGV-hour counts: the first run of each replicate ended unknown"));
+}
+
+// 100 cells are the same, and the worst of them is looked at: 11 of 60 are no rare worst of 100.
+TEST(AnyTimeGate, OfAFixedPlanTheCellsShareTheRiskOfARefutationToo) {
+  const auto verdict = [](std::size_t cells) {
+    std::vector<double> losses;
+    for (std::size_t i = 0; i < cells; ++i) losses.push_back(0.4 * static_cast<double>(i) / 100.0);
+    GateRecord gate = any_time(0.1, EndPoint::Violation, GateUnit::Run);
+    gate.method = GateMethod::Fixed;
+    return report_of(campaign_of("claim", 60), grid({"sound"}, losses, {2.0}), {gate},
+                     [](RunRecord& run) {
+                       if (run.cell == 0 && run.replicate < 11) samples::violate(run);
+                     })
+        .gates[0]
+        .verdict;
+  };
+  EXPECT_EQ(verdict(1), Verdict::Violated);
+  EXPECT_EQ(verdict(100), Verdict::NotDemonstrated);
 }
 
 TEST(AnyTimeGate, OnThroughputFailsAWorldThatIsTooSlowOverItsCells) {

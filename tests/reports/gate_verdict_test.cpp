@@ -23,7 +23,7 @@ GateRecord gate(GateKind kind, double limit) {
 
 GateCounts counts(std::uint64_t units, std::uint64_t failing, std::uint64_t unknown = 0) {
   GateCounts c;
-  c.cells = 12;
+  c.cells = c.due_cells = 12;
   c.units = c.replicates = c.planned = units;
   c.failing = failing;
   c.failing_or_unknown = failing + unknown;
