@@ -10,8 +10,7 @@ namespace fleetproof::agents {
 // `FleetTold`: fp_briefing or fp_facts.
 template <class FleetTold>
 const fp_agv& agv_of(const FleetTold& told, std::uint32_t id) {
-  return *reinterpret_cast<const fp_agv*>(reinterpret_cast<const char*>(told.fleet) +
-                                          std::size_t{told.agv_stride} * id);
+  return *fp_agv_at(told.fleet, told.agv_stride, id);
 }
 
 // Whether the host tells what came with minor 2: reference points, driving backward, permissions.

@@ -150,9 +150,10 @@ void HullLock::action_done(std::int32_t result) {
   way_.end(now_s());
 }
 
-// The AGV has been at rest since the restart. When no position can be older than the restart, the heading is right.
+// The AGV has been at rest since the restart. When no position can be older than the restart, the heading is right. An
+// AGV that a contact stopped is out of order: it may be beside the station, nearer than a position can tell.
 void HullLock::find_own_place() {
-  if (place_known_ || now_s() < place_known_after_s_) return;
+  if (place_known_ || now_s() < place_known_after_s_ || controller_.out_of_order()) return;
   fp_pose pose{};
   if (!controller_.pose(pose)) return;
   const double off_m = length(Vec{pose.x_m, pose.y_m} - map_.position_m(start_station_));

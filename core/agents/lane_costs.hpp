@@ -16,8 +16,8 @@ std::uint32_t model_of(const fp_facts& facts, std::uint32_t agv);
 std::span<const double> lane_times_s(const fp_facts& facts, std::uint32_t agv);
 // The same, and a price against the conventions of aisles and of opposite lanes.
 std::span<const double> lane_costs_s(const HullParts& parts, std::uint32_t agv);
-// By station: what the way to the goal costs at these costs, and not more; infinite where there is no way. `model`: of
-// the AGV.
+// By station: a lower bound of the cost of the way to the goal, with these costs of lanes; infinite where there is no
+// way. `model`: of the AGV.
 std::span<const float> remaining_costs_s(const HullParts& parts, std::uint32_t model, std::uint32_t goal);
 
 }  // namespace fleetproof::agents

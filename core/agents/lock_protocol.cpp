@@ -276,8 +276,8 @@ bool LockProtocol::settle() {
   return true;
 }
 
-// Whose consent was missing at the last look at all AGVs can only give it by a message. Whether the others still
-// consent matters when no consent is missing any more; `broadcast_state` orders a look from time to time, too.
+// An AGV whose consent was missing can only give it by a message, and `note_consent` sees that. A consent may also be
+// lost again. That matters only when none is missing; `repeat` orders a look for it.
 bool LockProtocol::all_consent() {
   if (!look_at_all_ && options_.consent.senders_count && options_.consent.silence_consents_after_ns == 0) return false;
   look_at_all_ = false;

@@ -89,8 +89,12 @@
 // - The new self decides again about an f that the former self granted. That is a second decision under the same rules,
 //   and any decision during f is sufficient.
 // - The new self must know its own place. If positions may be late, it knows the heading of its AGV only after that
-//   time. Until then it grants nothing, and its messages say that what it holds is not known (know_own_place). Nobody
-//   takes it for apart.
+//   time. If a contact has stopped the AGV, it may be beside its station; then the AGV is out of order, and the new
+//   self never knows. Until it knows, it grants nothing, and its messages say that what it holds is not known
+//   (know_own_place). Nobody takes it for apart.
+// - No AGV is carried. If an operator sets one down, others may still count it as apart or far from what its former
+// self
+//   said, and lock the floor under it. Whoever sets it down must see to that.
 #pragma once
 
 #include <cstdint>
@@ -152,7 +156,7 @@ class LockProtocol {
   bool settle();
   // Sends again what may have been lost: the open request to those who have not answered, and answers to requests that
   // are open. From time to time, and if that is shorter, it tells all AGVs the own state, and all this with it. Call
-  // this about once a second.
+  // this about every half second.
   void repeat();
 
   // An AGV that stands and waits inside the hull of `path`; FP_NONE if none is known.

@@ -42,7 +42,7 @@ class MapView {
   std::uint32_t lane_count() const { return map_.lane_count; }
   const fp_station& station(std::uint32_t id) const { return *fp_station_at(&map_, id); }
   const fp_lane& lane(std::uint32_t id) const { return *fp_lane_at(&map_, id); }
-  const fp_arc& arc(const fp_lane& lane, std::uint32_t i) const { return at(lane.arcs, map_.arc_stride, i); }
+  const fp_arc& arc(const fp_lane& lane, std::uint32_t i) const { return *fp_arc_at(&map_, &lane, i); }
 
   bool has_chargers() const;
   const ShortName& short_name(std::uint32_t station_id) const { return short_names_[station_id]; }
@@ -72,11 +72,6 @@ class MapView {
   bool may_stay(std::uint32_t station_id, Vec heading) const;
 
  private:
-  template <class T>
-  static const T& at(const T* first, std::uint32_t stride, std::uint32_t i) {
-    return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(first) + std::size_t{stride} * i);
-  }
-
   std::vector<std::byte> work_out() const;
   void read(std::span<const std::byte> tables);
 

@@ -64,7 +64,7 @@ namespace fleetproof::agents {
 // In which zones this AGV is a member, and how it becomes one. It announces a zone in each of its messages, asks the
 // registrar of the zone for the roll, and tells each AGV of the roll. It is a member when each of them has heard of it,
 // or says in a message at least as new as the roll that it has left. It stays a member until it announces the zone no
-// more. lock_protocol.hpp has the proof that any two members of a zone know each other.
+// more. Any two members of a zone know each other: (Z1) at the head of this file.
 class Membership {
  public:
   // Requires: both outlive the object.

@@ -8,8 +8,8 @@
 namespace fleetproof::agents {
 
 // Places of a search, the nearest first to within a width: a heap that sorts them exactly costs several times as much
-// as all else that a search does with a place. Of places within one width, those come first that were put last. A
-// search that looks at a place again when it finds it nearer ends with the same figures for any such order.
+// as all else that a search does with a place. Of places within one width, those come first that were put last. The
+// order does not change the result if the search looks at a place again whenever it finds a shorter way to it.
 class NearQueue {
  public:
   // Places further away than so many widths cost more.

@@ -20,7 +20,7 @@ double work_out_longest_claim_m(const MapView& map) {
   return std::max(kUsualClaim_m, 2.0 * longest_lane_m);
 }
 
-// What it says about its ways was possible if it was said before.
+// Paths that repeat those of an earlier message were checked then, and are not checked again.
 bool is_possible(const MapView& map, bool is_divided, const Neighbour& known, const Message& message) {
   const Status& status = message.status;
   if (is_divided != message.tells_zones) return false;

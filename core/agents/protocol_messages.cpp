@@ -271,6 +271,14 @@ void WireMessage::put_row(std::span<const Value> values) {
   size_ += values.size_bytes();
 }
 
+// The longest message: a STATE with an open request, in a fleet that is not divided. A message that tells zones has no
+// room for answers.
+constexpr std::size_t kHeadBytes = 23, kBytesOfPath = 7, kEpochBytes = 8;
+constexpr std::size_t kLongestState = kHeadBytes + (kBytesOfPath + 1 + 2 * std::size_t{kPathLanesMax}) +  // one claim
+                                      (3 + 4 * HeardFrom::kMax) + (1 + (3 + kEpochBytes) * Answers::kMax) +
+                                      (8 + kBytesOfPath + 2 * std::size_t{kPathLanesMax} + 2 + 3 * Asked::kMax);
+static_assert(kLongestState <= 1024);
+
 WireMessage::WireMessage(const Message& message) {
   const Status& status = message.status;
   put<std::uint8_t>(kMark);

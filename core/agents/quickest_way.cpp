@@ -322,8 +322,8 @@ QuickestWay::Hop QuickestWay::quick_hop(Desk& desk, std::uint32_t before, std::u
   return {lane, map_.lane(lane).to};
 }
 
-// The search of Routes::search, but only over stations that lie on a quickest way. All others make no difference to
-// the way: whatever it holds for a station on a quickest way, a lane from another station does not give so little.
+// The search of Routes::search, but only over stations that lie on a quickest way. Other stations cannot change
+// the result: no way through them reaches a station of a quickest way at so small a cost.
 std::uint32_t QuickestWay::search_forward(Desk& desk, std::uint32_t from, std::uint32_t to) const {
   desk.begin_forward();
   const double all_s = remains_s(desk, from, to);

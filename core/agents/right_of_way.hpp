@@ -11,7 +11,7 @@ namespace fleetproof::agents {
 // To which requests an AGV gives way that stands where they lead.
 enum class Yields : std::uint8_t { ToNobody, ToElders, ToAll };
 
-// Which of the AGVs goes first that stand and block each other. The demand is the instant since which an AGV has wanted
+// If AGVs stand and block each other: which of them goes first. The demand is the instant since which an AGV has wanted
 // to reach its next goal; the older demand goes first, then the smaller number. This order is the same for all AGVs.
 // Wrong knowledge about other AGVs costs time here, never safety.
 class RightOfWay {

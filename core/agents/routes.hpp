@@ -32,7 +32,7 @@ class Routes {
   // `cost_s` by lane; infinite where the AGV must not drive. `heading`: of the AGV at the beginning. With `until`, no
   // further than to that station: its way is the same as that of a whole search, and only its way may be asked for.
   void search(std::uint32_t from, Vec heading, std::span<const double> cost_s, std::uint32_t until = FP_NONE);
-  // The same, but of several ways that cost the same it finds any. `remains_s`, by station: the way from there to
+  // The same; if several ways have the same cost, it finds one of them. `remains_s`, by station: the way from there to
   // `until` costs so much at least. The nearer this is to the truth, the fewer stations are looked at (A*).
   // It ends at the first station that is `far_m` away, if that is before `until`: then what remains decides.
   void search_towards(std::uint32_t until, std::span<const float> remains_s, std::uint32_t from, Vec heading,

@@ -201,7 +201,7 @@ Stretch StretchPlanner::find_stretch(const Path& standing, Budget budget, std::s
     walk.transfer(goal);
     if (goal.transfer == Leg::Kind::Charge) return walk.take_up_to_here();  // it stays there, and nothing is behind it
     if (walk.is_done()) return walk.take();
-    const bool now_loaded = goal.transfer == Leg::Kind::Charge ? loaded : goal.transfer == Leg::Kind::Pick;
+    const bool now_loaded = goal.transfer == Leg::Kind::Pick;
     if (rules_.any() && now_loaded != loaded) price_lanes(now_loaded, kWaitingCost_s, kIdleCost_s, {});
     loaded = now_loaded;
   }

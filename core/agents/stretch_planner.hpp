@@ -83,7 +83,6 @@ class StretchPlanner {
                  const ProgressOptions& options = {});
 
   WaitingPlaces& places() { return places_; }
-  double lane_time_s(std::uint32_t lane) const { return lane_times_s_[lane]; }
 
   // A stretch from `standing` towards the goals. Empty if there is no way to the first goal.
   Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);

@@ -13,7 +13,7 @@ namespace fleetproof::agents {
 // zone one AGV of the fleet keeps the roll of those that are there or mean to go there: its registrar.
 class ZoneMap {
  public:
-  // `claim_m`: the length of the longest claim. A claim, and the body of an AGV, cover less zones than a ZoneSet has
+  // `claim_m`: the length of the longest claim. A claim, and the body of an AGV, cover fewer zones than a ZoneSet has
   // room for. Requires: the geometry outlives the object.
   ZoneMap(const MapView& map, const HullGeometry& geometry, std::uint32_t fleet_count, double claim_m);
 

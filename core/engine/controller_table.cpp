@@ -27,7 +27,8 @@ std::int32_t stop(fp_controller* controller) {
   return admitted(controller, [](AgvController& part, AgvId agv) { return part.stop(agv, kOn); });
 }
 
-std::int32_t send_unicast(fp_controller* controller, const void* bytes, std::uint32_t size, std::uint32_t receiver) {
+// FP_NONE: to all.
+std::int32_t send(fp_controller* controller, const void* bytes, std::uint32_t size, std::uint32_t receiver) {
   return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (bytes == nullptr && size > 0) return FP_INVALID;
     return part.send(agv, {static_cast<const char*>(bytes), size}, receiver);
@@ -35,7 +36,12 @@ std::int32_t send_unicast(fp_controller* controller, const void* bytes, std::uin
 }
 
 std::int32_t send_broadcast(fp_controller* controller, const void* bytes, std::uint32_t size) {
-  return send_unicast(controller, bytes, size, FP_NONE);
+  return send(controller, bytes, size, FP_NONE);
+}
+
+// An agent that takes "no AGV" for a receiver must not tell everybody.
+std::int32_t send_unicast(fp_controller* controller, const void* bytes, std::uint32_t size, std::uint32_t receiver) {
+  return send(controller, bytes, size, receiver == FP_NONE ? FP_NONE - 1 : receiver);
 }
 
 std::int32_t get_position(fp_controller* controller, fp_pose* out) {

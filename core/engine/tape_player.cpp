@@ -97,8 +97,9 @@ void TapePlayer::play_controller_call(TapeItem item, fp_controller* c) {
 
 void TapePlayer::play_message(TapeItem item, fp_controller* c) {
   const std::string_view bytes = text();
-  const std::uint32_t receiver = item == TapeItem::SendUnicast ? id() : FP_NONE;
-  kHost.send_unicast(c, bytes.data(), static_cast<std::uint32_t>(bytes.size()), receiver);
+  const auto size = static_cast<std::uint32_t>(bytes.size());
+  if (item == TapeItem::SendBroadcast) return void(kHost.send_broadcast(c, bytes.data(), size));
+  kHost.send_unicast(c, bytes.data(), size, id());
 }
 
 void TapePlayer::play_perception(TapeItem item, fp_controller* c) {

@@ -195,6 +195,7 @@ TEST(Notes, DescribeTheNextMessageOfTheirActivationOnly) {
         host.describe(c, "replaced");
         host.describe(c, "B");
         EXPECT_EQ(host.send_unicast(c, "b", 1, 77), FP_INVALID);
+        EXPECT_EQ(host.send_unicast(c, "b", 1, FP_NONE), FP_INVALID) << "no AGV is not all AGVs";
         host.send_broadcast(c, "b", 1);
         host.send_broadcast(c, "c", 1);
       },

@@ -8,6 +8,6 @@ constexpr LockOptions kFault{.holding = {.lanes_to_their_end = false}};
 }
 
 constinit const fp_agent_type kEarlyRelease =
-    faulty_hull_lock<kFault>("early-release", "hull-lock with a fault: releases a lane before its rear has left it");
+    faulty_hull_lock<kFault>("early-release", "hull-lock with a fault: releases a lane 2 s before its end");
 
 }  // namespace fleetproof::agents

@@ -11,7 +11,8 @@
  *
  * Limits. In one activation an agent may make 10 000 controller calls, and ten million more of random and now_ns. Every
  * call counts, whatever it returns, and those in create() count with FP_EVENT_START. An agent that makes more is filed
- * as a hang. So is one that is called 10 000 times without time advancing. It is then suspended to the end of the run:
+ * as a hang. So is one that is called 10 000 times without time advancing, or in all more than 2 000 000 times and
+ * 10 000 for each second of the run. It is then suspended to the end of the run:
  * its calls return FP_SUSPENDED, it receives no event, and a restart does not bring it back. Its AGV completes the
  * actions that it has accepted.
  *
@@ -20,12 +21,14 @@
  * own: a run can only be replayed if time and randomness come from now_ns and random. An agent in C++ may throw; an
  * agent in another language must not let an exception leave its functions.
  *
- * Versions. Every struct that may grow begins with its size in bytes, as the side that fills it knows it. Arrays of
- * structs have a stride. A host refuses an agent with another FP_ABI_MAJOR. A higher minor adds members at the end: an
- * agent may use those "since minor n" if the host's abi_minor is n or more.
+ * Versions. A struct that one side fills for the other begins with its size in bytes. Structs in arrays (AGVs,
+ * stations, lanes, arcs, blocks) may grow, too: read them by the stride of the array. Calls of a script and permissions
+ * never grow. A host refuses an agent with another FP_ABI_MAJOR. A higher minor adds members at the end: an agent may
+ * use those "since minor n" if the host's abi_minor is n or more.
  *
  * Units: metres, metres per second, nanoseconds (64-bit, since the start of the run), radians. Headings are unit
  * vectors in the world frame. Numbers of AGVs, stations, lanes and segments are the same for every agent of a run.
+ *
  * Motion. Positions are those of the reference point. Before a drive whose lane begins with another heading, the AGV
  * turns on the spot, about its reference point, by the shorter way; half a turn may go either way. A difference of less
  * than 1e-7 rad is no turn. The footprint has its size with a load from the end of a pick to the end of a drop; the
@@ -58,15 +61,16 @@ typedef enum fp_result {
   FP_REFUSED = -1,  /* the AGV is busy, out of order after a contact, or not at an end of that segment; the segment is
                        one-way, or not for this AGV; or the AGV would have to turn where it must not, or to stay with a
                        wrong heading */
-  FP_INVALID = -2,  /* a wrong argument: no such segment, receiver or purpose, or a message that is too long */
+  FP_INVALID = -2,  /* a wrong argument: no such segment, station, receiver, order or AGV, a null pointer, a struct that
+                       is too small, a cost that is not from 0 to 3 600 s, or a message that is too long */
   FP_SUSPENDED = -3 /* the agent is suspended (more calls than its limit), or not in an activation: return at once */
 } fp_result;
 
-/* What the AGV is doing. FP_STOPPED: something stopped the AGV in the middle of an action; the AGV will go on without a
- * further call, unless `stop` holds it.
- * FP_OUT_OF_ORDER: the AGV is broken down or empty. It may be repaired and then goes on, too; until then it accepts
- * actions and begins none. Or a contact has put it out of order. In all three cases the computer works on: the agent
- * receives events, and the AGV sends and receives messages. */
+/* What the AGV is doing. FP_STOPPED: something stopped the AGV, in the middle of an action or while it was idle; the
+ * AGV will go on without a further call, unless `stop` holds it. While it still brakes, it is driving. FP_CHARGING_NOW:
+ * also while the AGV docks at the charger. FP_OUT_OF_ORDER: the AGV is broken down or empty. It may be repaired and
+ * then goes on, too; until then it accepts actions and begins none. Or a contact has put it out of order. In all three
+ * cases the computer works on: the agent receives events, and the AGV sends and receives messages. */
 typedef enum fp_action {
   FP_IDLE = 0,
   FP_DRIVING,
@@ -107,10 +111,9 @@ typedef struct fp_briefing {
   /* Since minor 1. `boot` says how often this AGV's computer has restarted in this run. The computer keeps only this
    * number. After a restart, start_station is the station at which the AGV stands, or which it left last. start_segment
    * is the segment of the action under way until the AGV has reached its end, also while it turns towards it, or
-   * FP_NONE. next_segment is the segment that the AGV will drive next,
-   * because of a call before the restart, or FP_NONE; both with FP_BACKWARD, if the AGV drives backward. All this is as
-   * of the instant at which the agent gets FP_EVENT_START; a freeze may delay that. For the actions under way then,
-   * FP_EVENT_ACTION_DONE still follows. */
+   * FP_NONE. next_segment is the segment that the AGV will drive next, because of a call before the restart, or
+   * FP_NONE; both with FP_BACKWARD, if the AGV drives backward. All this is as of the instant at which the agent gets
+   * FP_EVENT_START; a freeze may delay that. For the actions under way then, FP_EVENT_ACTION_DONE still follows. */
   uint32_t boot;
   uint32_t start_segment;
   uint32_t next_segment;

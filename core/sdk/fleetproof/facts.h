@@ -28,6 +28,12 @@ typedef struct fp_agv {
   uint32_t vehicle_type;
 } fp_agv;
 
+/* Read a fleet with this function, for the same reason as the arrays of the map; `stride`: agv_stride. */
+static inline const fp_agv* fp_agv_at(const fp_agv* fleet, uint32_t stride, uint32_t agv) {
+  const size_t index = agv;
+  return FP_CAST(const fp_agv*, FP_CAST(const char*, fleet) + index * stride);
+}
+
 /* Since minor 3. What is the same for every AGV of a run and never changes in it. Agents work much out from that alone:
  * distances, conflicts between lanes, ways. With `ask`, they share the work: if nobody has asked this question with
  * this function before, the host calls `derive` and keeps the answer. The bytes that `ask` returns are the host's. They

@@ -111,6 +111,10 @@ static inline const fp_lane* fp_lane_at(const fp_map* map, uint32_t lane) {
   const size_t index = lane;
   return FP_CAST(const fp_lane*, FP_CAST(const char*, map->lanes) + index * map->lane_stride);
 }
+static inline const fp_arc* fp_arc_at(const fp_map* map, const fp_lane* lane, uint32_t arc) {
+  const size_t index = arc;
+  return FP_CAST(const fp_arc*, FP_CAST(const char*, lane->arcs) + index * map->arc_stride);
+}
 
 #ifdef __cplusplus
 }
