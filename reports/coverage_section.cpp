@@ -53,7 +53,7 @@ std::string missing_text(const std::vector<MissingProbe>& missing) {
 std::vector<Headline> weak_headlines(const ReportInput& input) {
   std::vector<Headline> list;
   for (const auto& agent : input.evidence.agent_coverage()) {
-    if (agent.missing.empty()) continue;
+    if (agent.missing.empty() || !is_under_test(input.evidence.gates(), agent.agent)) continue;
     list.push_back(
         {"weak",
          fmt::format("this campaign is weak evidence for agent {}: its {} did not meet what a test has to meet ({}). "
@@ -65,9 +65,11 @@ std::vector<Headline> weak_headlines(const ReportInput& input) {
 }
 
 bool is_weak(const ReportInput& input) {
-  return std::ranges::any_of(input.evidence.agent_coverage(),
-                             [](const AgentCoverage& agent) { return !agent.missing.empty(); }) ||
-         std::ranges::any_of(input.gates, [](const GateResult& gate) { return !gate.missing.empty(); });
+  const auto& gates = input.evidence.gates();
+  for (std::size_t i = 0; i < input.gates.size(); ++i) {
+    if (is_under_test(gates, gates[i].agent) && !input.gates[i].missing.empty()) return true;
+  }
+  return !weak_headlines(input).empty();
 }
 
 Section coverage_section(const ReportInput& input, std::size_t most_rows) {

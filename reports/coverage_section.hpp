@@ -10,9 +10,9 @@ namespace fleetproof {
 // "never met: head-on, crossing; too rare: negotiation (1 of 40 000 runs)", or nothing.
 std::string missing_text(const std::vector<MissingProbe>& missing);
 
-// One headline for each agent whose runs did not meet what the campaign asks for.
+// One headline for each agent under test whose runs did not meet what the campaign asks for.
 std::vector<Headline> weak_headlines(const ReportInput& input);
-// Whether the evidence of an agent or of a gate is weak.
+// Whether the evidence of an agent under test, or of one of its gates, is weak.
 bool is_weak(const ReportInput& input);
 
 // What the runs of each agent met.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "campaign/plan/plan_text.hpp"
@@ -25,6 +26,11 @@ std::string begun_by(const EngineIdentity& engine) {
   return fmt::format("{}fleetproof {} sha256 {} ({}; {}){}", kBegun, engine.version, engine.program_sha256,
                      engine.compiler, own_libraries(engine),
                      earlier == std::string_view::npos ? "" : libraries.substr(earlier));
+}
+
+bool has_fixed_gate(const CampaignRecord& campaign) {
+  return std::ranges::any_of(parse_plan(campaign.plan_json).gates,
+                             [](const GateRecord& gate) { return gate.method == GateMethod::Fixed; });
 }
 
 std::string short_text(const nlohmann::json& value) {
@@ -94,6 +100,13 @@ void require_same_campaign(const std::string& path, const CampaignRecord& stored
     throw InputError(path,
                      "a campaign whose factors are drawn by \"latin-hypercube\" cannot grow: every replicate's "
                      "draw depends on their number; give another name with --db");
+  }
+  if (now.replicates != stored.replicates && has_fixed_gate(now)) {
+    throw InputError(
+        path, fmt::format("a campaign with a gate of the method \"fixed\" cannot grow: its bounds hold for the {} "
+                          "replicates that were planned before run 0, and for no other number; give another "
+                          "name with --db, or plan with the method \"any-time\"",
+                          stored.replicates));
   }
   if (const auto differences = engine_differences(stored.engine, now.engine); !differences.empty()) {
     if (!allow_drift) {

@@ -17,8 +17,8 @@ std::string engine_differences(const EngineIdentity& stored, const EngineIdentit
 bool has_one_engine(const EngineIdentity& stored, const EngineIdentity& now);
 
 // Throws InputError with the reason if the campaign `now` must not go on in the file `path`: another plan, fewer
-// replicates, more replicates of a latin hypercube, or another engine without `allow_drift`. Otherwise the engine
-// libraries of `now` name all engines that wrote to the file.
+// replicates, more replicates of a latin hypercube or for a fixed gate, or another engine without `allow_drift`.
+// Otherwise the engine libraries of `now` name all engines that wrote to the file.
 void require_same_campaign(const std::string& path, const CampaignRecord& stored, CampaignRecord& now,
                            bool allow_drift);
 

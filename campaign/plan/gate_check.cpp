@@ -72,6 +72,10 @@ class GateCheck {
   void check_unit() const {
     if (gate_.end_point == EndPoint::Throughput && gate_.unit == GateUnit::AgvHour)
       refuse("unit", "throughput is judged for a world or a run, not for an AGV-hour");
+    if (gate_.limit <= 0.0)
+      refuse("limit",
+             "limit 0 is refused: no number of runs can demonstrate it; give a limit above 0, and kind = "
+             "\"none\" if no run may fail");
     if (gate_.unit != GateUnit::AgvHour && gate_.limit >= 1.0)
       refuse("limit", fmt::format("limit {:g} is refused: a share is below 1; only a rate per AGV-hour may be more",
                                   gate_.limit));

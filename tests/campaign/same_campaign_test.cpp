@@ -64,6 +64,24 @@ TEST(SameCampaign, EveryOtherDifferenceIsNamed) {
   EXPECT_THAT(refusal(stored, record_of(plan)), HasSubstr("plan/factors/agents/2: stored \"reckless\", now nothing"));
 }
 
+// Its bounds hold for the number that was planned before run 0.
+TEST(SameCampaign, WithAFixedGateItCannotGrow) {
+  CampaignPlan plan = test::small_plan();
+  GateRecord gate;
+  gate.name = "safe";
+  gate.agent = plan.agents.front().name;
+  gate.method = GateMethod::Fixed;
+  plan.gates = {gate};
+  const CampaignRecord stored = record_of(plan);
+  EXPECT_EQ(refusal(stored, stored), "");
+  plan.replicates += 5;
+  EXPECT_THAT(refusal(stored, record_of(plan)), HasSubstr("a gate of the method \"fixed\" cannot grow"));
+  plan.gates[0].method = GateMethod::AnyTime;
+  const CampaignRecord longer = record_of(plan);
+  plan.replicates -= 5;
+  EXPECT_EQ(refusal(record_of(plan), longer), "");
+}
+
 TEST(SameCampaign, ALatinHypercubeCannotGrow) {
   CampaignPlan plan = test::small_plan();
   plan.factors[Factor::Loss] = {FactorSpan(0.0, 0.4)};

@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "reports/coverage_section.hpp"
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/support/at_seconds.hpp"
 
@@ -213,6 +214,25 @@ TEST_F(WeakReport, AListedProbeThatIsMissingLeavesTheVerdictAndSaysWeakBesideIt)
   EXPECT_EQ(json["weak"], true);
   EXPECT_EQ(json["verdict"], "demonstrated");
   EXPECT_EQ(json["gates"][0]["missing_probes"][0]["probe"], "following");
+}
+
+// A probe that the software under test declares is asked of it alone.
+TEST_F(WeakReport, AReferenceAgentThatMissesAProbeMakesNothingWeak) {
+  auto campaign = campaign_of("claim", 400);
+  campaign.required_probes = {"encounter", "yields"};
+  auto gates = gates_;
+  gates.push_back(gate_of("other", GateKind::Rate, Region::Contract, 1e-1));
+  gates.back().decides = false;
+  const auto weak = [&](std::uint32_t cell_that_yields) {
+    const auto input = report_of(campaign, grid({"sound", "other"}, {0.4}, {2.0}), gates, [&](RunRecord& run) {
+      if (run.cell == cell_that_yields)
+        file_probes(run.outcome, {{ProbeSource::World, "crossing", 1}, {ProbeSource::Agent, "yields", 1}});
+    });
+    EXPECT_EQ(weak_headlines(input).size(), is_weak(input) ? 1U : 0U);
+    return is_weak(input);
+  };
+  EXPECT_FALSE(weak(0));
+  EXPECT_TRUE(weak(1));
 }
 
 TEST_F(WeakReport, AGateWhoseRunsMetNobodyIsNotDemonstrated) {
