@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <tuple>
 
 #include "core/base/error.hpp"
@@ -84,6 +85,24 @@ ProbeCount get_probe(ByteSource& source) {
   probe.name = source.text();
   probe.count = source.u64();
   return probe;
+}
+
+void sort(std::vector<Incident>& incidents) {
+  std::ranges::sort(incidents, {},
+                    [](const Incident& i) { return std::tuple(i.first, i.kind, i.a, i.b, i.last, i.value); });
+}
+
+// The earliest incident of each kind, then the other accusations, then all others. Requires: they are sorted.
+std::vector<Incident> weightiest_first(const std::vector<Incident>& sorted) {
+  std::set<IncidentKind> met;
+  std::array<std::vector<Incident>, 3> by_weight;
+  for (const Incident& incident : sorted) {
+    const bool is_first = met.insert(incident.kind).second;
+    by_weight[is_first ? 0 : accuses(incident.kind) ? 1 : 2].push_back(incident);
+  }
+  std::vector<Incident> all;
+  for (const auto& incidents : by_weight) all.insert(all.end(), incidents.begin(), incidents.end());
+  return all;
 }
 
 }  // namespace
@@ -203,11 +222,12 @@ void file_violations(Outcome& outcome, std::vector<Violation> violations) {
 }
 
 void file_incidents(Outcome& outcome, std::vector<Incident> incidents) {
-  std::ranges::sort(incidents, {},
-                    [](const Incident& i) { return std::tuple(i.first, i.kind, i.a, i.b, i.last, i.value); });
+  sort(incidents);
   if (incidents.size() > kIncidentsMax) {
     outcome.counters.incidents_left_out += incidents.size() - kIncidentsMax;
+    incidents = weightiest_first(incidents);
     incidents.resize(kIncidentsMax);
+    sort(incidents);
   }
   outcome.incidents = std::move(incidents);
 }

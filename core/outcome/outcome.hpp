@@ -27,7 +27,7 @@ struct Violation {
                                          // in a contact or a flat minimum the highest while it lasts
   std::int64_t normal_speed_um_s = 0;    // the part of it along the line between these points, or along the contact
                                          // normal; above zero if they come nearer
-  std::int64_t x_um = 0, y_um = 0;       // midway between the reference points at `closest_at`
+  std::int64_t x_um = 0, y_um = 0;       // midway between the centres of the bodies at `closest_at`
   bool contact = false;
 
   friend bool operator==(const Violation&, const Violation&) = default;
@@ -71,7 +71,8 @@ Outcome decode_outcome(std::string_view bytes);
 // Sets violation, contact and smallest clearance from the violations a law filed.
 void file_violations(Outcome& outcome, std::vector<Violation> violations);
 
-// A run keeps at most this many incidents, the earliest; the others are counted.
+// A run keeps at most this many incidents. The earliest of each kind stays in any case, then the earliest accusations.
+// The room that is left is for the earliest incidents that accuse nobody. All others are counted.
 inline constexpr std::size_t kIncidentsMax = 1000;
 void file_incidents(Outcome& outcome, std::vector<Incident> incidents);
 void file_probes(Outcome& outcome, std::vector<ProbeCount> probes);

@@ -153,6 +153,41 @@ TEST(FileIncidents, sorts_and_keeps_the_earliest) {
   EXPECT_TRUE(std::ranges::is_sorted(outcome.incidents, {}, &Incident::first));
 }
 
+TEST(FileIncidents, what_accuses_nobody_takes_no_room_from_accusations) {
+  std::vector<Incident> many;
+  for (std::uint32_t i = 0; i < kIncidentsMax + 5; ++i)
+    many.push_back({IncidentKind::FaultInjected, EntityId{0U}, {}, at_ns(i), at_ns(i), 4});
+  many.push_back({IncidentKind::ForeignBody, EntityId{7U}, {}, at_ns(8000), at_ns(9000), 0});
+  for (const std::int64_t first : {6000, 5000})
+    many.push_back({IncidentKind::Deadlock, EntityId{0U}, {}, at_ns(first), at_ns(9000), 0});
+  Outcome outcome;
+  file_incidents(outcome, many);
+  ASSERT_EQ(outcome.incidents.size(), kIncidentsMax);
+  EXPECT_EQ(outcome.counters.incidents_left_out, 8u);
+  EXPECT_TRUE(std::ranges::is_sorted(outcome.incidents, {}, &Incident::first));
+  EXPECT_EQ(std::ranges::count(outcome.incidents, IncidentKind::Deadlock, &Incident::kind), 2);
+  EXPECT_EQ(std::ranges::count(outcome.incidents, IncidentKind::ForeignBody, &Incident::kind), 1);
+  EXPECT_EQ(outcome.incidents[kIncidentsMax - 4].first, at_ns(static_cast<std::int64_t>(kIncidentsMax) - 4))
+      << "of the faults, the earliest stay";
+}
+
+TEST(FileIncidents, the_earliest_of_each_kind_stays) {
+  std::vector<Incident> many;
+  for (std::uint32_t i = 0; i < kIncidentsMax + 5; ++i)
+    many.push_back({IncidentKind::LoadVanished, EntityId{i}, {}, at_ns(i), at_ns(i), 0});
+  for (const std::int64_t first : {7000, 6000}) {
+    many.push_back({IncidentKind::Deadlock, EntityId{0U}, {}, at_ns(first), at_ns(9000), 0});
+    many.push_back({IncidentKind::FaultInjected, EntityId{0U}, {}, at_ns(first), at_ns(9000), 4});
+  }
+  Outcome outcome;
+  file_incidents(outcome, many);
+  ASSERT_EQ(outcome.incidents.size(), kIncidentsMax);
+  EXPECT_EQ(outcome.counters.incidents_left_out, 9u);
+  EXPECT_EQ(outcome.incidents[kIncidentsMax - 2].kind, IncidentKind::Deadlock);
+  EXPECT_EQ(outcome.incidents[kIncidentsMax - 1].kind, IncidentKind::FaultInjected);
+  EXPECT_EQ(outcome.incidents.back().first, at_ns(6000));
+}
+
 TEST(ProbeTally, is_bounded_and_counts_the_excess) {
   ProbeTally tally;
   for (std::uint64_t i = 0; i < 100; ++i) tally.declare("probe " + std::to_string(i), i);
