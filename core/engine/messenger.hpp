@@ -34,9 +34,10 @@ class Messenger {
   std::optional<std::uint32_t> accept(AgvId sender, std::string_view bytes, std::uint32_t receiver);
   void transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver);
   std::uint64_t hash_of(std::uint32_t slot) const { return pool_[slot].hash; }
-  // The radio neither loses nor delays this message. Call it before `transmit`.
+  // The radio neither loses nor delays this message. Call it before `transmit`. The message is still in the air for its
+  // air time, and interference may still destroy it.
   void spare(std::uint32_t slot) { pool_.spare(slot); }
-  void withdraw(std::uint32_t slot) { pool_.release_unsent(slot); }
+  void withdraw(std::uint32_t slot) { pool_.release(slot); }
   // The event. `payload` is the messenger's own.
   void arrives(AgvId receiver, std::uint64_t payload);
 

@@ -158,6 +158,11 @@ std::optional<Duration> Radio::copy_of(const MessageKey& message) const {
   return delay_.at(unit_interval(word64(block, 1)));
 }
 
+void MessageBytes::make_room(std::size_t bytes) {
+  room_ = static_cast<std::uint32_t>(std::max<std::size_t>(bytes, 2 * room_));
+  bytes_ = std::make_unique_for_overwrite<char[]>(room_);
+}
+
 std::uint32_t MessagePool::add(AgvId sender, std::string_view bytes, std::uint32_t copies) {
   std::uint32_t slot = free_;
   if (slot == kNone) {
@@ -168,17 +173,12 @@ std::uint32_t MessagePool::add(AgvId sender, std::string_view bytes, std::uint32
   }
   Message& message = messages_[slot];
   message.sender = sender;
-  message.bytes.assign(bytes);  // reuses the memory of the slot, so that nothing is allocated in the long run
+  message.bytes.assign(bytes);
   message.hash = XXH3_64bits(bytes.data(), bytes.size());
   message.copies = copies;
   message.spared = false;
   message.destroyed_at.clear();
   return slot;
-}
-
-void MessagePool::release_unsent(std::uint32_t slot) {
-  messages_[slot].copies = 1;
-  release(slot);
 }
 
 }  // namespace fleetproof

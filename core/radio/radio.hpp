@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -136,10 +136,31 @@ class Radio {
       links_;  // by sender and receiver; by the smaller and the larger id where both directions share a process
 };
 
+// The bytes of a message. They stay where they are in memory when the object is moved, which short strings do not: an
+// agent reads the bytes of a message while it sends others, and the pool of messages grows.
+class MessageBytes {
+ public:
+  std::size_t size() const { return size_; }
+  const char* data() const { return bytes_.get(); }
+  operator std::string_view() const { return {data(), size()}; }
+  // Reuses its memory, so that nothing is allocated in the long run.
+  void assign(std::string_view bytes) {
+    if (bytes.size() >= room_) make_room(bytes.size() + 1);  // of no bytes, too: their address is never null
+    bytes.copy(bytes_.get(), bytes.size());
+    size_ = static_cast<std::uint32_t>(bytes.size());
+  }
+
+ private:
+  void make_room(std::size_t bytes);
+
+  std::unique_ptr<char[]> bytes_;
+  std::uint32_t size_ = 0, room_ = 0;
+};
+
 // A message in the air or in inboxes.
 struct Message {
   AgvId sender;
-  std::string bytes;
+  MessageBytes bytes;
   std::uint64_t hash = 0;
   std::uint32_t number = 0;     // in its run, from 1 on; 0: not sent yet
   std::uint32_t copies = 0;     // receptions that are under way or unread
@@ -169,8 +190,6 @@ class MessagePool {
     message.next_free = free_;
     free_ = slot;
   }
-  // Frees the slot of a message that will never be sent.
-  void release_unsent(std::uint32_t slot);
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;

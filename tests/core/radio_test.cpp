@@ -158,7 +158,7 @@ TEST(MessagePool, ReusesSlots) {
   EXPECT_NE(pool.add(kB, "two", 1), first);
   pool.release(first);
   EXPECT_EQ(pool.add(kB, "three", 1), first);
-  EXPECT_EQ(pool[first].bytes, "three");
+  EXPECT_EQ(std::string_view(pool[first].bytes), "three");
 }
 
 }  // namespace
