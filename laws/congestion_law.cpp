@@ -12,6 +12,9 @@ namespace {
 constexpr Duration kWindow = std::chrono::seconds(1);
 constexpr std::int64_t kWhole_ppm = 1'000'000;
 constexpr std::int64_t kSaturated_ppm = 500'000;
+// The air time that is one millionth of a window.
+constexpr Duration kOne_ppm = kWindow / kWhole_ppm;
+static_assert(kOne_ppm * kWhole_ppm == kWindow);
 constexpr std::int64_t kInterference_ppm = 100'000;
 constexpr std::uint64_t kFewestInterfered = 5;
 
@@ -43,8 +46,7 @@ class CongestionLaw final : public Law {
     const auto begin = std::lower_bound(all.begin(), all.end(), part.begin, is_before),
                end = std::lower_bound(begin, all.end(), part.end, is_before);
     if (begin == end) return true;
-    if (kWhole_ppm * (offered_ + (end - begin) * last_air_time_).count() >= kSaturated_ppm * kWindow.count())
-      return false;
+    if (offered_ + (end - begin) * last_air_time_ >= kSaturated_ppm * kOne_ppm) return false;
     const SimTime last = part.block->at((end - 1)->place);
     if (last >= window_ + kWindow) {
       window_ += (last - window_) / kWindow * kWindow;
@@ -72,7 +74,7 @@ class CongestionLaw final : public Law {
   void receptions(const TraceBlock& block, std::uint32_t begin, std::uint32_t end) {
     for (; begin < end; ++begin) {
       const TraceKind kind = block.kind(begin);
-      if (!kMessageKinds.has(kind)) continue;
+      if (!kMessageKinds.has(kind) || block.is_copy(begin)) continue;
       enters(block.at(begin));
       ++receptions_;
       destroyed_ += kind == TraceKind::LostByInterference ? 1 : 0;
@@ -94,8 +96,7 @@ class CongestionLaw final : public Law {
   // Closes every window that ends at or before `t`.
   void windows_before(SimTime t) {
     for (; window_ + kWindow <= t; window_ += kWindow) {
-      judge(IncidentKind::ChannelSaturated, saturated_, kWhole_ppm * offered_.count() / kWindow.count(), kSaturated_ppm,
-            true);
+      judge(IncidentKind::ChannelSaturated, saturated_, offered_ / kOne_ppm, kSaturated_ppm, true);
       const std::int64_t share_ppm = receptions_ == 0 ? 0
                                                       : kWhole_ppm * static_cast<std::int64_t>(destroyed_) /
                                                             static_cast<std::int64_t>(receptions_);

@@ -90,7 +90,8 @@ void LinkQuality::take_before(SimTime end, std::int64_t second) {
     TracePart& part = waiting_[next_waiting_];
     const std::uint32_t begin = part.begin;
     while (part.begin < part.end && part.block->at(part.begin) < end) {
-      if (kMessageKinds.has(part.block->kind(part.begin))) take(part.block->record(part.begin), second);
+      if (kMessageKinds.has(part.block->kind(part.begin)) && !part.block->is_copy(part.begin))
+        take(part.block->record(part.begin), second);
       ++part.begin;
     }
     waiting_records_ -= part.begin - begin;

@@ -246,7 +246,10 @@ bool Messenger::is_drowned(AgvId receiver, const Message& message) const {
   if ((bits & kAirTimeEnds) != 0) return air_time_ends(receiver, slot);
   const Message& message = pool_[slot];
   if (message.is_destroyed_at(receiver)) return pool_.release(slot);
-  if ((bits & kCopy) != 0) ++run_.counters.duplicates;
+  if ((bits & kCopy) != 0) [[unlikely]] {
+    ++run_.counters.duplicates;
+    run_.writer.digest().mark_copy();
+  }
   run_.trace(receiver, traced::Reception{TraceKind::Received, message.sender, message.hash, message.number});
   ++run_.counters.received;
   if (!agents_.is_up(receiver)) return pool_.release(slot);

@@ -144,6 +144,8 @@ TracePart TraceDigest::take_newest() {
   return part;
 }
 
+void TraceDigest::mark_copy() { block_->mark_copy(next_); }
+
 std::uint64_t TraceDigest::value() {
   flush();
   return XXH3_64bits_digest(hash(state_));

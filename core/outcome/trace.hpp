@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -109,6 +110,8 @@ class TraceBlock {
     std::uint32_t place, bytes;
   };
   std::span<const Sent> sent() const { return std::span(sent_).first(sent_count_); }
+  // Whether the record says that the second copy of a message was received.
+  bool is_copy(std::uint32_t place) const { return !copies_.empty() && std::ranges::binary_search(copies_, place); }
 
   // Writes the record where `to` points, which is the place of a record.
   void write(unsigned char* to, const TraceRecord& record) {
@@ -119,8 +122,15 @@ class TraceBlock {
     if (record.kind == TraceKind::Sent)
       sent_[sent_count_++] = {static_cast<std::uint32_t>(to - bytes_.data()) / kRecordBytes, record.bytes};
   }
+  // The record that is going to be written there is such a record.
+  void mark_copy(const unsigned char* to) {
+    copies_.push_back(static_cast<std::uint32_t>(to - bytes_.data()) / kRecordBytes);
+  }
   unsigned char* bytes_to(std::size_t place) { return bytes_.data() + place * kRecordBytes; }
-  void begin_anew() { sent_count_ = 0; }
+  void begin_anew() {
+    sent_count_ = 0;
+    copies_.clear();
+  }
   const unsigned char* bytes_from(std::size_t place) const { return bytes_.data() + place * kRecordBytes; }
 
  private:
@@ -144,6 +154,7 @@ class TraceBlock {
   std::array<unsigned char, kRecords * kRecordBytes> bytes_;
   std::array<Sent, kRecords> sent_;
   std::size_t sent_count_ = 0;
+  std::vector<std::uint32_t> copies_;  // places, in ascending order
 };
 
 // Some records of a block, which lives as long as the part.
@@ -168,6 +179,8 @@ class TraceDigest {
     if (next_ == pause_) [[unlikely]]
       pause();
   }
+  // The next record says that a second copy was received. That is not part of the digest.
+  void mark_copy();
   std::uint64_t value();
   std::uint64_t record_count() const {
     return before_block_ + static_cast<std::uint64_t>(next_ - block_->bytes_from(0)) / TraceBlock::kRecordBytes;

@@ -69,6 +69,37 @@ TEST(MessengerPart, TheInboxKeepsTheOrderAndIsLostWithTheComputer) {
   EXPECT_EQ(read(world, kSecond), "");
 }
 
+TEST(MessengerPart, ASecondCopyIsTracedAsOne) {
+  Scenario scenario = two_with_delay(1.0);
+  scenario.radio.duplicates = 1.0;
+  SmallWorld world(scenario);
+  started(world);
+  send(world, "hello");
+  let_arrive(world);
+  let_arrive(world);
+  ASSERT_EQ(world.trace.of(TraceKind::Received).size(), 2U);
+  const TracePart part = world.run.writer.digest().take_newest();
+  int receptions = 0, copies = 0;
+  for (std::uint32_t place = part.begin; place < part.end; ++place) {
+    receptions += part.block->kind(place) == TraceKind::Received ? 1 : 0;
+    copies += part.block->is_copy(place) ? 1 : 0;
+  }
+  EXPECT_EQ(receptions, 2);
+  EXPECT_EQ(copies, 1);
+}
+
+// agent.h promises it: an agent may send on the bytes that it has just read.
+TEST(MessengerPart, TheBytesInHandStayWhileTheAgentSends) {
+  SmallWorld world(two_with_delay(1.0));
+  started(world);
+  send(world, "short");
+  let_arrive(world);
+  fp_message message{};
+  ASSERT_TRUE(world.parts.messenger.read(kSecond, message));
+  for (int i = 0; i < 1000; ++i) ASSERT_TRUE(world.parts.messenger.accept(kSecond, "another one", FP_NONE));
+  EXPECT_EQ(std::string_view(static_cast<const char*>(message.bytes), message.size), "short");
+}
+
 TEST(MessengerPart, WhatReachesAComputerThatIsDownIsGone) {
   SmallWorld world(two_with_delay(1.0));
   started(world);

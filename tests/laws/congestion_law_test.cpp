@@ -75,6 +75,29 @@ TEST(CongestionLaw, WhatSourcesDestroyCountsAsReceptions) {
   EXPECT_THAT(share(60), testing::IsEmpty());
 }
 
+TEST(CongestionLaw, SecondCopiesAreNoReceptions) {
+  const auto found = congestion([](Told& told) {
+    for (int i = 0; i < 10; ++i) told.reception(0.01 * i, 1, TraceKind::LostByInterference, 0, 1);
+    for (int i = 0; i < 40; ++i) {
+      told.reception(0.2 + 0.01 * i, 1, TraceKind::Received, 0, 1);
+      told.copy(0.205 + 0.01 * i, 1, 0, 1);
+    }
+  });
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].value, 200'000);
+}
+
+// Four messages of an hour each. A whole number of nanoseconds times a million would not fit into 64 bits.
+TEST(CongestionLaw, AnyAirTimeIsCounted) {
+  Scenario scenario = row_scenario(2, {0, 1}, 60.0);
+  scenario.radio.air_time_s = 3600.0;
+  Told told(scenario, "congestion");
+  for (int i = 0; i < 4; ++i) told.sends(3.0 + 0.1 * i, 0, 1, 7);
+  const auto found = told.finish(60.0).incidents;
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].value, 14'400'000'000);
+}
+
 // 10 ms each and 0.1 ms a byte: 25 messages of 100 bytes ask for half of a second.
 TEST(CongestionLaw, LongMessagesAskForMoreAirTime) {
   Scenario scenario = row_scenario(2, {0, 1}, 60.0);

@@ -139,6 +139,21 @@ TEST(LinkQuality, IsTheSameTenSecondsAfterOthersWereSkipped) {
   EXPECT_GT(late, 200);
 }
 
+// Of 100 messages 65 are lost, and all others arrive twice.
+TEST(LinkQuality, SecondCopiesDoNotHideLosses) {
+  LinkQuality quality(kAgvs);
+  for (int i = 0; i < 100; ++i) {
+    const TraceKind fate = i < 65 ? TraceKind::Lost : TraceKind::Received;
+    const TraceRecord record = trace_record(kStart, AgvId{1U}, traced::Reception{fate, AgvId{0U}, 1});
+    quality.note(part_of(record));
+    if (i >= 65) quality.note(part_of(record, true));
+  }
+  quality.end_second(0);
+  EXPECT_EQ(quality.link(0, 1).receptions, 100U);
+  EXPECT_EQ(quality.link(0, 1).lost, 65U);
+  EXPECT_FALSE(quality.all_in_contract(1));
+}
+
 // However much a sender says in between, and although it says the same to another receiver.
 TEST(LinkQuality, NoDelayIsForgotten) {
   LinkQuality quality(kAgvs);

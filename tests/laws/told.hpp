@@ -81,6 +81,12 @@ class Told {
   Told& reception(double at_s, std::uint32_t receiver, TraceKind fate, std::uint32_t sender, std::uint64_t hash) {
     return record(at_s, receiver, traced::Reception{fate, AgvId{sender}, hash});
   }
+  // Once more.
+  Told& copy(double at_s, std::uint32_t receiver, std::uint32_t sender, std::uint64_t hash) {
+    const traced::Reception received{TraceKind::Received, AgvId{sender}, hash};
+    law_->together(part_of(trace_record(at_seconds(at_s), AgvId{receiver}, received), true));
+    return *this;
+  }
 
   LawFindings finish(double end_s) {
     for (auto& [entity, piece] : open_) {
