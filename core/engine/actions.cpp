@@ -326,7 +326,6 @@ void Actions::brake_turn(AgvId agv) {
 
 void Actions::go_on(AgvId agv) {
   if (run_.status(agv).is_driving()) return ports_.drives.replan(agv);  // it was still braking
-  run_.progressed(agv);
   Slice& slice = slices_[agv.index()];
   if (!slice.waits) return;
   slice.waits = false;

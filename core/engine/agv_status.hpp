@@ -37,7 +37,8 @@ struct AgvStatus {
   // Halts. The AGV stands while the list is not empty.
   std::vector<Halt> halts;
 
-  // Whichever part sees progress: an action began or ended, or the operator restarted the agent.
+  // Whichever part sees progress: work began or ended, a halt ended that was not the agent's, or the operator set the
+  // AGV down or restarted its agent.
   SimTime last_progress = kStart;
 
   bool is_driving() const { return activity && activity->kind == ActivityKind::Drive; }

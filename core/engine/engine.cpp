@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/base/error.hpp"
+#include "core/outcome/work_and_progress.hpp"
 
 namespace fleetproof {
 
@@ -97,12 +98,12 @@ void Engine::handle(const Event& event) {
   }
 }
 
-// Transports are open, and no AGV has begun or ended an action for a long time, although no fault holds an AGV and none
-// charges.
+// Transports are open, and no work has begun or ended for a long time, although no fault holds an AGV, and no AGV works
+// or charges.
 bool Engine::is_stuck() const {
   const bool excused = std::ranges::any_of(run_.agvs, [](const AgvStatus& agv) {
     return agv.is_held_by(Halt::Reason::Breakdown) || agv.is_held_by(Halt::Reason::ProtectiveStop) ||
-           (agv.activity && agv.activity->kind == ActivityKind::Charge);
+           (agv.activity && keeps_busy(agv.activity->kind));
   });
   return run_.transports_are_open() && !excused && run_.now - run_.last_progress >= run_.scenario.stuck_after;
 }

@@ -17,10 +17,15 @@ std::uint64_t Halts::begin(AgvId agv, Halt::Reason reason) {
 
 void Halts::end(AgvId agv, std::uint64_t number) {
   AgvStatus& status = run_.status(agv);
-  const bool was_held = status.is_held();
-  const auto erased = std::erase_if(status.halts, [&](const Halt& halt) { return halt.number == number; });
-  const bool held_less = erased > 0 && (status.halts.empty() || (was_held && !status.is_held()));
-  if (held_less && !status.out_of_order) actions_.go_on(agv);
+  const auto over = std::ranges::find(status.halts, number, &Halt::number);
+  if (over == status.halts.end()) return;
+  const bool by_agent = over->reason == Halt::Reason::Agent;
+  status.halts.erase(over);
+  const bool held_less = status.halts.empty() || (!by_agent && !status.is_held());
+  if (!held_less || status.out_of_order) return;
+  // An agent that holds its AGV and lets it go has done nothing by that.
+  if (!by_agent && !status.is_driving()) run_.progressed(agv);
+  actions_.go_on(agv);
 }
 
 void Halts::end_all(AgvId agv, Halt::Reason reason) {

@@ -12,8 +12,9 @@ namespace fleetproof {
 // question                                    | who asks                              | definition
 // --------------------------------------------|---------------------------------------|------------------------------
 // Does the AGV do anything now?               | every other question                  | is_work
-// Is the fleet frozen? (run "stuck",          | engine at the end of a run, operator, | no work began or ended for
-//   operator, deadlock, standstill)           | laws progress and normal-operation    |   `stuck_after`; all but the
+// Is the fleet frozen? (run "stuck",          | engine at the end of a run, operator, | no AGV works, and no work
+//   operator, deadlock, standstill)           | laws progress and normal-operation    |   began or ended for
+//                                             |                                       |   `stuck_after`; all but the
 //                                             |                                       |   operator excuse who charges
 // Does the fleet move without any result?     | law progress (livelock, starvation)   | no transport advanced
 //   Movement alone is no progress.            |                                       |   (advances_transport), no
@@ -22,8 +23,10 @@ namespace fleetproof {
 // Is there anything left to do?               | all of them                           | open_transports
 // How much does the fleet get done?           | gates, reports, law normal-operation  | transports_per_agv_hour
 //
-// A frozen fleet is found by its lack of work and not by its lack of results: the time that a transport takes depends
-// on the layout, the time in which an AGV begins something does not.
+// A frozen fleet is found by its lack of work and not by its lack of results: the time that a transport or a drive
+// takes depends on the layout, the time in which an idle AGV begins something does not. For engine and operator, work
+// also begins when a fault or the operator lets an AGV go. An agent that stops its AGV and lets it go on does no work
+// by that.
 
 // Activities by which an AGV serves its transports. A transmission is no activity of the AGV's body.
 constexpr bool is_work(ActivityKind kind) {

@@ -50,7 +50,7 @@ constexpr const char* name_of(Fault::Kind kind) {
   return kNoWord;
 }
 // Whether the AGV brakes and stands while the fault lasts, and then goes on. The fleet is not accused of what it does
-// not do in this time.
+// not do in this time. Only a drive brakes: a turn on the spot ends at once, where it is.
 constexpr bool holds_agv(Fault::Kind kind) {
   return kind == Fault::Kind::Breakdown || kind == Fault::Kind::ProtectiveStop || kind == Fault::Kind::PowerFailure;
 }
@@ -78,7 +78,7 @@ enum class Assist : std::uint8_t {
   Jam = 2,         // a scanner has held its AGV for long; the operator mutes the field until it is clear
   Contact = 3,     // the AGV is out of order after a contact; the operator takes it off the floor and sets it
                    // down at a station (core/engine/recovery.hpp)
-  Standstill = 4,  // transports are open, and no action began or ended for `stuck_after`; one agent is restarted
+  Standstill = 4,  // transports are open, and no AGV works or has worked for `stuck_after`; one agent is restarted
 };
 
 // The operator helps AGVs; for each call, an operator is available.

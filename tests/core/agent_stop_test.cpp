@@ -191,6 +191,15 @@ TEST(AgentStop, ExcusesNobody) {
   EXPECT_EQ(read<traced::OperatorAssists>(helped.trace.of(TraceKind::OperatorAssists)[0]).assist, Assist::Standstill);
 }
 
+// Holding an idle AGV and letting it go again is no work.
+TEST(AgentStop, DoesNotPassForWork) {
+  Scenario scenario = row_of_tens({0}, 400.0);
+  scenario.agvs[0].transports = {{StationId{0U}, StationId{1U}, seconds(0.0)}};
+  Script script{};
+  for (double t_s = 50.0; t_s < 400.0; t_s += 100.0) script.calls[t_s] = kStop, script.calls[t_s + 50.0] = kGoOn;
+  EXPECT_TRUE(script.run(scenario).outcome.stuck);
+}
+
 // ---- trace, digest, tape
 
 TEST(AgentStop, IsInTheTraceOnceForEachChange) {

@@ -43,6 +43,14 @@ TEST(HaltsPart, AnAgvMakesProgressWhenTheLastHaltEnds) {
   EXPECT_EQ(world.run.status(kFirst).last_progress, at_seconds(3.0));
 }
 
+TEST(HaltsPart, WhatTheAgentDoesToItsAgvIsNoProgress) {
+  SmallWorld world(test::row_of_tens({0}));
+  const std::uint64_t own = world.parts.halts.begin(kFirst, Halt::Reason::Agent);
+  world.clock(3.0);
+  world.parts.halts.end(kFirst, own);
+  EXPECT_EQ(world.run.status(kFirst).last_progress, kStart);
+}
+
 TEST(HaltsPart, AllOfOneReasonEndTogetherAndOthersStay) {
   SmallWorld world(test::row_of_tens({0}));
   for (const auto reason : {Halt::Reason::Scanner, Halt::Reason::Breakdown, Halt::Reason::Scanner})

@@ -72,6 +72,19 @@ TEST(AtAStandstill, ARunThatEndsWhileAnAgvChargesIsNotStuck) {
   }
 }
 
+TEST(AtAStandstill, ARunThatEndsDuringALongDriveIsNotStuck) {
+  Scenario scenario = head_on(30.0);
+  scenario.stuck_after = seconds(5.0);
+  scenario.vehicle_types[0].drive.speed_mps = 0.3;
+  for (const bool drives : {true, false}) {
+    const Helped seen =
+        run(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+          if (drives && e.kind == FP_EVENT_START && b.self == 1) host.move(c, 2);
+        });
+    EXPECT_EQ(seen.outcome.stuck, !drives);
+  }
+}
+
 TEST(AtAStandstill, WhereNoRestartHelpsTheyTakeTurnsAndTheRunIsStuck) {
   Scenario scenario = head_on(170.0);
   scenario.operator_help = comes_after(10.0);
