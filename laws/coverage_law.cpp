@@ -27,7 +27,8 @@ class CoverageLaw final : public Law {
   void had_company(const Piece& piece, std::span<const Piece* const> others) override;
   Pieces hears_pieces() const override { return Pieces::Beginnings; }
   void piece_started(const Piece& piece) override {
-    if (piece.manner == Manner::Drive && piece.entity.index() < agv_count_) ways_.begins(piece);
+    if (piece.entity.index() >= agv_count_) return;
+    piece.manner == Manner::Drive ? ways_.begins(piece) : ways_.ends(piece.entity, piece.begin);
   }
   TraceKinds reads() const override { return {TraceKind::FaultStrikes}; }
   void happened(const TraceRecord& record) override { ++faults_[read<traced::FaultStrikes>(record).fault]; }

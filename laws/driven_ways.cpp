@@ -23,8 +23,22 @@ DrivenWays::DrivenWays(const LogicalMap& map, std::size_t agvs, double margin_m)
   ways_.reserve(kFirst), pairs_.reserve(kFirst), drives_.reserve(kFirst);
 }
 
+// Null if none of its drives can be met.
+DrivenWays::Drive* DrivenWays::newest_of(EntityId agv) {
+  const OfAgv& own = agvs_[agv.index()];
+  return own.oldest == kNone ? nullptr : &drives_[own.newest];
+}
+
+void DrivenWays::ends(EntityId agv, SimTime t) {
+  if (Drive* const newest = newest_of(agv)) newest->until = std::min(newest->until, t + kLookAhead);
+}
+
 // Ways whose boxes are not as near to each other as `side_by_side` looks meet in no way.
 void DrivenWays::begins(const Piece& drive) {
+  forget_before(drive.begin, agvs_[drive.entity.index()]);
+  Drive* const newest = newest_of(drive.entity);
+  if (newest != nullptr && ways_[newest->way].curve == drive.curve) return void(newest->until = drive.end + kLookAhead);
+  ends(drive.entity, drive.begin);
   const Number way = number_of(drive);
   const double reach_m = widest_m_ + 0.5 * longest_m_ + std::max(kBesideACurve_m, margin_m_) + kRounding_m;
   const Box near = ways_[way].box.grown(reach_m);
@@ -53,17 +67,14 @@ void DrivenWays::forget_before(SimTime t, OfAgv& agv) {
   for (std::uint32_t at = agv.oldest; at != kNone; at = drives_[at].next) agv.box.add(ways_[drives_[at].way].box);
 }
 
-// A drive can be met as long as those before it of the same AGV: it may take the place of one that was cut short.
 void DrivenWays::remember(const Piece& drive, Number way) {
   OfAgv& agv = agvs_[drive.entity.index()];
-  forget_before(drive.begin, agv);
-  agv.until = std::max(agv.until, drive.end + kLookAhead);
   if (free_ == kNone) {
     free_ = static_cast<std::uint32_t>(drives_.size());
     drives_.emplace_back();
   }
   const std::uint32_t place = std::exchange(free_, drives_[free_].next);
-  drives_[place] = {agv.until, way};
+  drives_[place] = {drive.end + kLookAhead, way};
   (agv.oldest == kNone ? agv.oldest : drives_[agv.newest].next) = place;
   agv.newest = place;
   ++agv.count;

@@ -18,15 +18,18 @@ class DrivenWays {
  public:
   using Number = std::uint32_t;  // of a way, from 0 on
 
-  // So long after its planned end, a drive can still be met.
+  // So long after its end, a drive can still be met.
   static constexpr Duration kLookAhead = std::chrono::seconds(10);
 
   // Tracks meet if less than `margin_m` and half their widths lie between them.
   DrivenWays(const LogicalMap& map, std::size_t agvs, double margin_m);
 
-  // Counts how the drive meets those of other AGVs that began before it. Requires: the piece is a drive; its curve
-  // outlives the object; drives are in the order in which they begin.
-  void begins(const Piece& drive);
+  // A piece of a drive begins. The first one counts how the drive meets those of other AGVs that began before it. More
+  // pieces on the same curve belong to the same drive, as long as it can be met: parts of a bend, or what follows a
+  // short stop. Requires: the curve outlives the object; pieces are in the order in which they begin.
+  void begins(const Piece& piece);
+  // The AGV does something else from `t` on.
+  void ends(EntityId agv, SimTime t);
 
   Number number_of(const Piece& drive);
   // Counts one drive on each of two ways.
@@ -62,7 +65,6 @@ class DrivenWays {
   };
   // The drives of one AGV that can be met, perhaps with some that are too old.
   struct OfAgv {
-    SimTime until = kStart;  // the newest one can be met
     std::uint32_t oldest = kNone, newest = kNone;
     std::uint32_t count = 0, forgotten = 0;  // the latter since their box was made
     Box box;
@@ -73,6 +75,7 @@ class DrivenWays {
   StationId end_of(const Way& way) const;
   void forget_before(SimTime t, OfAgv& agv);
   void remember(const Piece& drive, Number way);
+  Drive* newest_of(EntityId agv);
 
   const LogicalMap& map_;
   double margin_m_;

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "core/engine/simulation.hpp"
 #include "laws/encounter.hpp"
 #include "tests/laws/timeline.hpp"
 #include "tests/laws/told.hpp"
@@ -52,6 +53,28 @@ TEST(Encounters, TenSecondsLaterIsNoEncounter) {
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);
   scene.agv(facing(5.0, -5.0, 0.0, 1.0)).wait_until(18.1).drive(10.0);
   EXPECT_EQ(met(scene), (Met{}));
+}
+
+// A drive in parts is one drive: one AGV enters the place that the other leaves, and both stop now and then.
+TEST(Encounters, StopsOnTheWayMakeNoFurtherDrives) {
+  Scenario scenario = row_scenario(3, {0, 1}, 30.0);
+  for (int i = 0; i < 6; ++i) {
+    Fault stop;
+    stop.kind = Fault::Kind::ProtectiveStop;
+    stop.agv = AgvId{i < 4 ? 0U : 1U};
+    stop.at = seconds(0.5 + 0.4 * i);
+    stop.lasts = seconds(0.05);
+    scenario.faults.push_back(stop);
+  }
+  std::vector<std::unique_ptr<Law>> laws;
+  laws.push_back(find_law("coverage")->make(scenario));
+  const Handler one_station_on = [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (e.kind == FP_EVENT_START) host.move(c, b.self);
+  };
+  current_handler = &one_station_on;
+  simulate(scenario, handler_agent(), laws);
+  current_handler = nullptr;
+  EXPECT_EQ(met(laws[0]->findings()), (Met{{"fault: protective-stop", 6}, {"following", 1}}));
 }
 
 TEST(Encounters, OneBehindTheOtherIsFollowing) {

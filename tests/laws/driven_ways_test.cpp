@@ -69,34 +69,55 @@ TEST_P(WaysOfFamily, MeetAsTheirTracksDo) {
   EXPECT_EQ(ways.meetings().scenes, expected.scenes);
 }
 
-// Many drives of many AGVs, some of them cut short, against every one before them.
+// What is known of a drive, piece by piece.
+struct Known {
+  Piece first;
+  SimTime met_until;
+};
+
+// Many pieces of drives of many AGVs, some of them cut short, against every drive before them.
 TEST_P(WaysOfFamily, MeetThoseThatBeganBeforeThemAndMayStillBeNear) {
   constexpr std::uint32_t kAgvs = 40;
   const auto map = map_of(GetParam(), 4);
   const MapPlaces places(*map);
   DrivenWays ways(*map, kAgvs, kMargin_m);
   DrivenWays::Meetings expected;
-  std::vector<Piece> drives;
-  std::vector<SimTime> met_until, latest(kAgvs, kStart);
+  std::vector<Known> drives;
+  std::vector<const Lane*> lanes(kAgvs, nullptr);
+  int continued = 0;
   Draws draws(7);
-  for (int i = 0; i < 400; ++i) {
-    const Lane& lane = map->lanes()[draws.below(static_cast<std::uint32_t>(map->lanes().size()))];
+  for (int i = 0; i < 600; ++i) {
+    const EntityId agv{static_cast<std::uint32_t>(draws.below(kAgvs))};
+    const Lane*& own = lanes[agv.index()];
+    if (own == nullptr || draws.below(3) > 0)
+      own = &map->lanes()[draws.below(static_cast<std::uint32_t>(map->lanes().size()))];
+    const Lane& lane = *own;
     Piece drive = drive_on(lane, draws.below(3) == 0 ? Footprint{2.2, 1.3, 0.4} : Footprint{});
-    drive.entity = EntityId{static_cast<std::uint32_t>(draws.below(kAgvs))};
+    drive.entity = agv;
     drive.begin = kStart + i * std::chrono::milliseconds(200);
     drive.end = drive.begin + std::chrono::seconds(1 + draws.below(i % 20 == 0 ? 40 : 6));
-    for (std::size_t k = 0; k < drives.size(); ++k) {
-      if (drives[k].entity == drive.entity || met_until[k] < drive.begin) continue;
-      const StationId to = lane.to;
-      const bool one_place = end_of(*map, drives[k]) == to && drives[k].segment != drive.segment;
-      add(drives[k], drive, to, one_place, places, expected);
-    }
-    SimTime& until = latest[drive.entity.index()];
-    until = std::max(until, drive.end + DrivenWays::kLookAhead);
-    drives.push_back(drive);
-    met_until.push_back(until);
+    const auto last =
+        std::find_if(drives.rbegin(), drives.rend(), [&](const Known& k) { return k.first.entity == agv; });
+    const bool was_there = last != drives.rend() && last->met_until >= drive.begin;
     ways.begins(drive);
+    if (was_there && last->first.curve == drive.curve) {
+      last->met_until = drive.end + DrivenWays::kLookAhead;
+      ++continued;
+      continue;
+    }
+    if (was_there) last->met_until = std::min(last->met_until, drive.begin + DrivenWays::kLookAhead);
+    for (const auto& [earlier, met_until] : drives) {
+      if (earlier.entity == agv || met_until < drive.begin) continue;
+      const bool one_place = end_of(*map, earlier) == lane.to && earlier.segment != drive.segment;
+      add(earlier, drive, lane.to, one_place, places, expected);
+    }
+    drives.push_back({drive, drive.end + DrivenWays::kLookAhead});
+    if (i % 5 > 0) continue;
+    const SimTime stands = drive.begin + std::chrono::milliseconds(100);
+    ways.ends(agv, stands);
+    drives.back().met_until = std::min(drives.back().met_until, stands + DrivenWays::kLookAhead);
   }
+  EXPECT_GT(continued, 20);
   EXPECT_EQ(ways.meetings().encounters, expected.encounters);
   EXPECT_EQ(ways.meetings().scenes, expected.scenes);
   EXPECT_GT(expected.encounters[static_cast<std::size_t>(EncounterKind::Following)], 0U);
