@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/scenario/ways.hpp"
 
 namespace fleetproof {
 
-Approach::Approach(const Scenario& scenario) : map_(*scenario.map), last_(scenario.agvs.size()) {
+Approach::Approach(const Scenario& scenario)
+    : map_(*scenario.map), last_(scenario.agvs.size()), drives_(scenario.agvs.size()) {
   here_.reserve(last_.size()), passed_.reserve(4 * last_.size());
   for (const AgvSetup& agv : scenario.agvs) here_.push_back(agv.start);
   begin_anew();
@@ -15,6 +17,8 @@ Approach::Approach(const Scenario& scenario) : map_(*scenario.map), last_(scenar
 
 void Approach::drive_begins(EntityId agv, SegmentId segment) {
   if (segment.index() >= map_.segment_count()) return;
+  const Drive before = std::exchange(drives_[agv.index()], {segment, false});
+  if (before.cut_short && before.segment == segment) return;
   const Segment& driven = map_.segment(segment);
   StationId& here = here_[agv.index()];
   if (here != driven.from && here != driven.to) return;
@@ -27,6 +31,7 @@ void Approach::drive_begins(EntityId agv, SegmentId segment) {
 void Approach::set_down(EntityId agv, StationId at) {
   here_[agv.index()] = was_[agv.index()] = at;
   last_[agv.index()] = kNone;
+  drives_[agv.index()] = {};
 }
 
 void Approach::begin_anew() {

@@ -16,8 +16,10 @@ class Approach {
   // Requires: the scenario outlives the object.
   explicit Approach(const Scenario& scenario);
 
-  // The AGV sets out along a segment. It counts as being at the other end already: a drive may take long.
+  // The AGV sets out along a segment. It counts as being at the other end already: a drive may take long. If the drive
+  // before was along the same segment and was cut short, the AGV goes on.
   void drive_begins(EntityId agv, SegmentId segment);
+  void drive_cut_short(EntityId agv) { drives_[agv.index()].cut_short = true; }
   void set_down(EntityId agv, StationId at);
   // From here on, what was gained before does not count.
   void begin_anew();
@@ -38,6 +40,11 @@ class Approach {
   std::vector<Passed> passed_;         // since begin_anew()
   std::vector<std::uint32_t> last_;    // by AGV: place in passed_
   std::vector<StationId> was_, here_;  // by AGV: at begin_anew(), and now
+  struct Drive {
+    SegmentId segment;
+    bool cut_short = false;
+  };
+  std::vector<Drive> drives_;  // by AGV: the last one
   std::map<std::pair<StationId, StationId>, double> lengths_m_;
 };
 

@@ -50,10 +50,7 @@ class ProgressLaw final : public Law {
     bodies_.note(piece);
   }
   // The piece is still there to be looked at.
-  void piece_ended(const Piece& piece) override {
-    look_before(piece.end);
-    bodies_.note_end(piece);
-  }
+  void piece_ended(const Piece& piece) override { look_before(piece.end); }
   TraceKinds reads() const override {
     return TraceKinds{TraceKind::OrderReleased, TraceKind::TransportDone, TraceKind::ActivityBegins,
                       TraceKind::ActivityEnds,  TraceKind::WaitingFor,    TraceKind::LoadMoves,
@@ -166,8 +163,12 @@ void ProgressLaw::goes_on_with(const TraceRecord& record) {
   agv.busy = begins;
   agv.active_at = record.at;
   motions_ += begins ? 1 : 0;
-  if (begins && activity == ActivityKind::Drive)
+  if (activity != ActivityKind::Drive) return;
+  if (begins) {
     approach_.drive_begins(record.entity, read<traced::ActivityBegins>(record).segment());
+  } else if (!read<traced::ActivityEnds>(record).as_planned) {
+    approach_.drive_cut_short(record.entity);
+  }
 }
 
 void ProgressLaw::charge_begins_or_ends(AgvState& agv, const TraceRecord& record) {
@@ -181,15 +182,13 @@ void ProgressLaw::charge_begins_or_ends(AgvState& agv, const TraceRecord& record
 // An AGV that the operator takes off the floor waits for no AGV and blocks no AGV. It starts anew where the operator
 // sets it down.
 void ProgressLaw::comes_or_goes(const TraceRecord& record) {
+  const bool leaves = record.kind == TraceKind::Leaves;
+  if (leaves) bodies_.note_leaving(record.entity);
   if (record.entity.index() >= agvs_.size()) return;
   AgvState& agv = agvs_[record.entity.index()];
-  agv.off_floor = record.kind == TraceKind::Leaves;
+  agv.off_floor = leaves;
   agv.active_at = record.at;
-  if (agv.off_floor) {
-    bodies_.note_leaving(record.entity);
-  } else {
-    approach_.set_down(record.entity, read<traced::Appears>(record).station);
-  }
+  if (!leaves) approach_.set_down(record.entity, read<traced::Appears>(record).station);
 }
 
 void ProgressLaw::order_released(const TraceRecord& record) {

@@ -13,9 +13,9 @@ namespace fleetproof {
 //   circle; or all AGVs with open transports have stood for so long, with or without a circle. The law also files which
 //   AGV waits for which: as the AGV declares, or else inferred from the body that stands in the next lane of a shortest
 //   way to its goal.
-// - Livelock: an AGV moves, but no load has been picked or delivered for twice stuck_after, and for twice the time that
-//   the way takes at top speed by which an AGV has come nearer to its goal meanwhile. The goal is that of its load, or
-//   of its oldest open transport.
+// - Livelock: AGVs move, but for twice stuck_after no load has been picked or delivered, and no charge has ended.
+//   Long ways give the fleet more time: twice what the way takes at top speed by which an AGV has come nearer to its
+//   goal meanwhile. The goal is that of its load, or of its oldest open transport.
 // - Starvation: one AGV has picked or delivered nothing for twice stuck_after, while the other AGVs have finished two
 //   transports each, on average.
 //

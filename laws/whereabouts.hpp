@@ -13,10 +13,6 @@ class Whereabouts {
   explicit Whereabouts(const Scenario& scenario) : scenario_(scenario), bodies_(scenario.body_count()) {}
 
   void note(const Piece& piece) { bodies_[piece.entity.index()] = {&piece, true}; }
-  // A body that is not an AGV has one piece and leaves the floor at its end. An AGV leaves only with note_leaving().
-  void note_end(const Piece& piece) {
-    if (piece.entity.index() >= agv_count()) bodies_[piece.entity.index()].on_floor = false;
-  }
   void note_leaving(EntityId body) { bodies_[body.index()].on_floor = false; }
   bool on_floor(EntityId body) const { return bodies_[body.index()].on_floor; }
   std::size_t agv_count() const { return scenario_.agvs.size(); }

@@ -37,5 +37,17 @@ TEST_F(OnItsWay, WhereTheOperatorSetsItDownItBeginsAnew) {
   EXPECT_DOUBLE_EQ(approach_.gained_m(agv_, StationId{4U}), 4.0);
 }
 
+TEST_F(OnItsWay, AHaltOnTheWayTurnsNobodyRound) {
+  approach_.drive_begins(agv_, SegmentId{1U});
+  approach_.drive_cut_short(agv_);
+  approach_.drive_begins(agv_, SegmentId{1U});
+  approach_.drive_begins(agv_, SegmentId{2U});
+  EXPECT_DOUBLE_EQ(approach_.gained_m(agv_, StationId{4U}), 8.0);
+  approach_.drive_begins(agv_, SegmentId{2U});
+  approach_.begin_anew();
+  approach_.drive_begins(agv_, SegmentId{2U});
+  EXPECT_DOUBLE_EQ(approach_.gained_m(agv_, StationId{4U}), 4.0) << "back, and there again: none was cut short";
+}
+
 }  // namespace
 }  // namespace fleetproof::test

@@ -70,6 +70,22 @@ TEST_F(Progress, AllStandingWithoutACircleIsADeadlockOfUnknownKind) {
   EXPECT_EQ(found[1].b, EntityId{1U});
 }
 
+// Also at the very end of the run, when every piece has ended.
+TEST_F(Progress, AnObstacleIsInTheWayUntilItLeaves) {
+  scenario_ = row_scenario(6, {1, 5}, 600.0);
+  scenario_.agvs[0].transports = {{StationId{3U}, StationId{4U}, seconds(1.0)}};
+  scenario_.obstacles = {{.name = "box", .footprint = {}, .pose = {Vec2{8.0, 0.0}, Vec2::UnitX()}}};
+  for (const bool leaves : {false, true}) {
+    Told law = told();
+    released(law, 1.0, 0, 0, 3);
+    if (leaves) law.leaves(50.0, 2);
+    const auto found = law.finish(121.0).incidents;
+    ASSERT_EQ(found.size(), leaves ? 1U : 2U);
+    EXPECT_EQ(found[0].kind, Deadlock);
+    EXPECT_EQ(found.back().b, leaves ? EntityId{} : EntityId{2U});
+  }
+}
+
 TEST_F(Progress, StandingForLessThanStuckAfterIsNone) {
   Told law = told();
   both_released(law);
@@ -168,6 +184,19 @@ TEST_F(Progress, WhoIsOnALongWayHasTimeForIt) {
     EXPECT_EQ(!found.empty(), is_livelock) << finish_s;
     EXPECT_TRUE(found.empty() || found[0].kind == Livelock);
   }
+}
+
+TEST_F(Progress, AHaltOnALongWayTurnsNobodyRound) {
+  scenario_.vehicle_types[0].drive.speed_mps = 0.05;
+  Told law = told();
+  both_released(law);
+  law.begins(5.0, 0, ActivityKind::Drive, 1).ends(6.0, 0, ActivityKind::Drive, false);
+  for (std::uint64_t i = 0; i < 27; ++i) {
+    const double at_s = 10.0 + 20.0 * static_cast<double>(i);
+    law.begins(at_s, 0, ActivityKind::Drive, std::min<std::uint64_t>(i + 1, 3))
+        .ends(at_s + 5.0, 0, ActivityKind::Drive);
+  }
+  EXPECT_THAT(law.finish(545.0).incidents, IsEmpty());
 }
 
 // The same, but the AGV charges to the end in between; a charge that is cut short is no progress.
