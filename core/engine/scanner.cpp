@@ -63,12 +63,14 @@ void Scanner::wait_while_clear(AgvId agv) {
 void Scanner::stop(AgvId agv, EntityId body) {
   ++run_.counters.scanner_stops;
   run_.trace(agv, traced::ScannerStops{body});
-  if (ports_.contacts.foresees(agv, body)) ++run_.counters.scanner_saves;
+  const bool touch_ahead = ports_.contacts.foresees(agv, body);
   Slice& slice = slices_[agv.index()];
   slice.clear_since.reset();
   slice.field_m = field_length_m(agv);
   slice.field_from_m = run_.pose_now(agv).position_m;
   ports_.operator_desk.call(agv, Assist::Jam, ports_.halts.begin(agv, Halt::Reason::Scanner));
+  // A stop that comes too late saves nobody.
+  if (touch_ahead && !ports_.contacts.foresees(agv, body)) ++run_.counters.scanner_saves;
 }
 
 }  // namespace fleetproof

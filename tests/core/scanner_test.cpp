@@ -118,6 +118,18 @@ TEST(ScannerPart, ARangeBelowTheBrakingWayStopsTooLate) {
   EXPECT_TRUE(stops_too_late(1.0));
 }
 
+TEST(ScannerPart, AStopThatComesTooLateIsNoSave) {
+  for (const double range_m : {1.0, 0.0}) {
+    Scenario scenario = with_crate();
+    scenario.scanner.range_m = range_m;
+    SmallWorld world(scenario);
+    drive(world);
+    ASSERT_GT(time_of(world, true, 8.0), 0.0);
+    EXPECT_EQ(world.run.counters.scanner_stops, 1U);
+    EXPECT_EQ(world.run.counters.scanner_saves, range_m > 0.0 ? 0U : 1U);
+  }
+}
+
 TEST(ScannerPart, AStaleLookDoesNothing) {
   SmallWorld world(with_crate());
   drive(world);
