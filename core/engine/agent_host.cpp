@@ -58,14 +58,16 @@ void AgentHost::close() {
 }
 
 [[gnu::noinline]] void AgentHost::wake(AgvId agv, Slice& slice) {
-  if (slice.wake_scheduled || slice.waiting_events.empty()) return;
-  slice.wake_scheduled = true;
-  run_.queue.push(std::max(run_.now, slice.free_at), agv, Event::Kind::AgentIsFree);
+  const SimTime at = std::max(run_.now, slice.free_at);
+  if (slice.wakes_at <= at || slice.waiting_events.empty()) return;
+  slice.wakes_at = at;
+  run_.queue.push(at, agv, Event::Kind::AgentIsFree);
 }
 
 void AgentHost::becomes_free(AgvId agv) {
   Slice& slice = slices_[agv.index()];
-  slice.wake_scheduled = false;
+  if (run_.now != slice.wakes_at) return;  // of an agent that was busy before its computer went down
+  slice.wakes_at = SimTime::max();
   if (slice.failed || slice.waiting_events.empty()) return;
   if (run_.now < slice.free_at) return wake(agv, slice);  // frozen since
   fp_event event = slice.waiting_events.front();
@@ -77,6 +79,7 @@ void AgentHost::becomes_free(AgvId agv) {
 void AgentHost::freeze_until(AgvId agv, SimTime until) {
   Slice& slice = slices_[agv.index()];
   slice.free_at = std::max(slice.free_at, until);
+  slice.frozen_until = std::max(slice.frozen_until, until);
 }
 
 void AgentHost::activate(AgvId agv, Slice& slice, fp_event& event) {
@@ -177,6 +180,7 @@ void AgentHost::goes_away(AgvId agv) {
   ++slice.away;
   destroy(agv);
   slice.waiting_events.clear();
+  slice.free_at = slice.frozen_until;  // nobody thinks any more
   ports_.controller.forget(agv);
 }
 

@@ -58,10 +58,11 @@ class AgentHost {
     void* agent = nullptr;
     fp_controller* controller = nullptr;
     bool failed = false;
-    bool wake_scheduled = false;
     std::uint32_t away = 0;  // for so many reasons, one of which is that it has failed
     std::uint32_t boot = 0;
-    SimTime free_at = kStart;
+    SimTime free_at = kStart;           // it is busy or frozen until then
+    SimTime frozen_until = kStart;      // whichever agent runs there
+    SimTime wakes_at = SimTime::max();  // the next event that wakes it; or never
     SimTime last_activation = SimTime::min();
     std::uint32_t activations_at_instant = 0;
     std::uint64_t activations = 0;        // in this run

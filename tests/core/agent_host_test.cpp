@@ -79,6 +79,38 @@ TEST(AgentHostPart, IsBackWhenEveryReasonForItsAbsenceIsOver) {
   EXPECT_EQ(boot, 1U) << "one restart, whatever the number of its reasons";
 }
 
+// What it was thinking about is lost, and the agent that starts is free at once. A frozen computer is not.
+TEST(AgentHostPart, IsFreeWhenItsComputerIsBack) {
+  for (const bool frozen : {false, true}) {
+    SmallWorld world(test::row_of_tens({0}),
+                     [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+                       if (b.boot == 0) host.declare_cost_ns(c, 60'000'000'000);
+                       if (e.kind == FP_EVENT_TIMER) host.declare_cost_ns(c, 1'000'000'000);
+                     });
+    started(world);
+    auto& agents = world.parts.agents;
+    agents.tell(kFirst, timer(1));  // waits for 60 s
+    if (frozen) agents.freeze_until(kFirst, at_seconds(5.0));
+    world.clock(2.0);
+    agents.goes_away(kFirst);
+    world.heard.clear();
+    agents.comes_back(kFirst);
+    EXPECT_EQ(world.heard.size(), frozen ? 0U : 1U);
+    for (const std::uint32_t number : {1U, 2U}) agents.tell(kFirst, timer(number));
+    const auto lets_wake = [&] {
+      world.next(Event::Kind::AgentIsFree);
+      agents.becomes_free(kFirst);
+      return to_seconds(world.run.now);
+    };
+    const double back_s = frozen ? lets_wake() : 2.0;
+    EXPECT_DOUBLE_EQ(back_s, frozen ? 5.0 : 2.0);
+    EXPECT_EQ(world.heard.size(), frozen ? 1U : 2U) << "START, and the first timer if it is free";
+    EXPECT_DOUBLE_EQ(lets_wake(), frozen ? 5.0 : 3.0);
+    EXPECT_DOUBLE_EQ(lets_wake(), frozen ? 6.0 : 60.0);
+    EXPECT_EQ(timers_heard(world), (std::vector<std::uint32_t>{1, 2}));
+  }
+}
+
 TEST(AgentHostPart, AnAgentThatThrowsIsFiledAndNeverCalledAgain) {
   SmallWorld world(test::row_of_tens({0}), [](const fp_host&, fp_controller*, const fp_briefing&, const fp_event& e) {
     if (e.kind == FP_EVENT_TIMER) throw std::runtime_error("no idea");
