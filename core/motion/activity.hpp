@@ -34,17 +34,13 @@ struct ContainmentEvolution {  // pick, drop: a load passes from one holder to t
 struct BatteryEvolution {  // charge: linear in time, up to full
   double per_s = 0.0;
 };
-struct Reception {  // transmit: the message reaches the receiver's inbox when the activity ends
-  AgvId receiver;
-  std::uint32_t message = 0;
-};
 struct Standing {};  // park, settle, dock
 
 struct Activity {
   ActivityKind kind = ActivityKind::Park;
   AgvId agv;
   SimTime begin, end;  // the planned end; an activity that is cut short ends earlier, in the true state
-  std::variant<Standing, SpatialEvolution, ContainmentEvolution, BatteryEvolution, Reception> evolution;
+  std::variant<Standing, SpatialEvolution, ContainmentEvolution, BatteryEvolution> evolution;
 };
 
 }  // namespace fleetproof

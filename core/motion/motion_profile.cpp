@@ -7,7 +7,6 @@
 #include "core/base/tolerances.hpp"
 
 namespace fleetproof {
-namespace {}  // namespace
 
 MotionProfile::MotionProfile(double distance, const MotionLimits& limits, const EndSpeeds& ends)
     : distance_(distance), up_(limits.acceleration_mps2), down_(limits.deceleration_mps2), ends_(ends) {
