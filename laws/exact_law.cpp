@@ -12,7 +12,7 @@ namespace fleetproof {
 namespace {
 
 constexpr double kMeasuredBelow_m = 0.5;
-// first_below and last_below are right to a nanosecond, each from its side of a seam.
+// Of two walks that end at one seam, each from its side, each may be a nanosecond short of it.
 constexpr Duration kSeam{2};
 constexpr Duration kRiseNoticed = std::chrono::milliseconds(100);
 

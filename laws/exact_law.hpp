@@ -7,7 +7,7 @@
 namespace fleetproof {
 
 // The default law. It uses no snapshots. It follows every pair of bodies over the whole run, whether they drive, turn
-// or rest. It dates a violation to the nanosecond.
+// or rest. It dates a violation as exactly as core/clearance does: to a microsecond, on straight lines to 2 ns.
 //
 // Two pieces of two bodies are settled when the first of them ends. Both trajectories over the common interval are then
 // final, so a finding cannot become wrong later. A pair is skipped if its swept boxes are farther apart than the

@@ -19,7 +19,7 @@ namespace {
 constexpr Entry<MakeLaw> kLaws[] = {
     {"safety-distance",
      "Finds every stretch of time in which an AGV is closer than the safety distance to another body, exact to the "
-     "nanosecond and the micrometre. It does not see dips of less than 1 micrometre, and may join stretches less than "
+     "microsecond and the micrometre. It does not see dips of less than 1 micrometre, and may join stretches less than "
      "0.1 s apart.",
      make_safety_distance_law},
     {"battery",
@@ -33,8 +33,9 @@ constexpr Entry<MakeLaw> kLaws[] = {
      make_containment_law},
     {"progress",
      "Finds deadlocks (with the AGV for which each AGV waits), livelocks and starving AGVs. It looks every twelfth of "
-     "stuck_after for AGVs that have open transports and make no progress. It does not see why, and it accuses drives "
-     "that take longer than twice stuck_after.",
+     "stuck_after for AGVs that have open transports and make no progress. It does not see why. On a long way it "
+     "accuses a "
+     "livelock later.",
      make_progress_law},
     {"normal-operation",
      "Finds safe mode and standstill while the radio keeps its contract, judged every second by the last 10 s of every "
@@ -46,8 +47,7 @@ constexpr Entry<MakeLaw> kLaws[] = {
      make_congestion_law},
     {"coverage",
      "Accuses nothing. It counts what a run met: encounters of two AGVs by kind (drives no more than 10 s apart, by "
-     "their planned tracks), near misses below 0.3 m, and faults. It does not see AGVs that wait for each other "
-     "without "
+     "whole tracks), near misses below 0.3 m, and faults. It does not see AGVs that wait for each other without "
      "driving.",
      make_coverage_law},
     {"faults",

@@ -10,9 +10,8 @@ namespace fleetproof {
 // at every whole second.
 //
 // - Safe mode: accuses an AGV that declares safe mode while every link to it has kept the contract, without a break,
-// for
-//   longer than scenario.law.reaction_s. A link is judged by its last 10 s (link_quality.hpp).
-// - Standstill: accuses a fleet with open transports in which no AGV has driven, turned, picked or dropped for
+//   for longer than scenario.law.reaction_s. A link is judged by its last 10 s (link_quality.hpp).
+// - Standstill: accuses a fleet with open transports in which no AGV has driven, turned, picked, dropped or charged for
 //   stuck_after, while all links of all AGVs kept the contract.
 // - Throughput: accuses a fleet that finished fewer transports per AGV-hour than
 //   scenario.law.min_transports_per_agv_hour, if this floor is above 0 and transports were open at the end. All links

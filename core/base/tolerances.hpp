@@ -9,7 +9,7 @@ namespace fleetproof {
 // or verdict: a change is a change of results.
 //
 // Scale: a double holds a coordinate of 1 km to 1e-13 m, the distance of two rectangles is exact to 1e-12 m, the first
-// instant below a level to 1 microsecond (2e-6 m at 2 m/s).
+// instant below a level to 1 microsecond (2e-6 m at 2 m/s), on straight lines to 2 ns.
 //
 // Not here: sizes that a user may know as a rule (kNearMiss_m, kHazardousSpeed_um_s), steps of a numerical method that
 // changes no result, and the tolerances of core/agents, which share nothing with the judge on purpose.

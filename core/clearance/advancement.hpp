@@ -12,8 +12,8 @@ struct Hit {
   Separation apart;
 };
 
-// Exact: the first instant, to one nanosecond. Rough: an instant soon after it, for callers that only need to know
-// whether there is one.
+// Exact: the first instant, as exactly as first_below() says. Rough: an instant soon after it, for callers that only
+// need to know whether there is one.
 enum class Dating { Exact, Rough };
 
 // Walks through time from `from` to `to`, forward or backward, by directional conservative advancement. Returns the

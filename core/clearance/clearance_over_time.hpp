@@ -26,8 +26,8 @@ struct EvaluationCount {
 
 // First instant in the interval at which the clearance is below `level_m`, by directional conservative advancement:
 // with the direction of the closest points held fixed, the gap along it bounds the clearance from below, so the jump to
-// where that bound meets the level skips nothing. Never late by more than one nanosecond; dips less than one nanometre
-// below the level may go unreported.
+// where that bound meets the level skips nothing. The instant is exact to a microsecond (on straight lines 2 ns), or
+// the clearance there is within 1 nm of the level. Dips of less than 1 nm below the level may go unreported.
 std::optional<SimTime> first_below(const Piece& a, const Piece& b, Interval within, double level_m,
                                    EvaluationCount& count);
 

@@ -79,9 +79,9 @@ class EventQueue {
   // Requires: there is an event.
   Event pop();
 
-  // The same in two steps, which spares an arrival from becoming an event.
-  // Whether the next event stands in the lane. Arrivals of an instant are put in order when it is their turn: by then,
-  // none can be added to them.
+  // The same in two steps. It costs less, because an arrival does not become an event.
+  // Whether the next event is an arrival in the lane. The arrivals of one instant are sorted when the run reaches that
+  // instant. While some of them are left, no further one joins them.
   bool arrival_comes_first() {
     if (lane_.empty() || filed_at_ < lane_.front().at) return false;
     if (opened_ == 0) open_instant();

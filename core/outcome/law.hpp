@@ -82,23 +82,26 @@ class TraceSource {
 // law cannot change the world or the trace.
 //
 // `happened` is called for records of the kinds in `reads`, and for no others: a record that no law reads costs
-// nothing. If a record causes a piece at the same instant, the piece is announced first.
+// nothing. Order at one instant: a record comes before the pieces that follow from it, such as the piece of a body that
+// appears, or of an AGV that a load makes larger. It is the other way round for ActivityBegins and ActivityEnds, and
+// for Appears and Leaves of an AGV: there, the pieces come first. But if an AGV rolls through a station, ActivityEnds
+// comes before the end of the piece.
 //
 // The pieces of a body are contiguous while the body is on the floor. An obstacle is there from its appearance until it
 // leaves. An AGV is there from kStart to the end of the run, except between `Leaves` and `Appears`, when the operator
 // carries it to another place. A piece is announced when it begins, with its planned end, and again when it ends, with
-// its true end. It stays where the law was told of it until the next piece of the body begins; a law may keep pointing
-// at it. Pieces that end at the same instant are announced one after the other. At the end of the run, all open
-// pieces are ended first. Then `finish` is called once.
+// its true end. The object stays at its address until the next piece of the body begins; a law may keep a pointer to
+// it. Pieces that end at the same instant are announced one after the other. At the end of the run, all pieces that are
+// under way end, although their bodies stay on the floor: no record says `Leaves`. Then `finish` is called once.
 class Law {
  public:
   virtual ~Law() = default;
   // How far from a piece the law looks for other bodies, from planned box to planned box: nearer ones are its company.
   // Called before the run. 0: it does not look.
   virtual double looks_within_m() const { return 0.0; }
-  // A piece is over that has company now: pieces of other bodies that are under way, in ascending order of bodies. All
-  // that are as near as the law looks are among them, and perhaps some that are farther. Two pieces that come near each
-  // other are told of once, when the first of them is over. Called before `piece_ended`.
+  // A piece ends, and other bodies are near it. `others` are the pieces of these bodies that are under way, in
+  // ascending order of bodies: all that are as near as the law looks, and perhaps some that are farther. So the law
+  // hears of two pieces near each other once, when the first of them ends. Called before `piece_ended`.
   virtual void had_company(const Piece& piece, std::span<const Piece* const> others) { (void)piece, (void)others; }
   // Whether the law is told when a piece begins, and when one ends. Some laws need neither, and some only where a body
   // is now. Called once, before the run.

@@ -15,8 +15,8 @@ namespace fleetproof {
 // Losses that come in outages: a process in time with two states, independent of traffic. In the good state, a message
 // is lost with probability loss_good; in an outage, with loss_bad. Outages take the share of time that makes the
 // long-run loss exactly the nominal loss:
-//   bad share = (loss - loss_good) / (loss_bad - loss_good), mean good sojourn = mean_outage_s (1 - bad share) / bad
-//   share.
+//   bad share = (loss - loss_good) / (loss_bad - loss_good),
+//   mean good sojourn = mean_outage_s (1 - bad share) / bad share.
 // If the nominal loss is loss_good or less, there are no outages and losses are independent. If it is loss_bad or more,
 // the outage never ends.
 struct OutageSetup {

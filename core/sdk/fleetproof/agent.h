@@ -212,11 +212,11 @@ typedef struct fp_host {
   int32_t (*stop)(fp_controller*);
   int32_t (*go_on)(fp_controller*);
 
-  /* Since minor 2. Notes for people who look at a trace. A note changes nothing and takes no simulated time; if nobody
-     traces, it is ignored. Notes do not count as calls and return nothing. A trace keeps the first 1 000 notes of an
-     activation, and 64 bytes of each text. */
+  /* Since minor 2. Notes for people who look at a trace. A note changes nothing (but see `describe`) and takes no
+     simulated time; if nobody traces, it is ignored. Notes do not count as calls and return nothing. A trace keeps the
+     first 1 000 notes of an activation, and 64 bytes of each text. */
   /* The next message of this activation: its kind, e.g. "GRANT". What follows ": " is its content, for readers, and no
-     part of the kind: "GRANT: answers 7". */
+     part of the kind: "GRANT: answers 7". A scenario may name kinds that its radio neither loses nor delays. */
   void (*describe)(fp_controller*, const char* kind);
   void (*declare_state)(fp_controller*, const char* state); /* what the agent does, in its own word, e.g. "waiting" */
   /* Where another AGV was at `as_of_ns`, as far as the agent knows. Heading (0, 0): not known. */
