@@ -118,6 +118,7 @@ void add_tally(Json& json, const Tally& tally) {
   json["indeterminate_runs"] = tally.indeterminate_runs;
   json["engine_error_runs"] = tally.engine_error_runs;
   json["unknown_runs"] = tally.unknown_runs;
+  json["clearance_unmeasured_runs"] = tally.unmeasured_runs;
   json["min_clearance_m"] = metres(tally.min_clearance_um);
   json["min_clearance_um"] = maybe(tally.min_clearance_um);
   json["transports_done"] = tally.transports_done;

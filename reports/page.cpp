@@ -107,8 +107,10 @@ Section method_section(const ReportInput& input) {
   }
   add(fmt::format(
       "A violation is a clearance below the minimal safety distance (0.10 m unless the scenario says otherwise). "
-      "Clearances are rounded down to 1 cm; \"> 0.5 m\" means that the clearance was never below 0.5 m. The contract "
-      "region is loss <= {} and delay <= {:g} s. Outside it, standing still is legal, and a violation remains a "
+      "Clearances are rounded down to 1 cm; \"> 0.5 m\" means that no measured clearance was below 0.5 m, and \"-\" "
+      "that none was measured: the simulator met an error, or it is not known what happened after a crash. The "
+      "contract region is loss <= {} and delay <= {:g} s. Outside it, standing still is legal, and a violation remains "
+      "a "
       "violation.",
       percent(kContractLoss), kContractDelay_s));
   return section;

@@ -75,7 +75,7 @@ std::string metres_text(std::int64_t value_um) {
 std::string clearance_text(const Tally& tally) {
   // Lanes built to the limit: the judge forgives rounding by a micrometre, and so does this text.
   if (tally.min_clearance_um) return metres_text(*tally.min_clearance_um + kSlack_um);
-  if (tally.runs == 0) return "-";
+  if (tally.runs == tally.unmeasured_runs) return "-";
   return tally.contact_runs > 0 ? "contact" : "> 0.5 m";
 }
 

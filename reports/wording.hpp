@@ -29,7 +29,7 @@ std::string factor_spans(const FactorValues& lowest, const FactorValues& highest
 // A distance that a plan states: hundredths of a metre, or all its digits if it has more.
 std::string distance_text(double value_m);
 std::string metres_text(std::int64_t value_um);
-// "> 0.5 m" if no clearance was below 0.5 m, "-" without runs.
+// "> 0.5 m" if no measured clearance was below 0.5 m, "-" if none was measured.
 std::string clearance_text(const Tally& tally);
 inline constexpr std::int64_t kSlack_um = 1;  // of clearances that are not violations: kBuiltToTheLimit_m
 std::string per_hour_text(const std::optional<double>& rate);

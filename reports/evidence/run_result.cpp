@@ -150,4 +150,8 @@ TimeAtRisk time_at_risk(const Outcome& outcome, EndPoint end_point, RunResult re
   return {until(findings.earliest()), until(findings.latest())};
 }
 
+bool has_measured_clearance(const Outcome& outcome) {
+  return outcome.min_clearance_um || (!outcome.engine_error && outcome.simulated_ns > 0);
+}
+
 }  // namespace fleetproof

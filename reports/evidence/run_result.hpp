@@ -27,4 +27,8 @@ struct TimeAtRisk {
 // Requires: `result` is result_of(outcome, end_point).
 TimeAtRisk time_at_risk(const Outcome& outcome, EndPoint end_point, RunResult result);
 
+// An error of the simulator leaves the clearance unmeasured, and so does a crash after which nothing is known. In other
+// runs, an absent clearance was never below 0.5 m.
+bool has_measured_clearance(const Outcome& outcome);
+
 }  // namespace fleetproof

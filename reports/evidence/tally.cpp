@@ -21,14 +21,16 @@ Tally Tally::of(const Outcome& outcome, RunResult violation) {
   one.agv_us = outcome.simulated_ns / 1000 * outcome.agv_count;
   one.longest_ns = outcome.simulated_ns;
   one.agvs = outcome.agv_count;
+  one.unmeasured_runs = has_measured_clearance(outcome) ? 0 : 1;
   one.min_clearance_um = outcome.min_clearance_um;
   return one;
 }
 
 void Tally::add(const Tally& other) {
-  for (const auto count : {&Tally::runs, &Tally::violating_runs, &Tally::contact_runs, &Tally::hazardous_contact_runs,
-                           &Tally::stuck_runs, &Tally::crash_runs, &Tally::hang_runs, &Tally::indeterminate_runs,
-                           &Tally::engine_error_runs, &Tally::unknown_runs, &Tally::transports_done, &Tally::agv_us}) {
+  for (const auto count :
+       {&Tally::runs, &Tally::violating_runs, &Tally::contact_runs, &Tally::hazardous_contact_runs, &Tally::stuck_runs,
+        &Tally::crash_runs, &Tally::hang_runs, &Tally::indeterminate_runs, &Tally::engine_error_runs,
+        &Tally::unknown_runs, &Tally::unmeasured_runs, &Tally::transports_done, &Tally::agv_us}) {
     this->*count += other.*count;
   }
   longest_ns = std::max(longest_ns, other.longest_ns);

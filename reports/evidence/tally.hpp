@@ -18,9 +18,10 @@ struct Tally {
                 indeterminate_runs = 0, engine_error_runs = 0;
   std::uint64_t unknown_runs = 0;  // runs that ended early without a violation before
   std::uint64_t transports_done = 0;
-  std::uint64_t agv_us = 0;      // AGVs x simulated time
-  std::uint64_t longest_ns = 0;  // of one run
-  std::uint32_t agvs = 0;        // the largest fleet
+  std::uint64_t agv_us = 0;           // AGVs x simulated time
+  std::uint64_t longest_ns = 0;       // of one run
+  std::uint32_t agvs = 0;             // the largest fleet
+  std::uint64_t unmeasured_runs = 0;  // runs without a measured clearance
   std::optional<std::int64_t> min_clearance_um;
 
   // Of one run. `violation`: what it says about the end point Violation, which its reader asks for more than once.

@@ -73,7 +73,10 @@ CsvTable runs_table() {
   add_run_columns(table.columns);
   add(table.columns, "outcome_class", "none", "the worst end point of the run");
   for (const Flag& flag : kFlags) add(table.columns, flag.name, "0/1", flag.meaning);
-  add(table.columns, "min_clearance_um", "um", "smallest clearance, rounded down; empty: never below 0.5 m");
+  add(table.columns, "min_clearance_um", "um",
+      "smallest clearance, rounded down; empty: not measured if engine_error is 1 or simulated_ns is 0, otherwise "
+      "never "
+      "below 0.5 m");
   add(table.columns, "first_cause", "none", "what went wrong first; empty: nothing");
   add(table.columns, "before_first_cause", "none", "what the scenario had done to the bodies involved before");
   add(table.columns, "simulated_ns", "ns", "simulated time");

@@ -48,14 +48,19 @@ void add_tail_row(Table& table, const std::string& agent, const char* region, co
                                std::to_string(counts.contact)};
   for (const std::size_t limit_cm : {5U, 10U, 11U, 15U, 20U, 50U})
     row.push_back(std::to_string(counts.closer_than(limit_cm)));
-  row.push_back(std::to_string(counts.farther));
+  for (const std::uint64_t count : {counts.farther, counts.unmeasured}) row.push_back(std::to_string(count));
   table.rows.push_back(std::move(row));
+}
+
+std::string unmeasured_text(const ClearanceCounts& counts) {
+  return counts.unmeasured > 0 ? fmt::format(", {} not measured", counts.unmeasured) : "";
 }
 
 Table tail_columns() {
   Table table;
   table.columns = {{"agent", false}, {"region", false}, {"runs"}, {"contact"}};
-  for (const auto* head : {"< 0.05 m", "< 0.10 m", "< 0.11 m", "< 0.15 m", "< 0.20 m", "< 0.50 m", "farther"})
+  for (const auto* head :
+       {"< 0.05 m", "< 0.10 m", "< 0.11 m", "< 0.15 m", "< 0.20 m", "< 0.50 m", "farther", "not measured"})
     table.columns.push_back({head});
   return table;
 }
@@ -144,7 +149,9 @@ Element clearance_part(const ReportInput& input, const CampaignFigures& figures)
   Element part = titled("How close the bodies came");
   part.add(paragraph(
       "Each run counts once, with its smallest clearance; the leftmost bar holds the runs with a contact. Heights are "
-      "logarithmic. A clearance above 0.5 m is not measured. A judge of safety looks at the lower tail: runs that only "
+      "logarithmic. Clearances above 0.5 m are not told apart. A run is \"not measured\" if the simulator met an "
+      "error, or if "
+      "it is not known what happened after a crash. A judge of safety looks at the lower tail: runs that only "
       "just keep the distance are close to failing."));
   const double safety_distance = safety_distance_m(input.campaign.plan_json).value_or(kDefaultSafetyDistance_m);
   Table tail = tail_columns();
@@ -159,8 +166,8 @@ Element clearance_part(const ReportInput& input, const CampaignFigures& figures)
       const char* region = inside ? "contract" : "beyond contract";
       add_tail_row(tail, agent, region, counts);
       if (charts++ >= kMostAgents) continue;
-      const auto caption = fmt::format("Agent {}, {}: {}, {} never closer than 0.5 m", printable(agent, 40), region,
-                                       count_text(counts.runs(), "run"), counts.farther);
+      const auto caption = fmt::format("Agent {}, {}: {}, {} never closer than 0.5 m{}", printable(agent, 40), region,
+                                       count_text(counts.runs(), "run"), counts.farther, unmeasured_text(counts));
       row.add(figure_of(caption, draw(clearance_chart(counts, caption, safety_distance))));
     }
   }

@@ -17,7 +17,7 @@ void ClearanceCounts::add(const Outcome& outcome) {
   if (outcome.contact) {
     ++contact;
   } else if (!outcome.min_clearance_um) {
-    ++farther;
+    ++(has_measured_clearance(outcome) ? farther : unmeasured);
   } else {
     const auto step = std::max<std::int64_t>(*outcome.min_clearance_um + 1, 0) / kStep_um;
     if (step < static_cast<std::int64_t>(kSteps)) {
@@ -28,7 +28,7 @@ void ClearanceCounts::add(const Outcome& outcome) {
   }
 }
 
-std::uint64_t ClearanceCounts::runs() const { return farther + closer_than(kSteps); }
+std::uint64_t ClearanceCounts::runs() const { return farther + unmeasured + closer_than(kSteps); }
 
 std::uint64_t ClearanceCounts::closer_than(std::size_t centimetres) const {
   const auto end = steps.begin() + static_cast<std::ptrdiff_t>(std::min(centimetres, kSteps));

@@ -18,7 +18,7 @@ namespace fleetproof::html {
 struct ClearanceCounts {
   static constexpr std::size_t kSteps = 50;  // of 1 cm, from 0 to 0.5 m
   std::array<std::uint64_t, kSteps> steps{};
-  std::uint64_t contact = 0, farther = 0;  // touched; never closer than 0.5 m
+  std::uint64_t contact = 0, farther = 0, unmeasured = 0;  // touched; never closer than 0.5 m; no clearance known
   void add(const Outcome& outcome);
   std::uint64_t runs() const;
   std::uint64_t closer_than(std::size_t centimetres) const;

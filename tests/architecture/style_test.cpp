@@ -38,6 +38,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"campaign/batch/task_pool.cpp TaskPool::Impl", "two threads' sides of one pool, under one mutex"},
     {"generators/worlds/drawn_faults.hpp FaultRates", "plain data: one number for each kind of fault"},
     {"laws/progress_law.cpp ProgressLaw", "one number for each end point that the law judges"},
+    {"reports/evidence/tally.hpp Tally", "plain figures: one number for each kind of run that is counted"},
     {"reports/evidence/evidence.hpp Evidence", "plain figures of one campaign, counted in one pass"},
     {"reports/web/film.hpp Film", "plain data: everything that a replay page shows"},
     {"tests/agents/fake_warehouse.hpp FakeWarehouse", "stands in for the whole C table of a controller"},

@@ -9,6 +9,7 @@ KINDS = {1: "battery-empty", 2: "channel-saturated", 3: "interference-losses", 4
          9: "load-moved-by-nobody", 10: "deadlock", 11: "waits", 12: "waits-inferred", 13: "livelock",
          14: "starvation", 15: "safe-mode-in-contract", 16: "standstill-in-contract", 17: "throughput-below-floor",
          18: "fault-injected", 19: "foreign-body"}
+UNMEASURED = "(min_clearance_um IS NULL AND (engine_error OR simulated_ns = 0))"  # no clearance is known
 EARLY = "(crash OR hang OR indeterminate OR engine_error)"
 
 NEVER = 2**62
@@ -183,6 +184,7 @@ class Archive:
             f"SELECT count(*) AS runs, coalesce(sum(({END_POINTS['violation'][0]}) = 1), 0) AS violating, "
             "coalesce(sum(contact), 0) AS contact, coalesce(sum(stuck), 0) AS stuck, "
             "coalesce(sum(crash) + sum(hang), 0) AS ended, min(min_clearance_um) AS closest_um, "
+            f"coalesce(sum({UNMEASURED}), 0) AS unmeasured, "
             "coalesce(sum(transports_done), 0) AS done, coalesce(sum(simulated_ns / 1000 * agv_count), 0) AS agv_us, "
             "coalesce(sum(safe_mode_ns), 0) AS safe_mode_ns, coalesce(sum(simulated_ns * agv_count), 0) AS all_ns, "
             "coalesce(max(simulated_ns), 0) AS longest_ns "

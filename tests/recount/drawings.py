@@ -4,6 +4,7 @@ from math import ceil, log, log1p
 
 import wording as w
 from bounds import log_gate, beta_cdf
+from counts import UNMEASURED
 from tables import share
 
 
@@ -114,12 +115,15 @@ def clearance_bars(archive):
     for agent in archive.agents:
         for inside, region in ((1, "contract"), (0, "beyond contract")):
             rows = archive.all(
-                "SELECT CASE WHEN contact THEN -1 WHEN min_clearance_um IS NULL OR min_clearance_um + 1 >= 500000 THEN "
-                "99 ELSE max(min_clearance_um + 1, 0) / 10000 END AS step, count(*) AS runs FROM runs r JOIN cells "
+                f"SELECT CASE WHEN contact THEN -1 WHEN {UNMEASURED} THEN 98 WHEN min_clearance_um IS NULL OR "
+                "min_clearance_um + 1 >= 500000 THEN 99 ELSE max(min_clearance_um + 1, 0) / 10000 END AS step, count(*) AS runs FROM runs r JOIN cells "
                 "USING (cell) WHERE agent = ? AND (r.loss <= 0.4 AND r.delay_s <= 2.0) = ? AND run_index < ? GROUP BY 1 "
                 "ORDER BY 1", agent, inside, archive.runs)
-            runs, far = sum(row["runs"] for row in rows), sum(row["runs"] for row in rows if row["step"] == 99)
-            if runs:
-                label = f"Agent {agent}, {region}: {w.count(runs, 'run')}, {far} never closer than 0.5 m"
-                bars[label] = [f"{row['runs']} runs" for row in rows if row["step"] != 99]
+            steps = {row["step"]: row["runs"] for row in rows}
+            if steps:
+                far, unmeasured = steps.pop(99, 0), steps.pop(98, 0)
+                runs = sum(steps.values()) + far + unmeasured
+                label = f"Agent {agent}, {region}: {w.count(runs, 'run')}, {far} never closer than 0.5 m" + (
+                    f", {unmeasured} not measured" if unmeasured else "")
+                bars[label] = [f"{count} runs" for count in steps.values()]
     return bars

@@ -3,7 +3,7 @@ from collections import defaultdict
 
 import wording as w
 from bounds import bounds
-from counts import KINDS
+from counts import KINDS, UNMEASURED
 
 CONTRACT = "loss <= 40 %, delay <= 2 s"
 WHERE = {"contract": CONTRACT, "worst-case": "loss 40 %, delay 2 s", "all": "all cells"}
@@ -163,9 +163,9 @@ def clearance_rows(archive):
             closer = ", ".join(f"sum(contact OR (min_clearance_um IS NOT NULL AND min_clearance_um + 1 < {limit}))"
                                for limit in (50000, 100000, 110000, 150000, 200000, 500000))
             found = archive.one(
-                f"SELECT count(*), sum(contact), {closer} FROM runs r JOIN cells USING (cell) WHERE agent = ? AND "
+                f"SELECT count(*), sum(contact), {closer}, sum(NOT contact AND {UNMEASURED}) FROM runs r JOIN cells USING (cell) WHERE agent = ? AND "
                 "(r.loss <= 0.4 AND r.delay_s <= 2.0) = ? AND run_index < ?", agent, inside, archive.runs)
             if found[0]:
                 rows[agent, bool(inside)] = [agent, "contract" if inside else "beyond contract"] + [
-                    str(number) for number in found] + [str(found[0] - found[7])]
+                    str(number) for number in found[:8]] + [str(found[0] - found[7] - found[8]), str(found[8])]
     return list(rows.values())

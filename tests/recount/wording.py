@@ -60,7 +60,7 @@ def metres(value_um):
 def closest(tally):
     if tally["closest_um"] is not None:
         return metres(tally["closest_um"])
-    if tally["runs"] == 0:
+    if tally["runs"] == tally["unmeasured"]:
         return "-"
     return "contact" if tally["contact"] > 0 else "> 0.5 m"
 

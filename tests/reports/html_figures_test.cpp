@@ -27,6 +27,7 @@ TEST(Markup, writes_numbers_with_one_decimal) {
 
 Outcome at_clearance(std::optional<std::int64_t> clearance_um) {
   Outcome outcome;
+  outcome.simulated_ns = 600'000'000'000;
   outcome.min_clearance_um = clearance_um;
   return outcome;
 }
@@ -45,6 +46,17 @@ TEST(ClearanceCounts, have_a_step_for_each_centimetre) {
   EXPECT_EQ(counts.closer_than(1), 3u);
   EXPECT_EQ(counts.closer_than(10), 5u);  // 0.099999 m keeps the distance of 0.10 m
   EXPECT_EQ(counts.closer_than(50), 8u);
+}
+
+TEST(ClearanceCounts, keep_runs_apart_whose_clearance_is_not_known) {
+  ClearanceCounts counts;
+  Outcome engine_error = at_clearance(std::nullopt), unexplained;
+  engine_error.engine_error = true;
+  unexplained.crash = true;
+  for (const Outcome& outcome : {engine_error, unexplained, at_clearance(std::nullopt)}) counts.add(outcome);
+  EXPECT_EQ(counts.unmeasured, 2u);
+  EXPECT_EQ(counts.farther, 1u);
+  EXPECT_EQ(counts.runs(), 3u);
 }
 
 TEST(CampaignFigures, follow_the_bound_as_it_falls) {

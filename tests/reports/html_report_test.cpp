@@ -121,6 +121,13 @@ TEST(HtmlReport, a_worst_run_outside_the_contract_is_called_so) {
   EXPECT_THAT(page_at(0.4), Not(HasSubstr("(outside the contract)</p>")));
 }
 
+TEST(HtmlReport, a_clearance_that_was_not_measured_is_not_called_large) {
+  const auto page = Archive(campaign_of("claim", 4), grid({"sound"}, {0.4}, {2.0}), gates(), 4, [](RunRecord& run) {
+                      run.outcome.engine_error = run.run_index == 2;
+                    }).page();
+  EXPECT_THAT(page, HasSubstr("Agent sound, contract: 4 runs, 3 never closer than 0.5 m, 1 not measured<"));
+}
+
 // Texts of the fields of the map with this label, without the names of its axes.
 std::vector<std::string> field_texts(const pugi::xml_document& page, const std::string& label) {
   std::vector<std::string> texts;

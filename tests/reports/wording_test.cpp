@@ -21,5 +21,28 @@ TEST(Wording, DistancesOfAPlanKeepAllTheirDigits) {
   EXPECT_EQ(distance_text(1.0), "1.00 m");
 }
 
+Tally tally_of(const Outcome& outcome) { return Tally::of(outcome, result_of(outcome, EndPoint::Violation)); }
+
+TEST(Wording, AClearanceThatWasNotMeasuredIsNotCalledLarge) {
+  Outcome far, engine_error, unexplained;
+  far.simulated_ns = engine_error.simulated_ns = 600'000'000'000;
+  engine_error.engine_error = true;
+  unexplained.crash = true;  // nothing is known of it, its time neither
+  EXPECT_EQ(clearance_text(Tally{}), "-");
+  EXPECT_EQ(clearance_text(tally_of(far)), "> 0.5 m");
+  EXPECT_EQ(clearance_text(tally_of(engine_error)), "-");
+  EXPECT_EQ(clearance_text(tally_of(unexplained)), "-");
+  Tally all = tally_of(engine_error);
+  all.add(tally_of(unexplained));
+  EXPECT_EQ(clearance_text(all), "-");
+  all.add(tally_of(far));
+  EXPECT_EQ(clearance_text(all), "> 0.5 m");
+  Outcome near = unexplained;
+  near.min_clearance_um = 340'000;
+  all.add(tally_of(near));
+  EXPECT_EQ(clearance_text(all), "0.34 m");
+  EXPECT_EQ(all.unmeasured_runs, 2U);
+}
+
 }  // namespace
 }  // namespace fleetproof
