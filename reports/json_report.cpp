@@ -1,10 +1,12 @@
 #include "reports/json_report.hpp"
 
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 
 #include "reports/condition_table.hpp"
 #include "reports/coverage_section.hpp"
+#include "reports/evidence/exposure.hpp"
 #include "reports/sample_sentence.hpp"
 #include "reports/verdict_sentences.hpp"
 #include "reports/weak_points.hpp"
@@ -26,12 +28,23 @@ Json metres(const std::optional<std::int64_t>& value_um) {
   return value_um ? Json(static_cast<double>(*value_um) / 1e6) : Json(nullptr);
 }
 
-Json estimate_json(const std::optional<Estimate>& estimate) {
+// A bound per AGV-hour is infinite as long as there are events and no time.
+Json finite(double bound) { return std::isfinite(bound) ? Json(bound) : Json(nullptr); }
+
+Json estimate_json(const std::optional<Estimate>& estimate, GateUnit unit) {
   if (!estimate) return nullptr;
-  return {
-      {"units", estimate->units},        {"failing", estimate->failing},
-      {"rate", maybe(estimate->rate())}, {"lower_bound", estimate->lower},
-      {"upper_bound", estimate->upper},  {"interval_95", {estimate->interval_95.lower, estimate->interval_95.upper}}};
+  return {{"units", estimate->units},
+          {"agv_hours", unit == GateUnit::AgvHour ? Json(agv_hours(estimate->units)) : Json(nullptr)},
+          {"failing", estimate->failing},
+          {"rate", maybe(estimate->rate())},
+          {"lower_bound", estimate->lower},
+          {"upper_bound", finite(estimate->upper)},
+          {"interval_95", {estimate->interval_95.lower, finite(estimate->interval_95.upper)}}};
+}
+
+Json agv_hours_needed(const GateRecord& gate, const GateResult& result) {
+  if (gate.unit != GateUnit::AgvHour || !result.units_needed) return nullptr;
+  return agv_hours(*result.units_needed);
 }
 
 void add_factors(Json& json, std::string_view FactorInfo::*key, const FactorValues& values) {
@@ -198,11 +211,12 @@ Json gate_json(const ReportInput& input, std::size_t index) {
                {"unit", result.unit},
                {"weak", !result.missing.empty()},
                {"missing_probes", missing_json(result.missing)},
-               {"claim", estimate_json(result.claim)},
-               {"optimistic", estimate_json(result.optimistic)},
+               {"claim", estimate_json(result.claim, gate.unit)},
+               {"optimistic", estimate_json(result.optimistic, gate.unit)},
                {"failing_runs", result.counts.failing_runs},
                {"transports_per_agv_hour", maybe(result.counts.transports_per_agv_hour)},
                {"units_needed", maybe(result.units_needed)},
+               {"agv_hours_needed", agv_hours_needed(gate, result)},
                {"cells", cells},
                {"sampled", cells.empty() ? Json(nullptr) : Json(sampled(input.evidence, cells))},
                {"worst_run", failing_run_json(input, result.worst)}});
@@ -224,8 +238,8 @@ Json condition_json(const ReportInput& input, const Condition& condition) {
     json["unit"] = pool.cells.size() == 1 ? "runs" : "worlds";
     json["confidence"] = rule.confidence;
     json["method"] = name_of(rule.method);
-    json["claim"] = estimate_json(estimate(rule, pool.failing_or_unknown, pool.units));
-    json["optimistic"] = estimate_json(estimate(rule, pool.failing, pool.units));
+    json["claim"] = estimate_json(estimate(rule, pool.failing_or_unknown, pool.units), rule.unit);
+    json["optimistic"] = estimate_json(estimate(rule, pool.failing, pool.units), rule.unit);
   }
   json["worst_run"] = failing_run_json(input, condition.worst);
   return json;
@@ -239,8 +253,8 @@ Json one_cell_json(const ReportInput& input, const CellRecord& cell) {
     const GateRecord rule = bound_rule(input.evidence, cell.agent);
     json["confidence"] = rule.confidence;
     json["method"] = name_of(rule.method);
-    json["claim"] = estimate_json(estimate(rule, tally.violating_runs + tally.unknown_runs, tally.runs));
-    json["optimistic"] = estimate_json(estimate(rule, tally.violating_runs, tally.runs));
+    json["claim"] = estimate_json(estimate(rule, tally.violating_runs + tally.unknown_runs, tally.runs), rule.unit);
+    json["optimistic"] = estimate_json(estimate(rule, tally.violating_runs, tally.runs), rule.unit);
   }
   return json;
 }

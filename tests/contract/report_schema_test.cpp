@@ -90,6 +90,7 @@ TEST_F(ReportSchema, FitsClaimsSearchesAndWhatIsIncomplete) {
        {std::tuple{"claim", "\"reckless\", \"hull-lock\"", "[faults]\nload_drops_per_transport = 0.5\n"},
         {"claim", "\"reckless\"",
          "[[gate]]\nagent = \"reckless\"\nfleet_size = 4\nloss = 0.5\ndelay_s = 2\nmean_outage_s = 0\n"},
+        {"claim", "\"reckless\"", "[[gate]]\nagent = \"reckless\"\nunit = \"agv-hour\"\nlimit = 0.001\n"},
         {"claim", "\"timeout-grant\"", "[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 2\n"},
         {"search", "\"reckless\"", ""}}) {
     campaign(kind, agents, more);
