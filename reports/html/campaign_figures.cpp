@@ -1,6 +1,7 @@
 #include "reports/html/campaign_figures.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -75,21 +76,20 @@ void CampaignFigures::finish_replicate(const Evidence& evidence) {
 void CampaignFigures::record_bounds(const Evidence& evidence) {
   const auto& gates = evidence.gates();
   bounds_.resize(gates.size());
+  recorded_at_ = evidence.complete_replicates();
   std::size_t followed = 0;
   for (std::size_t i = 0; i < gates.size() && followed < kMostCurves; ++i) {
     if (!gates[i].decides || gates[i].method != GateMethod::AnyTime || evidence.cells_of(i).empty()) continue;
     ++followed;
     const GateResult result = evidence.judge(i);
-    if (result.claim) bounds_[i].push_back({evidence.complete_replicates(), result.claim->upper});
+    // A bound per AGV-hour is infinite as long as there are events and no time.
+    if (result.claim && std::isfinite(result.claim->upper)) bounds_[i].push_back({recorded_at_, result.claim->upper});
   }
 }
 
 void CampaignFigures::finish(const Evidence& evidence) {
   bounds_.resize(evidence.gates().size());
-  const auto is_last = [&](const std::vector<BoundPoint>& curve) {
-    return curve.empty() || curve.back().replicates == evidence.complete_replicates();
-  };
-  if (!std::ranges::all_of(bounds_, is_last)) record_bounds(evidence);
+  if (recorded_at_ != evidence.complete_replicates()) record_bounds(evidence);
 }
 
 std::optional<double> CampaignFigures::safe_mode_share(const std::vector<std::uint32_t>& cells) const {

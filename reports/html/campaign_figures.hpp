@@ -54,7 +54,7 @@ class CampaignFigures {
   void finish(const Evidence& evidence);
 
   const std::map<std::string, AgentFigures>& agents() const { return agents_; }
-  const std::vector<std::vector<BoundPoint>>& bounds() const { return bounds_; }  // by gate; empty: no falling bound
+  const std::vector<std::vector<BoundPoint>>& bounds() const { return bounds_; }  // by gate; finite ones
   // Safe mode divided by all time, over AGVs and complete replicates; absent without any time.
   std::optional<double> safe_mode_share(const std::vector<std::uint32_t>& cells) const;
 
@@ -67,8 +67,8 @@ class CampaignFigures {
 
   std::map<std::string, AgentFigures> agents_;
   std::vector<std::vector<BoundPoint>> bounds_;
-  std::vector<Time> time_, pending_time_;  // by cell
-  std::uint64_t next_record_ = 1;          // replicates
+  std::vector<Time> time_, pending_time_;            // by cell
+  std::uint64_t next_record_ = 1, recorded_at_ = 0;  // replicates
 };
 
 }  // namespace fleetproof::html

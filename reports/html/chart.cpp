@@ -75,6 +75,7 @@ Axis axis_of(const CurveChart& chart, bool of_y) {
   bool first = true;
   const auto take = [&](double value) {
     const double at = axis.logarithmic ? std::log10(value) : value;
+    if (!std::isfinite(at)) return;  // an axis without an end has no marks
     axis.low = first ? at : std::min(axis.low, at);
     axis.high = first ? at : std::max(axis.high, at);
     first = false;

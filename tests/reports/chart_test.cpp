@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <pugixml.hpp>
 #include <set>
 #include <sstream>
+
+#include "core/base/error.hpp"
 
 namespace fleetproof::html {
 namespace {
@@ -84,6 +87,15 @@ TEST(CurveChart, numbers_of_close_ends_do_not_cover_each_other) {
   ASSERT_EQ(numbers.size(), 5u);
   for (std::size_t i = 0; i + 1 < numbers.size(); ++i) EXPECT_GE(numbers[i + 1].first, numbers[i].first + 11.9);
   EXPECT_EQ(numbers[0].second, "1");
+}
+
+// Before, the axis had no end, and drawing took all memory.
+TEST(CurveChart, refuses_what_no_axis_can_show) {
+  for (const double value : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), 0.0}) {
+    auto chart = falling(1, 0.3, 0.0);
+    chart.curves[0].points.emplace_back(200.0, value);
+    EXPECT_THROW(draw(chart), InvariantViolation);
+  }
 }
 
 TEST(CurveChart, a_limit_does_not_lie_on_the_axis) {

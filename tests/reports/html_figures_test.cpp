@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "reports/html/campaign_figures.hpp"
 #include "reports/html/markup.hpp"
 #include "tests/reports/sample_campaign.hpp"
@@ -78,6 +80,35 @@ TEST(CampaignFigures, follow_the_bound_as_it_falls) {
   EXPECT_DOUBLE_EQ(curve.back().upper, evidence.judge(0).claim->upper);
   EXPECT_LT(curve.size(), 30u);
   for (std::size_t i = 1; i < curve.size(); ++i) EXPECT_LE(curve[i].upper, curve[i - 1].upper);
+}
+
+// Nothing is known of the runs of the first worlds, their time neither.
+TEST(CampaignFigures, follow_a_bound_from_where_it_is_finite) {
+  auto gate = samples::gate_of("sound", GateKind::Rate, Region::Contract, 0.5);
+  gate.method = GateMethod::AnyTime;
+  gate.unit = GateUnit::AgvHour;
+  const auto curve_of = [&](std::uint64_t unknown, std::uint64_t replicates) {
+    Evidence evidence(samples::campaign_of("claim", replicates), samples::grid({"sound"}, {0.4}, {2.0}), {gate});
+    CampaignFigures figures;
+    for (std::uint64_t i = 0; i < replicates; ++i) {
+      auto run = samples::clean_run(i, 1);
+      if (i < unknown) {
+        run.outcome.crash = true;
+        run.outcome.simulated_ns = 0;
+      }
+      evidence.add(run);
+      figures.add(run, evidence);
+    }
+    figures.finish(evidence);
+    return figures.bounds().at(0);
+  };
+  const auto curve = curve_of(3, 11);
+  ASSERT_FALSE(curve.empty());
+  EXPECT_EQ(curve.front().replicates, 4u);
+  EXPECT_EQ(curve.back().replicates, 11u);
+  for (const BoundPoint& point : curve) EXPECT_TRUE(std::isfinite(point.upper)) << point.replicates;
+  EXPECT_EQ(curve_of(10, 11).size(), 1u) << "the end of the campaign is always recorded";
+  EXPECT_TRUE(curve_of(11, 11).empty());
 }
 
 TEST(CampaignFigures, number_what_was_new) {
