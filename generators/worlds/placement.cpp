@@ -124,16 +124,21 @@ bool place_at_charger_bank(Scenario& scenario, FleetTypes types, const Reachabil
     return (map.station(s).position_m - map.station(bank).position_m).squaredNorm();
   };
   std::ranges::stable_sort(stations, {}, distance);
-  for (const auto station : stations) {
-    if (scenario.agvs.size() == types.size()) break;
+  while (scenario.agvs.size() < types.size()) {
     const std::uint32_t type = types[scenario.agvs.size()];
-    if (!reachability.use_of(station, type).started) continue;
+    // Stations where this type cannot start stay for AGVs of other types.
+    const auto nearest =
+        std::ranges::find_if(stations, [&](StationId s) { return reachability.use_of(s, type).started; });
+    if (nearest == stations.end()) {
+      ++counts.fleets_without_room;
+      return false;
+    }
+    const StationId station = *nearest;
+    stations.erase(nearest);
     Draws draws(key, attempt, static_cast<std::uint32_t>(scenario.agvs.size()));
     add_agv_at(scenario, reachability, type, station, draws, counts);
   }
-  if (scenario.agvs.size() == types.size()) return true;
-  ++counts.fleets_without_room;
-  return false;
+  return true;
 }
 
 std::vector<StationId> places_to_start(const LogicalMap& map, const Reachability& reachability) {

@@ -239,6 +239,23 @@ TEST(MixedFleets, NoTypeTakesAPlaceFromAnother) {
   }
 }
 
+// The bank leaves the stations of a type to the AGVs of it, wherever in the fleet they come.
+TEST(MixedFleets, AChargerBankTakesNoPlaceFromAType) {
+  const std::vector<std::string> names = {"forklift", "tugger"};
+  std::vector<std::uint32_t> types(9, 0);  // as many as the ring and the spurs of forklifts have room for
+  types.resize(12, 1);
+  Scenario scenario;
+  scenario.map = std::make_shared<const LogicalMap>(two_halves());
+  scenario.vehicle_types = {VehicleType{}};
+  const Reachability reachability(*scenario.map, names);
+  for (std::uint64_t key = 0; key < 50; ++key) {
+    RejectionCounts counts;
+    scenario.agvs.clear();
+    ASSERT_TRUE(place_at_charger_bank(scenario, types, reachability, key, 0, counts)) << scenario.agvs.size();
+    for (std::size_t i = 9; i < types.size(); ++i) EXPECT_GE(scenario.agvs[i].start.value, 9U) << key;
+  }
+}
+
 TEST(MixedFleets, ListedOrdersAreJudgedByTheTypeOfTheirAgv) {
   WorldSpec spec;
   spec.layout = std::make_shared<const LogicalMap>(two_halves());
