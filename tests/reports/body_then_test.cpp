@@ -108,6 +108,13 @@ TEST_F(BodyThen, TheAgvHasAnsweredToo) {
   EXPECT_THAT(texts(), Not(Contains(HasSubstr("A itself had last answered"))));
   film_.messages.insert(film_.messages.begin() + 2, message(4, 0, "YES", 3'900'000));
   EXPECT_THAT(texts(), Contains("A itself had last answered B with YES #4, sent 3.900 s, received 3.901 s."));
+  film_.messages[2].arrivals[0].after_us = 2'000'000;
+  EXPECT_THAT(texts(),
+              Contains("A itself had last answered B with YES #4, sent 3.900 s, still under way then, received "
+                       "5.900 s."));
+  film_.messages[2].arrivals[0].after_us = 6'100'001;
+  EXPECT_THAT(texts(), Contains("A itself had last answered B with YES #4, sent 3.900 s, still under way at the end of "
+                                "the run."));
 }
 
 TEST_F(BodyThen, TheAgentNotes) { EXPECT_THAT(texts(), Contains("Its agent noted hurried (4.500 s).")); }
