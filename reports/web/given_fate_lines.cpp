@@ -35,12 +35,11 @@ std::vector<Given> given_until_failure(const Film& film) {
 
 std::string fate_text(const Given& given, const Film& film) {
   if (given.arrivals.front()->fate != Fate::Received) return word_of(given.arrivals.front()->fate);
+  std::vector<std::int64_t> at_us;
+  for (const Arrival* arrival : given.arrivals) at_us.push_back(given.message->sent_us + arrival->after_us);
+  std::ranges::sort(at_us);
   std::vector<std::string> at;
-  for (const Arrival* arrival : given.arrivals) {
-    const std::int64_t at_us = given.message->sent_us + arrival->after_us;
-    at.push_back(at_us > film.end_us ? "not before the end" : time_text(at_us) + " s");
-  }
-  std::ranges::sort(at);
+  for (const std::int64_t us : at_us) at.push_back(us > film.end_us ? "not before the end" : time_text(us) + " s");
   return "received " + joined(at) + ", as the scenario says";
 }
 
