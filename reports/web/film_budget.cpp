@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace fleetproof::web {
 namespace {
@@ -77,27 +78,39 @@ Kept keep_nearest(Film& film, std::vector<Item>& items, const char* what, std::s
   return tell(film, what, all - gone, all, reach);
 }
 
-// An arrival costs its part of the message, and itself.
+// An arrival costs its part of the message, and itself. A message that nobody was in range to receive counts as one.
 Kept keep_messages(Film& film, const Distance& distance, std::size_t budget_bytes) {
   constexpr std::size_t kMessage = 34, kArrival = 9;
   const auto distance_of = [&](const Message& message, const Arrival& arrival) {
     return distance.of(message.sent_us, distance.is_involved(message.sender) || distance.is_involved(arrival.receiver));
   };
+  const auto distance_of_unheard = [&](const Message& message) {
+    return distance.of(message.sent_us, distance.is_involved(message.sender));
+  };
   std::vector<Candidate> candidates;
+  std::size_t unheard = 0;
   for (const Message& message : film.messages) {
+    if (message.arrivals.empty()) {
+      ++unheard;
+      candidates.push_back({distance_of_unheard(message), kMessage});
+    }
     for (const Arrival& arrival : message.arrivals)
       candidates.push_back({distance_of(message, arrival), kArrival + kMessage / message.arrivals.size()});
   }
   const std::size_t all = candidates.size();
   const std::int64_t reach = reach_of(std::move(candidates), budget_bytes);
   std::size_t kept = 0;
+  std::vector<Message> stay;
   for (Message& message : film.messages) {
+    const bool is_unheard = message.arrivals.empty();
+    if (is_unheard && distance_of_unheard(message) > reach) continue;
     std::erase_if(message.arrivals, [&](const Arrival& arrival) { return distance_of(message, arrival) > reach; });
-    kept += message.arrivals.size();
+    kept += is_unheard ? 1 : message.arrivals.size();
+    if (is_unheard || !message.arrivals.empty()) stay.push_back(std::move(message));
   }
-  if (kept == all) return {};
-  std::erase_if(film.messages, [](const Message& message) { return message.arrivals.empty(); });
-  return tell(film, "receptions of messages", kept, all, reach);
+  film.messages = std::move(stay);
+  const char* what = unheard > 0 ? "receptions of messages and messages to nobody" : "receptions of messages";
+  return tell(film, what, kept, all, reach);
 }
 
 }  // namespace
