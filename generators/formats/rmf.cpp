@@ -236,7 +236,7 @@ class LevelReader {
     if (!is_nav_graph_ &&
         (graph.IsDefined() ? yaml_.number(graph, "graph_idx") : 0.0) != static_cast<double>(choice_.graph_idx)) {
       ++told_.other_graphs;
-      told_.graphs.insert(text_of(words, "graph_idx"));
+      told_.graphs.insert(graph.IsDefined() ? text_of(words, "graph_idx") : "0");
       return;
     }
     if (from == to) yaml_.refuse(lane, fmt::format("a lane leads from vertex {} to itself; leave it out", from));
