@@ -65,7 +65,9 @@ const Extension* extension_of(std::string_view path) {
 std::string_view importer_of_json(const std::string& path) {
   if (has_ending(path, ".lif.json")) return "lif";
   const auto root = parse_json(read_text_file(path), path);
-  if (root.find("metaInformation") != nullptr || root.find("layouts") != nullptr) return "lif";
+  for (const char* key : {"metaInformation", "layouts", "origins"}) {
+    if (root.find(key) != nullptr) return "lif";
+  }
   return root.find("agvs") != nullptr ? "scenario" : "layout";
 }
 

@@ -65,6 +65,8 @@ TEST_F(ImporterTest, TheExtensionChooses) {
   EXPECT_EQ(read(file("D.CSV", to_csv(crossdock_))).segments.size(), 31U);
   EXPECT_EQ(read(file("A.LIF.json", to_lif(crossdock_))).segments.size(), 31U);
   EXPECT_EQ(importer_of_file("PLANT.Xml"), "opentcs");
+  EXPECT_EQ(importer_of_file(file("h.json", R"({"origins": [{"originId": "o", "layouts": []}]})")), "lif");
+  EXPECT_EQ(importer_of_file(file("i.json", R"({"layouts": []})")), "lif");
 }
 
 TEST_F(ImporterTest, UnknownNamesAreExplained) {
