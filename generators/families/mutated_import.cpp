@@ -117,6 +117,7 @@ std::shared_ptr<const LogicalMap> draw_mutated_map(const Layout& base, Draws& dr
   fit_floor(layout, kMargin_m);  // it holds all points
   if (!on_the_floor(layout.floor_low_m) || !on_the_floor(layout.floor_high_m))
     return refused(ProblemKind::NumberOutOfRange);
+  // A bad segment refuses the draw also if it is cut off below. Otherwise seeds would draw other layouts than before.
   for (const auto& segment : layout.segments) {
     if (!is_kept(segment, parts) && !is_drivable(segment_curve(layout, segment)))
       return refused(ProblemKind::BadGeometry);
