@@ -69,7 +69,8 @@ void add_methods(Section& section, const std::vector<GateRecord>& gates) {
     section.remarks.emplace_back().text =
         "Bounds of the method any-time hold at every number of replicates at once: one may look, stop, go on and "
         "extend for any reason. The upper bound is the largest limit that the release gate (an e-value, Ville 1939) "
-        "would not pass; the lower bound is the largest limit that an e-value of the same kind refutes.";
+        "would not pass; the lower bound is the largest limit that an e-value of the same kind refutes. Of AGV-hours, "
+        "both bounds are those of the Gamma-Poisson sequence.";
   }
   if (any(GateMethod::Fixed)) {
     section.remarks.emplace_back().text =

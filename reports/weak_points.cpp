@@ -39,8 +39,8 @@ void name_cells(std::vector<std::string>& points, const Evidence& evidence, Scop
   points.push_back(text + ".");
 }
 
-// A gate that pools its cells says little about a single cell.
-// A gate with a failure is not helped by that number.
+// A gate that pools its cells says little about a single cell. Gates with a failure are skipped: the number of runs
+// without a failure is no help to them.
 void name_short_gates(std::vector<std::string>& points, const ReportInput& input) {
   const Evidence& evidence = input.evidence;
   if (evidence.counts_only()) return;

@@ -53,8 +53,8 @@ bool place_fleet(Scenario& scenario, FleetTypes types, const Reachability& reach
 bool place_at_charger_bank(Scenario& scenario, FleetTypes types, const Reachability& reachability, std::uint64_t key,
                            std::uint32_t attempt, RejectionCounts& counts);
 
-// The places to park, charge or store where an AGV can stop without a load. If there are none: all stations where it
-// can.
+// The places to park, charge or store where an AGV of some type can start. If there are none: all stations where one
+// can start.
 std::vector<StationId> places_to_start(const LogicalMap& map, const Reachability& reachability);
 
 // Adds an AGV to the fleet. If it would stand too close to another AGV or to an obstacle, loaded bodies counting, it
