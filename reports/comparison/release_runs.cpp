@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reports/evidence/evidence.hpp"
+#include "reports/evidence/exposure.hpp"
 
 namespace fleetproof {
 
@@ -35,7 +36,7 @@ ReleaseRuns read_release(const ArchiveReader& archive, std::string path, const s
       for (std::size_t i = 0; i < kComparedEndPoints.size(); ++i)
         compared.results[i] = result_of(run.outcome, kComparedEndPoints[i]);
       compared.transports_done = run.outcome.counters.transports_done;
-      compared.agv_us = run.outcome.simulated_ns / 1000 * run.outcome.agv_count;
+      compared.agv_us = agv_us(run.outcome.simulated_ns, run.outcome.agv_count);
     }
     if (run.cell + 1 == archive.cells().size()) {
       release.replicates.push_back(std::move(replicate));

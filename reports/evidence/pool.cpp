@@ -51,10 +51,11 @@ RunResult PoolCounter::result_of_run(const Outcome& outcome, RunResult violation
   if (result_of(outcome, EndPoint::Crash) != RunResult::Passed) return RunResult::Unknown;
   const bool foreign = met_foreign_bodies(outcome);
   if (pool_.rule.unit == GateUnit::Run)
-    return throughput_result(outcome.counters.transports_done, agv_us(outcome), foreign);
+    return throughput_result(outcome.counters.transports_done, agv_us(outcome.simulated_ns, outcome.agv_count),
+                             foreign);
   pending_.foreign_body_lay |= foreign;
   pending_.transports_done += outcome.counters.transports_done;
-  pending_.agv_us += agv_us(outcome);
+  pending_.agv_us += agv_us(outcome.simulated_ns, outcome.agv_count);
   return RunResult::Passed;  // the world decides
 }
 

@@ -139,12 +139,12 @@ Findings findings_of(const Outcome& outcome, EndPoint end_point) {
 RunResult result_of(const Outcome& outcome, EndPoint end_point) { return findings_of(outcome, end_point).result(); }
 
 TimeAtRisk time_at_risk(const Outcome& outcome, EndPoint end_point, RunResult result) {
-  const std::uint64_t whole_us = agv_us(outcome);
+  const std::uint64_t whole_us = agv_us(outcome.simulated_ns, outcome.agv_count);
   if (result == RunResult::Passed) return {whole_us, whole_us};
   if (result == RunResult::Unknown) return {0, whole_us};
   const auto until = [&](SimTime instant) {
     const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(to_ns(instant), 0));
-    return std::min(ns, outcome.simulated_ns) / 1000 * outcome.agv_count;
+    return agv_us(std::min(ns, outcome.simulated_ns), outcome.agv_count);
   };
   const Findings findings = findings_of(outcome, end_point);
   return {until(findings.earliest()), until(findings.latest())};

@@ -18,7 +18,7 @@ Tally Tally::of(const Outcome& outcome, RunResult violation) {
   one.indeterminate_runs = outcome.indeterminate;
   one.engine_error_runs = outcome.engine_error;
   one.transports_done = outcome.counters.transports_done;
-  one.agv_us = outcome.simulated_ns / 1000 * outcome.agv_count;
+  one.agv_us = fleetproof::agv_us(outcome.simulated_ns, outcome.agv_count);
   one.longest_ns = outcome.simulated_ns;
   one.agvs = outcome.agv_count;
   one.unmeasured_runs = has_measured_clearance(outcome) ? 0 : 1;
@@ -43,7 +43,7 @@ void Tally::add(const QuietRuns& quiet) {
   Tally all;
   all.runs = quiet.runs;
   all.transports_done = quiet.transports_done;
-  all.agv_us = quiet.runs * (quiet.simulated_ns / 1000 * quiet.agv_count);
+  all.agv_us = quiet.runs * fleetproof::agv_us(quiet.simulated_ns, quiet.agv_count);
   all.longest_ns = quiet.simulated_ns;
   all.agvs = quiet.agv_count;
   all.min_clearance_um = quiet.min_clearance_um;

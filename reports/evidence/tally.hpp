@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "reports/evidence/exposure.hpp"
 #include "reports/evidence/run_result.hpp"
 #include "storage/folded_rows.hpp"
 #include "storage/records.hpp"
@@ -28,7 +29,7 @@ struct Tally {
   static Tally of(const Outcome& outcome, RunResult violation);
   void add(const Tally& other);
   void add(const QuietRuns& quiet);
-  double agv_hours() const { return static_cast<double>(agv_us) / 3.6e9; }
+  double agv_hours() const { return fleetproof::agv_hours(agv_us); }
   // Absent if there is no simulated time.
   std::optional<double> transports_per_agv_hour() const;
 };
