@@ -125,7 +125,7 @@ bool take_out_groups(Shrinker& shrinker, const std::vector<std::uint64_t>& group
 bool weaken_fates(Shrinker& shrinker) {
   bool smaller = false;
   for (std::size_t i = 0; i < shrinker.best().scenario.fates.size(); ++i) {
-    const GivenFate& fate = shrinker.best().scenario.fates[i];
+    const GivenFate fate = shrinker.best().scenario.fates[i];  // a smaller case takes the place of the best one
     if (fate.copied)
       smaller |= shrinker.try_each("fewer adverse messages", 1, [&](Scenario& s, std::size_t) {
         s.fates[i].copied = false;

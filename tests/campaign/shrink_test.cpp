@@ -10,6 +10,7 @@
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/fate_passes.hpp"
 #include "campaign/shrink/other_luck.hpp"
 #include "campaign/shrink/surgery.hpp"
 #include "campaign/shrink/trial_file.hpp"
@@ -202,6 +203,33 @@ TEST(Shrink, EndsInTime) {
   EXPECT_FALSE(result.one_minimal);
   EXPECT_EQ(result.trials, 0U);
   EXPECT_EQ(scenario_digest(result.best.scenario), scenario_digest(failing.scenario));
+}
+
+// A smaller case takes the place of the best one while its messages are gone through.
+TEST(Shrink, AMessageThatIsLateAndDoubledIsWeakened) {
+  Bench bench("stale-grant");
+  const FailingCase failing = bench.failing(2);
+  TrialCache cache;
+  Trials trials(bench.host, cache, pattern_of(bench.host, failing), {});
+  Shrinker shrinker(trials, failing, kNobody);
+  write_fates_down(shrinker);
+  while (take_out_fates(shrinker)) {
+  }
+  const std::vector<GivenFate> least = shrinker.best().scenario.fates;
+  Scenario worse = shrinker.best().scenario;
+  for (GivenFate& fate : worse.fates) {
+    if (fate.lost) continue;
+    fate.copied = true;
+    fate.delay += std::chrono::milliseconds(150);
+    fate.copy_delay = fate.delay;
+  }
+  ASSERT_NE(worse.fates, least) << "a message is late";
+  const auto again = trials.first_failing({1, [&](std::size_t) { return std::optional(worse); }});
+  ASSERT_TRUE(again);
+  Shrinker once_more(trials, again->is, kNobody);
+  while (take_out_fates(once_more)) {
+  }
+  EXPECT_EQ(once_more.best().scenario.fates, least);
 }
 
 // ---- what it rests on
