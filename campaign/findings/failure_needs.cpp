@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -24,15 +26,23 @@ constexpr std::size_t kFewLucks = 2;
 constexpr std::uint32_t kTriesForNothing = 40;
 // With more of them, what seems needed was tried often enough.
 constexpr std::size_t kManyLucks = 4;
+constexpr std::size_t kMostKinds = 16;  // of messages; with more, no replay would be left for the other ingredients
 // What keeps a fleet from its work is told apart by who waits for whom, which is chance.
 constexpr std::array kStandstills = {"deadlock", "livelock", "starvation", "standstill-in-contract", "stuck"};
 
+// Those of which most messages were lost or late. An agent may give each message a kind of its own.
 std::vector<std::string> adverse_kinds(const std::vector<MessageFate>& fates) {
-  std::set<std::string> kinds;
+  std::map<std::string, std::size_t> counts;
   for (const MessageFate& message : fates) {
-    if (message.is_adverse() && !message.kind.empty()) kinds.insert(message.kind);
+    if (message.is_adverse() && !message.kind.empty()) ++counts[message.kind];
   }
-  return {kinds.begin(), kinds.end()};
+  std::vector<std::string> kinds;
+  for (const auto& [kind, count] : counts) kinds.push_back(kind);
+  if (kinds.size() <= kMostKinds) return kinds;
+  std::ranges::stable_sort(kinds, std::greater{}, [&](const std::string& kind) { return counts.at(kind); });
+  kinds.resize(kMostKinds);
+  std::ranges::sort(kinds);
+  return kinds;
 }
 
 std::string trait_of_doing(const std::string& doing) {
@@ -107,9 +117,8 @@ class Reduction {
   void take_out_ingredients(const std::vector<Ingredient>& ingredients) {
     const bool seldom = failing_lucks_.size() < kFewLucks;
     const bool needs_nothing = seldom && fails_after(all_of(ingredients), kTriesForNothing);
-    const auto budget = static_cast<std::uint32_t>(kReplaysPerFailure - replays_ - 2);
     const auto tries =
-        std::clamp(budget / static_cast<std::uint32_t>(ingredients.size() + 1), kFewestTries, kMostTries);
+        std::clamp(replays_left() / static_cast<std::uint32_t>(ingredients.size() + 1), kFewestTries, kMostTries);
     for (const Ingredient& ingredient : ingredients) {
       if (!needs_nothing && !fails_after(ingredient.take_out, tries)) found_.needs.push_back(ingredient.name);
     }
@@ -126,10 +135,16 @@ class Reduction {
     for (const Ingredient& ingredient : ingredients) {
       const auto place = std::ranges::find(found_.needs, ingredient.name);
       if (place == found_.needs.end()) continue;
-      const auto left = static_cast<std::uint32_t>(kReplaysPerFailure - 2 - replays_);
+      const std::uint32_t left = replays_left();
+      if (left == 0) return;
       const auto tries = left / static_cast<std::uint32_t>(found_.needs.end() - place);
       if (fails_with_new_luck(ingredient.take_out, tries)) found_.needs.erase(place);
     }
+  }
+
+  // One run is kept for the end, and one to spare.
+  std::uint32_t replays_left() const {
+    return static_cast<std::uint32_t>(kReplaysPerFailure - 2 - std::min(replays_, kReplaysPerFailure - 2));
   }
 
   static std::function<void(Scenario&)> all_of(const std::vector<Ingredient>& ingredients) {

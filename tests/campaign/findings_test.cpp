@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "campaign/findings/failure_needs.hpp"
 #include "campaign/findings/finding.hpp"
 #include "campaign/findings/ingredients.hpp"
 #include "core/scenario/canonical_bytes.hpp"
@@ -42,54 +41,6 @@ TEST(Ingredients, NothingIsLeftWhenAllAreTakenOut) {
   EXPECT_TRUE(ingredients_of(bare, {}).empty());
   Bench bench("hull-lock");
   for (const MessageFate& message : bench.host(bare, Fates::Kept).fates) EXPECT_FALSE(message.is_adverse());
-}
-
-// ---- what a failure needs
-
-TEST(FailureNeeds, SilenceTakenForConsentNeedsLostMessagesAndNoFault) {
-  Bench bench("timeout-grant");
-  std::size_t right = 0;
-  for (std::uint64_t seed = 100; seed < 800; seed += 100) {
-    const auto found = needs_of(bench.host, bench.failing(seed));
-    ASSERT_TRUE(found);
-    EXPECT_LE(found->replays, kReplaysPerFailure);
-    EXPECT_EQ(found->end, "too close, two AGVs");
-    right += std::ranges::count(found->needs, std::string(kLostMessages)) == 1 &&
-             std::ranges::count(found->needs, std::string("restart")) == 0;
-    const auto again = failure_of(bench.host(found->reduced.scenario));
-    ASSERT_TRUE(again);
-    EXPECT_EQ(again->at, found->reduced.failure.at);
-  }
-  EXPECT_GE(right, 6U) << "of 7";
-}
-
-TEST(FailureNeeds, AForgottenLaneNeedsARestart) {
-  Bench bench("restart-forgets-lane");
-  const auto found = needs_of(bench.host, bench.failing(1));
-  ASSERT_TRUE(found);
-  EXPECT_THAT(found->needs, Contains("restart"));
-  EXPECT_THAT(found->needs, Not(Contains(kCopiedMessages)));
-}
-
-// Of a failure that hardly another luck meets, a need is believed only after all replays that are allowed.
-TEST(FailureNeeds, WhatARareFailureSeemsToNeedIsTriedAgain) {
-  Bench bench("timeout-grant");
-  std::size_t rare = 0;
-  for (std::uint64_t seed = 1; seed < 400 && rare < 3; ++seed) {
-    Scenario scenario = bad_night(seed);
-    scenario.radio.loss = 0.15;
-    const auto found = needs_of(bench.host, scenario);
-    if (!found || found->failing_lucks > 4 || found->needs.empty()) continue;
-    ++rare;
-    EXPECT_GE(found->replays, kReplaysPerFailure - 3);
-    EXPECT_LE(found->replays, kReplaysPerFailure);
-  }
-  EXPECT_GT(rare, 0U);
-}
-
-TEST(FailureNeeds, OfARunWithoutAFailureThereAreNone) {
-  Bench bench("hull-lock");
-  EXPECT_FALSE(needs_of(bench.host, bad_night(1)));
 }
 
 // ---- findings

@@ -1,5 +1,5 @@
 // A reference agent that thinks 5 ms longer at each event: a change of its timing, and of nothing else. Its parameters
-// begin with the name of that agent.
+// begin with the name of that agent. "NAME numbered": each message has a kind of its own, too.
 #include <cstdint>
 #include <string>
 
@@ -16,6 +16,24 @@ struct Retouched {
   fp_controller* controller = nullptr;
 };
 
+void (*describe)(fp_controller*, const char*) = nullptr;
+std::uint64_t described = 0;
+
+void describe_with_number(fp_controller* controller, const char* kind) {
+  describe(controller, (kind + std::to_string(described++)).c_str());
+}
+
+// The host of the process, with another `describe`.
+const fp_host* numbering(const fp_host* host) {
+  static const fp_host copy = [&] {
+    describe = host->describe;
+    fp_host changed = *host;
+    changed.describe = describe_with_number;
+    return changed;
+  }();
+  return &copy;
+}
+
 const fp_agent_type* named(const std::string& name) {
   for (std::uint32_t i = 0; i < fp_faulty_agent_count; ++i) {
     if (name == fp_faulty_agents[i]->name) return fp_faulty_agents[i];
@@ -27,7 +45,9 @@ void* create(const fp_host* host, fp_controller* controller, const fp_briefing* 
   const std::string config = briefing->config;
   const fp_agent_type* type = named(config.substr(0, config.find(' ')));
   if (type == nullptr) return nullptr;
-  return new Retouched{type, type->create(host, controller, briefing), host, controller};
+  const bool numbered = config.find(" numbered") != std::string::npos;
+  if (numbered && briefing->self == 0) described = 0;
+  return new Retouched{type, type->create(numbered ? numbering(host) : host, controller, briefing), host, controller};
 }
 
 void on_event(void* instance, const fp_event* event) {
