@@ -14,12 +14,11 @@
 
 #include "core/base/error.hpp"
 #include "core/base/machine_error.hpp"
+#include "storage/beside.hpp"
 
 namespace fleetproof {
 
-std::string session_log_path(const std::string& archive_path) {
-  return std::filesystem::path(archive_path).replace_extension(".sessions.jsonl").string();
-}
+std::string session_log_path(const std::string& archive_path) { return beside(archive_path, ".sessions.jsonl"); }
 
 // O_NONBLOCK: a pipe of this name is not waited for.
 void append_lines(const std::string& path, const std::string& lines) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <utility>
 
 #include "campaign/batch/session_log.hpp"
@@ -14,6 +13,7 @@
 #include "campaign/shards/shard_run.hpp"
 #include "core/base/error.hpp"
 #include "reports/wording.hpp"
+#include "storage/beside.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -67,7 +67,7 @@ int simulate_shard(const ShardWords& words, const ShardCall& call) {
   const std::string session_name = folder.new_session_name(choice.shard);
   const CampaignPlan& plan = call.file.plan;
   RunOptions options = call.options;
-  options.worker_logs = std::filesystem::path(session_name).replace_extension().string();
+  options.worker_logs = beside(session_name, "");
   ShardResult result;
   {
     ProgressTalk progress(plan, plugin_agents(plan, call.programs), "", options.workers);

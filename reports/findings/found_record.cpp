@@ -1,12 +1,12 @@
 #include "reports/findings/found_record.hpp"
 
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/base/outside_text.hpp"
 #include "reports/wording.hpp"
+#include "storage/beside.hpp"
 
 namespace fleetproof {
 namespace {
@@ -73,9 +73,7 @@ std::optional<FoundRecord> parse_findings(const std::string& text) {
   }
 }
 
-std::string findings_path(const std::string& archive_path) {
-  return std::filesystem::path(archive_path).replace_extension().string() + kEnding;
-}
+std::string findings_path(const std::string& archive_path) { return beside(archive_path, kEnding); }
 
 FoundFile findings_beside(const std::string& archive_path, std::uint64_t plan_hash, std::uint64_t stored_runs) {
   const std::string path = findings_path(archive_path);

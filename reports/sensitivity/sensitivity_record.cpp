@@ -1,13 +1,13 @@
 #include "reports/sensitivity/sensitivity_record.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
 #include "reports/wording.hpp"
+#include "storage/beside.hpp"
 
 namespace fleetproof {
 namespace {
@@ -111,9 +111,7 @@ std::optional<SensitivityRecord> parse_sensitivity(const std::string& text) {
   }
 }
 
-std::string sensitivity_path(const std::string& archive_path) {
-  return std::filesystem::path(archive_path).replace_extension().string() + kEnding;
-}
+std::string sensitivity_path(const std::string& archive_path) { return beside(archive_path, kEnding); }
 
 SensitivityFile sensitivity_beside(const std::string& archive_path, const CampaignRecord& campaign) {
   const std::string path = sensitivity_path(archive_path);

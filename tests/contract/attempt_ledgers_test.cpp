@@ -106,6 +106,26 @@ TEST_F(AttemptLedgers, ALookThatCannotBeCountedStopsNoReport) {
   EXPECT_THAT(told.err, HasSubstr("this look at the campaign is not counted"));
 }
 
+// The results of a campaign that still grows can be read under the name NAME.partial.
+TEST_F(AttemptLedgers, ALookAtARunningCampaignCounts) {
+  campaign("1");
+  shell(
+      "\"$FLEETPROOF\" run c.toml --db a.db --replicates 1000000 & "
+      "for i in $(seq 200); do [ -s a.sessions.jsonl ] && break; sleep 0.1; done; sleep 2; kill -9 $!; wait");
+  ASSERT_TRUE(std::filesystem::exists(path("a.db.partial")));
+  const auto told = attempts("a.db.partial");
+  EXPECT_EQ(told.at("looks"), 1);
+  EXPECT_EQ(told.at("overrides"), "--replicates 1000000");
+}
+
+TEST_F(AttemptLedgers, AnEndingThatIsNotOursBelongsToTheName) {
+  campaign("1");
+  run("run c.toml --db plant-1.1 --seed 5");
+  run("run c.toml --db plant-1.2 --seed 6");
+  EXPECT_EQ(attempts("plant-1.1").at("overrides"), "--seed 5");
+  EXPECT_EQ(attempts("plant-1.2").at("overrides"), "--seed 6");
+}
+
 TEST_F(AttemptLedgers, AFreshSeedFollowsFromReleaseAndPlan) {
   campaign("\"fresh\"");
   run("run c.toml --db a.db");

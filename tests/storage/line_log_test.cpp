@@ -84,6 +84,14 @@ TEST(LineLogOfAnotherUser, IsRefusedBeforeTheWork) {
 
 TEST(LineLog, TheSessionLogStandsBesideTheArchive) {
   EXPECT_EQ(session_log_path("there/night.db"), "there/night.sessions.jsonl");
+  EXPECT_EQ(session_log_path("there/night.db.partial"), "there/night.sessions.jsonl") << "a look at what still grows";
+}
+
+TEST(LineLog, TwoArchivesHaveTwo) {
+  EXPECT_EQ(session_log_path("plant-1.1"), "plant-1.1.sessions.jsonl");
+  EXPECT_EQ(session_log_path("plant-1.2"), "plant-1.2.sessions.jsonl");
+  EXPECT_EQ(session_log_path("a.fp.partial"), "a.fp.sessions.jsonl") << "a.db is another campaign";
+  EXPECT_EQ(session_log_path("v1.2/night"), "v1.2/night.sessions.jsonl");
 }
 
 }  // namespace
