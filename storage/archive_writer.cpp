@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include <utility>
 #include "core/base/error.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/canonical_file.hpp"
@@ -53,6 +54,7 @@ struct ArchiveWriter::Impl {
   void close();
   void drop();
   template <class Action>
+  void take_over(const ArchiveReader& earlier);
   void or_drop(Action action);
 };
 
@@ -100,7 +102,7 @@ void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vect
     db->exec("COMMIT");
     if (earlier) {
       rows = std::make_unique<RowStore>(*db);
-      earlier->for_each_run([this](const RunRecord& run) { store(run); });
+      take_over(*earlier);
       close();
       earlier.reset();
       fold_log(live_path);
@@ -167,6 +169,22 @@ void ArchiveWriter::Impl::commit() {
   last_commit = std::chrono::steady_clock::now();
   if (pending == 0) return;
   pending = 0;
+// From a file of an older schema. An audit that came out as its run did has the checksum of the new row; another one
+// keeps its own, which no row has.
+void ArchiveWriter::Impl::take_over(const ArchiveReader& earlier) {
+  earlier.for_each_run([&](const RunRecord& run) {
+    auto calls = earlier.recording(run.run_index);
+    if (!calls) return store(run);
+    RunRecord recorded = run;
+    recorded.recording = *std::move(calls);
+    store(recorded);
+  });
+  earlier.for_each_audit([&](const AuditRecord& audit, bool same) {
+    begin();
+    rows->add(AuditRecord{audit.run_index, same ? row_checksum(*earlier.run(audit.run_index)) : audit.checksum});
+  });
+}
+
   db->exec("COMMIT");
 }
 

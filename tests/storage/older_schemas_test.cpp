@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
+#include "storage/checksum.hpp"
 #include "storage/schema.hpp"
 #include "tests/storage/sample_records.hpp"
 
@@ -28,6 +29,18 @@ std::vector<RunRecord> runs_of(const std::string& path) {
   std::vector<RunRecord> runs;
   ArchiveReader(path).for_each_run([&](const RunRecord& run) { runs.push_back(run); });
   return runs;
+}
+
+std::vector<std::pair<AuditRecord, bool>> audits_of(const std::string& path) {
+  std::vector<std::pair<AuditRecord, bool>> audits;
+  ArchiveReader(path).for_each_audit([&](const AuditRecord& audit, bool same) { audits.emplace_back(audit, same); });
+  return audits;
+}
+
+// As a killed program leaves it: without a seal.
+std::string unsealed(int schema) {
+  return "PRAGMA journal_mode = WAL; UPDATE campaign SET run_count = NULL, " +
+         std::string(schema < kFirstSealed ? "rows_digest" : "seal") + " = NULL";
 }
 
 void go_on(const std::string& path, std::uint64_t& taken_over) {
@@ -111,6 +124,30 @@ TEST_P(OlderSchemas, GoOnInTheSchemaOfToday) {
   EXPECT_TRUE(samples::bytes_of(path_) == bytes);
 }
 
+// What was simulated again, and what agents did, is not forgotten.
+TEST_P(OlderSchemas, GoOnWithTheirAuditsAndRecordings) {
+  if (GetParam() < kFirstChunked) GTEST_SKIP() << "they have none";
+  const std::string live = path_ + ".partial", calls = "what the agents did";
+  std::filesystem::rename(path_, live);
+  execute(live, unsealed(GetParam()) +
+                    "; UPDATE audits SET checksum = 17 WHERE run_index = (SELECT max(run_index) FROM audits)" +
+                    "; INSERT INTO recordings (run_index, calls, checksum) VALUES (7, CAST('" + calls + "' AS BLOB), " +
+                    std::to_string(static_cast<std::int64_t>(recording_checksum(calls))) + ")");
+  const auto before = audits_of(live);
+  ASSERT_EQ(before.size(), 2U);
+  ASSERT_TRUE(before[0].second && !before[1].second);
+  std::uint64_t taken_over = 0;
+  go_on(path_, taken_over);
+  const auto after = audits_of(path_);
+  ASSERT_EQ(after.size(), 2U);
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_EQ(after[i].first.run_index, before[i].first.run_index);
+    EXPECT_EQ(after[i].second, before[i].second);
+  }
+  EXPECT_EQ(after[1].first.checksum, 17U);
+  EXPECT_EQ(ArchiveReader(path_).recording(7), calls);
+}
+
 // The log of the old file must not be taken for that of the new one.
 TEST_P(OlderSchemas, GoOnFromALiveFileWithALog) {
   std::uint64_t taken_over = 0;
@@ -122,13 +159,8 @@ TEST_P(OlderSchemas, GoOnFromALiveFileWithALog) {
                                               std::to_string(GetParam()) + ".fp"));
   sqlite3* db = nullptr;
   ASSERT_EQ(sqlite3_open(old.c_str(), &db), SQLITE_OK);
-  EXPECT_EQ(sqlite3_exec(db,
-                         ("PRAGMA journal_mode = WAL; UPDATE campaign SET run_count = NULL, " +
-                          std::string(GetParam() < kFirstSealed ? "rows_digest" : "seal") +
-                          " = NULL; UPDATE runs SET checksum = checksum")
-                             .c_str(),
-                         nullptr, nullptr, nullptr),
-            SQLITE_OK);
+  const std::string sql = unsealed(GetParam()) + "; UPDATE runs SET checksum = checksum";
+  EXPECT_EQ(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
   for (const auto* suffix : {"", "-wal"})
     samples::write_bytes(other + ".partial" + suffix, samples::bytes_of(old + suffix));  // as after a kill
   sqlite3_close(db);
