@@ -296,7 +296,10 @@ std::optional<CampaignResult> folded_before(const CampaignPlan& plan, const Agen
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener) {
   for (const AgentFactor& agent : plan.agents) (void)programs.program(agent.program, "factors.agents");
-  if (auto result = folded_before(plan, programs, path, options)) return *std::move(result);
+  if (auto result = folded_before(plan, programs, path, options)) {
+    listener.started();
+    return *std::move(result);
+  }
   // What cannot be built at all is said before anything is written.
   for (const std::string& sentence : build_first_worlds(plan)) listener.warned(sentence);
   return Session(plan, programs, path, options, listener).run(plan.keep);

@@ -48,7 +48,7 @@ struct CampaignResult {
 
 // What a running campaign reports, on the caller's thread.
 struct CampaignListener {
-  std::function<void()> started = [] {};  // the file is open, no run has begun
+  std::function<void()> started = [] {};  // the file was found or opened, no run has begun
   std::function<void(const RunRecord&)> run_finished = [](const RunRecord&) {};
   std::function<void(const Progress&)> tick = [](const Progress&) {};  // about ten times a second
   // Asked about ten times a second; true: `status` is called once.

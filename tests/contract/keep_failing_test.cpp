@@ -10,6 +10,8 @@ namespace fleetproof {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
 
 class KeepFailing : public test::ShardedCampaign {
  protected:
@@ -60,8 +62,12 @@ TEST_F(KeepFailing, AFinishedCampaignIsLeftAsItIs) {
   write_campaign("c.toml", 40);
   const int code = run("run c.toml --db f.db --keep failing").exit_code;
   const std::string before = read(path("f.db"));
+  std::filesystem::remove(path("f.sessions.jsonl"));
   EXPECT_EQ(run("run c.toml --db f.db --keep failing").exit_code, code);
   EXPECT_TRUE(read(path("f.db")) == before);
+  EXPECT_THAT(read(path("f.sessions.jsonl")), StartsWith("{\"started_utc\""));
+  const std::string page = run("report f.db").out;
+  EXPECT_THAT(page, Not(HasSubstr("cannot be read"))) << read(path("attempts.jsonl"));
   const auto more = run("run c.toml --db f.db --replicates 41");
   EXPECT_EQ(more.exit_code, 2);
   EXPECT_THAT(more.err, HasSubstr("folded (keep = \"failing\"), so this campaign cannot go on"));
