@@ -4,10 +4,11 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <limits>
 #include <optional>
-
 #include <utility>
+
 #include "core/base/error.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/canonical_file.hpp"
@@ -27,6 +28,7 @@ namespace {
 
 constexpr std::size_t kRowsPerCommit = 4096;
 constexpr std::chrono::seconds kCommitPeriod{2};
+constexpr const char* kPartial = ".partial";
 constexpr std::size_t kBytesOfARow = 4096;  // a recording counts as so many rows
 
 }  // namespace
@@ -34,6 +36,7 @@ constexpr std::size_t kBytesOfARow = 4096;  // a recording counts as so many row
 struct ArchiveWriter::Impl {
   std::optional<WriteLock> lock;  // the first member: it is released last
   std::string path, live_path;
+  LiveName live_name = LiveName::Partial;
   Existing existing = Existing::Refuse;
   std::uint64_t cells = 0;
   std::unique_ptr<SQLite::Database> db;
@@ -41,6 +44,7 @@ struct ArchiveWriter::Impl {
   std::size_t pending = 0;  // rows since the last commit
   std::chrono::steady_clock::time_point last_commit = std::chrono::steady_clock::now();
 
+  std::string unfinished() const { return path + ".unfinished"; }
   void create(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
               const std::vector<GateRecord>& gates, std::unique_ptr<ArchiveReader> earlier = nullptr);
   void go_on(CampaignRecord campaign, const std::vector<CellRecord>& cell_records, const std::vector<GateRecord>& gates,
@@ -50,11 +54,11 @@ struct ArchiveWriter::Impl {
                    const std::vector<GateRecord>& gates);
   void begin();
   void store(const RunRecord& run);
+  void take_over(const ArchiveReader& earlier);
   void commit();
   void close();
   void drop();
   template <class Action>
-  void take_over(const ArchiveReader& earlier);
   void or_drop(Action action);
 };
 
@@ -165,10 +169,6 @@ void ArchiveWriter::Impl::store(const RunRecord& run) {
                                   live_path, run.run_index));
 }
 
-void ArchiveWriter::Impl::commit() {
-  last_commit = std::chrono::steady_clock::now();
-  if (pending == 0) return;
-  pending = 0;
 // From a file of an older schema. An audit that came out as its run did has the checksum of the new row; another one
 // keeps its own, which no row has.
 void ArchiveWriter::Impl::take_over(const ArchiveReader& earlier) {
@@ -185,6 +185,10 @@ void ArchiveWriter::Impl::take_over(const ArchiveReader& earlier) {
   });
 }
 
+void ArchiveWriter::Impl::commit() {
+  last_commit = std::chrono::steady_clock::now();
+  if (pending == 0) return;
+  pending = 0;
   db->exec("COMMIT");
 }
 
@@ -213,16 +217,20 @@ void ArchiveWriter::Impl::or_drop(Action action) {
 
 ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& campaign,
                              const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates,
-                             Existing existing, const Resumption& resumption)
+                             Existing existing, const Resumption& resumption, LiveName live_name)
     : impl_(std::make_unique<Impl>()) {
   require_place(path);
   impl_->path = absolute_name(path);
-  impl_->live_path = impl_->path + ".partial";
+  impl_->live_path = impl_->path + (live_name == LiveName::Merging ? ".merging" : kPartial);
+  impl_->live_name = live_name;
   impl_->existing = existing;
   impl_->cells = cells.size();
   impl_->lock.emplace(impl_->path);
   require_free_name(impl_->path, existing);
-  require_free_live_name(impl_->live_path, existing);
+  require_free_live_name(impl_->path + kPartial, existing);
+  if (live_name == LiveName::Merging) require_own_rest(impl_->live_path);
+  require_own_rest(new_live_name(impl_->path));
+  require_own_rest(impl_->unfinished());
   const LiveFile live =
       existing == Existing::Resume ? bring_back_live_file(impl_->path, impl_->live_path) : LiveFile::None;
   if (live != LiveFile::None) {
@@ -236,7 +244,7 @@ ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& camp
     return;
   }
   if (existing == Existing::Resume) impl_->existing = Existing::Refuse;  // there is nothing to go on with
-  if (existing == Existing::Replace) remove_live_file(impl_->live_path);
+  if (existing == Existing::Replace || live_name == LiveName::Merging) remove_live_file(impl_->live_path);
   impl_->create(campaign, cells, gates);
 }
 
@@ -275,18 +283,22 @@ void ArchiveWriter::commit() {
 
 void ArchiveWriter::publish(std::uint64_t stop_index, const MayFold& may_fold) {
   ensure(impl_->db != nullptr, "an archive is published once, and not after an error");
-  const auto unfinished = impl_->path + ".unfinished";
+  const std::string unfinished = impl_->unfinished();
   impl_->or_drop([&] { impl_->close(); });
+  require_own_rest(unfinished);
   write_canonical_file(impl_->live_path, unfinished, stop_index, may_fold);
   try {
     // `sqlite3 NAME` leaves an empty file: somebody looked for results too early.
     if (!is_empty_file(impl_->path)) require_free_name(impl_->path, impl_->existing);
   } catch (const InputError&) {
+    if (impl_->live_name == LiveName::Merging)
+      throw InputError(impl_->path, "this file appeared while the chunks were put together; give another name");
     throw InputError(impl_->path, fmt::format("this file appeared while the campaign ran; the results are in {} and {}",
                                               unfinished, impl_->live_path));
   }
   move_durably(unfinished, impl_->path);
   remove_live_file(impl_->live_path);
+  remove_live_file(impl_->path + kPartial);
   remove_live_file(new_live_name(impl_->path));  // of a program that was killed at its start
   impl_->lock.reset();
 }
@@ -294,6 +306,8 @@ void ArchiveWriter::publish(std::uint64_t stop_index, const MayFold& may_fold) {
 void ArchiveWriter::discard() {
   impl_->drop();
   remove_live_file(impl_->live_path);
+  std::error_code ignored;
+  std::filesystem::remove(impl_->unfinished(), ignored);
   impl_->lock.reset();
 }
 

@@ -15,6 +15,10 @@ namespace fleetproof {
 // replaces it at one instant. Resume: its runs are taken over, or those of the live file that a killed program left.
 enum class Existing : std::uint8_t { Refuse, Replace, Resume };
 
+// Where the rows are until the file is published. Partial: in NAME.partial, with which the campaign goes on after a
+// kill. Merging: in NAME.merging; they come from files that stay, so that one that a killed program left is replaced.
+enum class LiveName : std::uint8_t { Partial, Merging };
+
 // What the caller does with a campaign that goes on.
 struct Resumption {
   // Throws if the stored campaign must not go on as `continued`. May add to `continued`.
@@ -33,11 +37,12 @@ class ArchiveWriter {
  public:
   // Throws InputError, with a remedy, if another run writes this file, if the place cannot be written, or if a file is
   // in the way. Refuse: `path` and its live file are in the way. Replace and Resume: a file with one of these names is
-  // in the way if it is not a campaign file of this program. Throws MachineError if the disk fails, EngineError if a
+  // in the way if it is not a campaign file of this program; so is, in any case, a foreign file with the name of one
+  // that is made on the way. Throws MachineError if the disk fails, EngineError if a
   // stored run is damaged. Throws what the check of the resumption throws; then all files are as they were.
   ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
                 const std::vector<GateRecord>& gates, Existing existing = Existing::Refuse,
-                const Resumption& resumption = {});
+                const Resumption& resumption = {}, LiveName live = LiveName::Partial);
   ~ArchiveWriter();
   ArchiveWriter(const ArchiveWriter&) = delete;
   ArchiveWriter& operator=(const ArchiveWriter&) = delete;
@@ -52,7 +57,7 @@ class ArchiveWriter {
   // must then be complete, for a folded file cannot go on. Then renames the file to `path`, removes the live file and
   // releases the lock. The writer is closed afterwards.
   void publish(std::uint64_t stop_index, const MayFold& may_fold = {});
-  // Instead: removes the live file and all that was added. The writer is closed afterwards.
+  // Instead, or if `publish` failed: removes the live file and all that was added. The writer is closed afterwards.
   void discard();
 
  private:

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string_view>
 
 #include "core/base/error.hpp"
@@ -20,14 +21,24 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kApplicationIdAt = 68;  // in the header of an SQLite file, big-endian
 
-// Judged by the header, so that a damaged campaign file still counts as a campaign file.
-bool is_campaign_file(const std::string& path) {
-  std::array<char, kApplicationIdAt + 4> header{};
+using Header = std::array<char, kApplicationIdAt + 4>;
+
+std::optional<Header> header_of(const std::string& path) {
+  Header header{};
   std::ifstream file(path, std::ios::binary);
-  if (!file.read(header.data(), header.size())) return false;
+  return file.read(header.data(), header.size()) ? std::optional(header) : std::nullopt;
+}
+
+bool is_campaign_header(const Header& header) {
   std::uint32_t id = 0;
   for (std::size_t i = 0; i < 4; ++i) id = id << 8 | static_cast<unsigned char>(header[kApplicationIdAt + i]);
   return std::string_view(header.data(), 15) == "SQLite format 3" && id == static_cast<std::uint32_t>(kApplicationId);
+}
+
+// Judged by the header, so that a damaged campaign file still counts as a campaign file.
+bool is_campaign_file(const std::string& path) {
+  const auto header = header_of(path);
+  return header && is_campaign_header(*header);
 }
 
 // A link is not followed: the rename would replace the link, not the file behind it.
@@ -87,6 +98,17 @@ void require_free_live_name(const std::string& live_path, Existing existing) {
                      "a campaign of this name was interrupted; remove this file to start again, or give another name");
   if (is_empty_file(live_path)) return;  // the program was killed before it wrote a header
   if (!fs::is_regular_file(status) || !is_campaign_file(live_path)) throw_not_ours(live_path);
+}
+
+// SQLite writes the first page last: until then it is all zeros.
+void require_own_rest(const std::string& path) {
+  const auto status = status_of(path);
+  if (!fs::exists(status) || is_empty_file(path)) return;
+  const auto header = fs::is_regular_file(status) ? header_of(path) : std::nullopt;
+  if (header && (is_campaign_header(*header) || *header == Header{})) return;
+  throw InputError(path,
+                   "fleetproof needs this name beside the campaign file, and this file is not of fleetproof; move it "
+                   "away, or give the campaign file another name");
 }
 
 void throw_cannot_make(const std::string& path, int error) {

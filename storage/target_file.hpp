@@ -21,6 +21,10 @@ void require_free_name(const std::string& path, Existing existing);
 // The same for the live file. Replace: an earlier live file of this program may exist, and may be empty.
 void require_free_live_name(const std::string& live_path, Existing existing);
 
+// A file that a killed program of ours may have left under this name will be replaced. Throws InputError if there is
+// another one.
+void require_own_rest(const std::string& path);
+
 // A regular file without a byte.
 bool is_empty_file(const std::string& path);
 

@@ -152,7 +152,8 @@ std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& pat
   VerdictWatch verdict(campaign, cells, gates);
   RunLedger ledger;
   std::optional<std::uint64_t> stop;
-  ArchiveWriter archive(path, campaign, cells, gates, options.overwrite ? Existing::Replace : Existing::Refuse);
+  ArchiveWriter archive(path, campaign, cells, gates, options.overwrite ? Existing::Replace : Existing::Refuse, {},
+                        LiveName::Merging);
   try {
     for (std::uint64_t chunk = 0; chunk < chunks.grid().count() && !stop; ++chunk) {
       if (std::ranges::binary_search(missing, chunk)) throw_missing(chunks);
@@ -168,14 +169,14 @@ std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& pat
       if (options.fail_fast > 0) stop = ledger.length_with_failures(options.fail_fast);
       if (const auto decided = verdict.decided_length(); decided) stop = std::min(stop.value_or(*decided), *decided);
     }
+    const std::uint64_t stored = stop.value_or(chunks.grid().runs());
+    const bool folds = campaign.keep == Keep::Failing && stored == chunks.grid().runs();
+    archive.publish(stored, folds ? MayFold(is_quiet) : MayFold());
+    return stored;
   } catch (...) {
     archive.discard();
     throw;
   }
-  const std::uint64_t stored = stop.value_or(chunks.grid().runs());
-  const bool folds = campaign.keep == Keep::Failing && stored == chunks.grid().runs();
-  archive.publish(stored, folds ? MayFold(is_quiet) : MayFold());
-  return stored;
 }
 
 std::string ranges_text(const std::vector<std::uint64_t>& numbers, const std::string& separator) {

@@ -29,7 +29,7 @@ class MergeRefusals : public test::ShardedCampaign {
     EXPECT_EQ(refused.exit_code, exit_code) << refused.err;
     for (const std::string& word : words) EXPECT_THAT(refused.err, HasSubstr(word));
     EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << "one error";
-    for (const char* left : {"m.db", "m.db.partial", "m.sessions.jsonl", "attempts.jsonl"})
+    for (const char* left : {"m.db", "m.db.merging", "m.db.unfinished", "m.sessions.jsonl", "attempts.jsonl"})
       EXPECT_FALSE(fs::exists(path(left))) << left;
   }
   void flip(const std::string& file, std::size_t at) const {
@@ -163,3 +163,11 @@ TEST_F(MergeRefusals, UnfinishedFilesAreIgnored) {
 
 }  // namespace
 }  // namespace fleetproof
+TEST_F(MergeRefusals, AMergeThatWasKilledCanBeRepeated) {
+  const std::string single = single_file();
+  write("m.db.merging", "");  // as a kill leaves it
+  EXPECT_EQ(merge("out", "m.db"), single_code_);
+  EXPECT_TRUE(read(path("m.db")) == single);
+  EXPECT_FALSE(fs::exists(path("m.db.merging")));
+}
+

@@ -319,6 +319,40 @@ TEST(ArchiveWriter, a_foreign_file_named_like_the_live_file_stays) {
   EXPECT_EQ(samples::bytes_of(folder / "a.fp.partial"), "half of a download");
 }
 
+TEST(ArchiveWriter, a_foreign_file_with_a_name_that_is_needed_on_the_way_stays) {
+  const TemporaryFolder folder;
+  for (const char* ending : {".new", ".unfinished"}) {
+    samples::write_bytes((folder / "a.fp") + ending, "mine");
+    EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "a.fp", Existing::Refuse); }),
+                HasSubstr("this file is not of fleetproof; move it away"));
+    EXPECT_EQ(samples::bytes_of((folder / "a.fp") + ending), "mine");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.fp.partial"));
+    // What a killed program left gives way, also before SQLite wrote its first page.
+    for (const std::string& rest : {std::string(), std::string(8192, '\0')}) {
+      samples::write_bytes((folder / "a.fp") + ending, rest);
+      ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+      writer.discard();
+    }
+  }
+}
+
+TEST(ArchiveWriter, the_rest_of_a_killed_merge_gives_way) {
+  const TemporaryFolder folder;
+  const auto merge = [&] {
+    return ArchiveWriter(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates(), Existing::Refuse, {},
+                         LiveName::Merging);
+  };
+  samples::write_bytes(folder / "a.fp.merging", "mine");
+  EXPECT_THAT(sentence_of<InputError>(merge), HasSubstr("a.fp.merging"));
+  std::filesystem::remove(folder / "a.fp.merging");
+  { auto killed = merge(); }  // leaves its live file, as a kill does
+  ASSERT_TRUE(std::filesystem::exists(folder / "a.fp.merging"));
+  auto again = merge();
+  again.publish(0);
+  EXPECT_EQ(ArchiveReader(folder / "a.fp").run_count(), 0U);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.fp.merging"));
+}
+
 TEST(ArchiveWriter, a_file_that_appears_while_the_campaign_runs_is_not_overwritten) {
   const TemporaryFolder folder;
   for (const auto existing : {Existing::Refuse, Existing::Replace}) {
