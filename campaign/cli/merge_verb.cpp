@@ -8,14 +8,12 @@
 #include "campaign/batch/session_log.hpp"
 #include "campaign/cli/archive_name.hpp"
 #include "campaign/cli/attempt_log.hpp"
+#include "campaign/cli/campaign_end.hpp"
 #include "campaign/cli/campaign_words.hpp"
-#include "campaign/cli/ci_summary.hpp"
-#include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/shards/merge.hpp"
 #include "core/base/error.hpp"
-#include "reports/report.hpp"
 #include "reports/wording.hpp"
 #include "storage/line_log.hpp"
 
@@ -64,20 +62,6 @@ std::function<void(std::uint64_t)> counter_talk(std::uint64_t chunks) {
   };
 }
 
-int finish(const MergeWords& words, AttemptLog& attempt) {
-  ReportInput input = read_report_input(ArchiveReader(words.archive), words.archive);
-  attempt.end(input);
-  add_history(input, attempt.path());
-  if (words.json) {
-    put_text(render(input, "json"));
-  } else {
-    put_text(render(input, "summary"));
-    put("report: fleetproof report {}\n", shell_word(words.archive));
-  }
-  tell_ci(input);
-  return words.exit_zero && input.exit_code != kEngineFault ? kDemonstrated : input.exit_code;
-}
-
 int merge(MergeWords words) {
   if (words.fail_fast && *words.fail_fast < 1) throw InputError("--fail-fast", "is 0; it is at least 1");
   const std::optional<Keep> keep = keep_of(words.keep);
@@ -98,7 +82,7 @@ int merge(MergeWords words) {
   session.end(result, 0);
   attempt.begin();
   talk("{} of {} put together in {}\n", result.stored, count_text(result.progress.planned, "run"), words.archive);
-  return finish(words, attempt);
+  return tell_verdict(words.archive, attempt, {words.json, words.exit_zero});
 }
 
 }  // namespace

@@ -10,12 +10,11 @@
 #include "campaign/batch/session_log.hpp"
 #include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/archive_name.hpp"
+#include "campaign/cli/campaign_end.hpp"
 #include "campaign/cli/attempt_log.hpp"
 #include "campaign/cli/campaign_words.hpp"
-#include "campaign/cli/ci_summary.hpp"
 #include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/progress.hpp"
-#include "campaign/cli/render.hpp"
 #include "campaign/cli/shard_words.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
@@ -24,7 +23,7 @@
 #include "campaign/plan/plan_check.hpp"
 #include "campaign/run/release.hpp"
 #include "core/base/error.hpp"
-#include "reports/report.hpp"
+#include "storage/beside.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -115,18 +114,8 @@ int finish(const CampaignResult& result, const RunWords& words, AttemptLog& atte
   } else if (result.complete() && result.progress.audits_open > 0) {
     talk("{} of its runs are still to be audited; go on: {}\n", result.progress.audits_open, resume_command(words));
   }
-  ReportInput input = read_report_input(ArchiveReader(words.archive), words.archive);
-  attempt.end(input);
-  add_history(input, attempt.path());
-  if (words.json) {
-    put_text(render(input, "json"));
-  } else {
-    put_text(render(input, "summary"));
-    put("report: fleetproof report {}\n", shell_word(words.archive));
-  }
-  tell_ci(input);
-  if (signal_number != 0) return 128 + signal_number;
-  return words.exit_zero && input.exit_code != 3 ? kDemonstrated : input.exit_code;
+  const int exit_code = tell_verdict(words.archive, attempt, {words.json, words.exit_zero});
+  return signal_number != 0 ? 128 + signal_number : exit_code;
 }
 
 // Before the campaign, and apart from it.
