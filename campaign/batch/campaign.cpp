@@ -38,9 +38,16 @@ constexpr std::size_t kLossesKept = 1000;
 
 }  // namespace
 
-bool must_stop(const RunOptions& options, double elapsed_s) {
+void CampaignResult::add(std::vector<WorkerLoss> lost) {
+  loss_count += lost.size();
+  for (WorkerLoss& loss : lost) {
+    if (losses.size() < kLossesKept) losses.push_back(std::move(loss));
+  }
+}
+
+bool must_stop(const RunOptions& options) {
   const bool interrupted = options.interrupted != nullptr && options.interrupted->load() != 0;
-  return interrupted || (options.max_time && elapsed_s >= static_cast<double>(options.max_time->count()));
+  return interrupted || (options.deadline && std::chrono::steady_clock::now() >= *options.deadline);
 }
 
 std::vector<std::string> build_first_worlds(const CampaignPlan& plan) {
@@ -157,7 +164,7 @@ class Session {
   void finish_audits() {
     audits_.no_more_runs();
     while (!audits_.idle()) {
-      if (must_stop(options_, elapsed_s())) break;
+      if (must_stop(options_)) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       tick_if_due([] { return std::vector<RunUnderWay>(); });
     }
@@ -217,7 +224,7 @@ class Session {
 
   void stop_if_due(TaskPool& pool) {
     const auto now = Clock::now();
-    if (!stopped_ && (must_stop(options_, elapsed_s()) || stop_length())) {
+    if (!stopped_ && (must_stop(options_) || stop_length())) {
       stopped_ = now;
       pool.stop();
     }

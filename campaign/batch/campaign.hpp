@@ -22,7 +22,8 @@ struct RunOptions {
   std::string audit_program;  // is started for audits (campaign/workers/fresh_program.hpp); empty: no audits
   bool overwrite = false;     // replace an existing campaign file, once the new one is complete; else it goes on
   bool allow_drift = false;   // go on in a file that another engine wrote, and record it
-  std::optional<std::chrono::seconds> max_time;   // stop cleanly after this time
+  // Stop cleanly then; the time before the first run counts, too.
+  std::optional<std::chrono::steady_clock::time_point> deadline;
   std::uint64_t fail_fast = 0;                    // stop after so many failed runs, in order of run index; 0: never
   bool until_verdict = false;                     // stop when the gates that decide have given the verdict
   const std::atomic<int>* interrupted = nullptr;  // non-zero: a signal number; stop handing out runs
@@ -66,8 +67,8 @@ struct CampaignListener {
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener);
 
-// Whether a signal or the time budget ends a session that lasts so long.
-bool must_stop(const RunOptions& options, double elapsed_s);
+// Whether a signal or the deadline ends a session.
+bool must_stop(const RunOptions& options);
 
 // Draws one world for each layout and fleet size. Throws InputError if a layout has no room for its fleet. Returns a
 // sentence for each fleet so large that it may stand still: more than one AGV for two stations.

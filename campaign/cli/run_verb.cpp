@@ -3,15 +3,14 @@
 #include <atomic>
 #include <csignal>
 #include <ctime>
-#include <filesystem>
 #include <memory>
 
 #include "campaign/batch/campaign.hpp"
 #include "campaign/batch/session_log.hpp"
 #include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/archive_name.hpp"
-#include "campaign/cli/campaign_end.hpp"
 #include "campaign/cli/attempt_log.hpp"
+#include "campaign/cli/campaign_end.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/progress.hpp"
@@ -22,6 +21,7 @@
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/plan_check.hpp"
 #include "campaign/run/release.hpp"
+#include "campaign/shrink/case_host.hpp"
 #include "core/base/error.hpp"
 #include "storage/beside.hpp"
 
@@ -55,21 +55,22 @@ std::atomic<bool> status_wanted{false};
 
 void on_status_signal(int) { status_wanted = true; }
 
-// The shorter of two budgets; none if neither is given.
-std::optional<std::chrono::seconds> time_budget(const RunWords& words) {
+// After the shorter of two budgets; none if neither is given.
+std::optional<std::chrono::steady_clock::time_point> deadline_of(const RunWords& words) {
   std::optional<std::chrono::seconds> budget;
   if (!words.time.max_time.empty()) budget = duration_of(words.time.max_time, "--max-time");
   if (!words.time.until.empty()) {
     const auto until = time_until(words.time.until, std::time(nullptr), "--until");
     budget = budget ? std::min(*budget, until) : until;
   }
-  return budget;
+  return budget ? std::optional(std::chrono::steady_clock::now() + *budget) : std::nullopt;
 }
 
+// `worker_logs` follows when the campaign file has its name.
 RunOptions run_options(const RunWords& words) {
   RunOptions options;
+  options.deadline = deadline_of(words);
   options.workers = worker_count(words.jobs);
-  options.max_time = time_budget(words);
   if (words.fail_fast && *words.fail_fast < 1) throw InputError("--fail-fast", "is 0; it is at least 1");
   options.fail_fast = words.fail_fast.value_or(0);
   options.allow_drift = words.allow_drift;
@@ -77,7 +78,6 @@ RunOptions run_options(const RunWords& words) {
   options.overwrite = words.overwrite;
   options.interrupted = &interrupted();
   options.audit_program = kOwnProgram;
-  options.worker_logs = std::filesystem::path(words.archive).replace_extension().string();
   return options;
 }
 
@@ -119,17 +119,24 @@ int finish(const CampaignResult& result, const RunWords& words, AttemptLog& atte
 }
 
 // Before the campaign, and apart from it.
-void play_findings(const RunWords& words, const CampaignPlan& plan, const AgentPrograms& programs) {
+void play_findings(const RunWords& words, const CampaignPlan& plan, const AgentPrograms& programs,
+                   const RunOptions& options) {
   if (words.findings.empty()) return;
   const FindingsFile file(words.findings);
   if (file.findings().empty()) throw InputError("--findings", fmt::format("there is no finding in {}", words.findings));
   std::size_t failing = 0, all = 0;
-  for (const PlayedCase& played : play_known_cases(file, plan, programs, worker_count(words.jobs))) {
-    ++all;
-    if (!played.fails_so) continue;
-    ++failing;
-    talk("{} {} with {}: {}\n", played.id, played.status == FindingStatus::Fixed ? "is back" : "fails as it did",
-         played.agent, played.outcome);
+  const auto go_on = [&] { return !must_stop(options); };
+  try {
+    for (const PlayedCase& played : play_known_cases(file, plan, programs, options.workers, go_on)) {
+      ++all;
+      if (!played.fails_so) continue;
+      ++failing;
+      talk("{} {} with {}: {}\n", played.id, played.status == FindingStatus::Fixed ? "is back" : "fails as it did",
+           played.agent, played.outcome);
+    }
+  } catch (const GivenUp&) {
+    talk("the time is over; the known cases were not all played\n");
+    return;
   }
   talk("{} of {} known cases fail as they did; they count in no claim\n", failing, all);
 }
@@ -164,6 +171,7 @@ void listen_to_signals() {
 
 int run(RunWords words) {
   if (words.shard.given()) refuse_beside_shard(words);
+  RunOptions options = run_options(words);
   AgentPrograms programs;
   CampaignFile file = load_campaign(words.campaign, programs);
   if (words.plan.replicates) file.plan.replicates = *words.plan.replicates;
@@ -174,15 +182,15 @@ int run(RunWords words) {
     listen_to_signals();
     return simulate_shard(words.shard, {.file = file,
                                         .programs = programs,
-                                        .options = run_options(words),
+                                        .options = options,
                                         .overrides = overrides(words),
                                         .resume_command = resume_command(words),
                                         .fresh_seed = file.fresh_seed && !words.plan.seed,
                                         .wants_status = [] { return status_wanted.exchange(false); }});
   }
   if (words.archive.empty()) words.archive = archive_name_of(file.plan.name);
-  const RunOptions options = run_options(words);
-  play_findings(words, file.plan, programs);
+  options.worker_logs = beside(words.archive, "");
+  play_findings(words, file.plan, programs, options);
   listen_to_signals();
   AttemptLog attempt(words.ledger, {.record = campaign_record(file.plan, programs),
                                     .planned_runs = file.plan.run_count(),

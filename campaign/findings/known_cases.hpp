@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,10 @@ struct PlayedCase {
 };
 
 // All cases of a findings file with all agents of the plan, in this order. They tell at once what is back; they count
-// in no claim, because they were chosen for their failures. Call it before threads are started.
+// in no claim, because they were chosen for their failures. Call it before threads are started. Throws GivenUp once
+// `go_on` says no.
 std::vector<PlayedCase> play_known_cases(const FindingsFile& file, const CampaignPlan& plan,
-                                         const AgentPrograms& programs, int workers);
+                                         const AgentPrograms& programs, int workers,
+                                         const std::function<bool()>& go_on);
 
 }  // namespace fleetproof

@@ -87,7 +87,7 @@ class ShardSession {
       } else if (const auto record = pool.next(std::chrono::milliseconds(100))) {
         take(*record);
       }
-      if (must_stop(options_, elapsed_s())) pool.stop_after_stretch(grid_.chunk_runs());
+      if (must_stop(options_)) pool.stop_after_stretch(grid_.chunk_runs());
       tick_if_due([&] { return runs_under_way(pool); });
     }
     result_.runs.threads = pool.threads_seen();

@@ -28,7 +28,7 @@ struct ShardListener {
 
 // Simulates the chunks of a shard that are not published yet, and publishes each in the folder when it is complete. The
 // same plan, program and chunk give the same bytes, whatever shard, machine or session makes it. A stop (a signal,
-// max_time) lets the chunks that were begun come to their end. Throws InputError if the folder holds another campaign,
+// deadline) lets the chunks that were begun come to their end. Throws InputError if the folder holds another campaign,
 // or one of another program; MachineError if this machine computes differently from the first one, or the disk fails;
 // EngineError if a chunk was published with other bytes. Of the options, those that look at results are not used:
 // fail_fast, until_verdict, overwrite, allow_drift.
