@@ -95,10 +95,12 @@ class FindingsDesk {
       if (const auto added = keep_unless_interrupted(hosts.of(finding.agent), finding)) {
         text += toml_of(*added);
         ++added_;
+        write_file(text);  // each took long, and the next one may end with the process
       }
     }
-    write_whole({words_.file, "--file", OutputKind::Findings}, text);
+    write_file(text);
   }
+  void write_file(const std::string& text) const { write_whole({words_.file, "--file", OutputKind::Findings}, text); }
 
   std::optional<KeptFinding> keep_unless_interrupted(CaseHost& host, const Finding& finding) const {
     host.simulate_while([] { return interrupted() == 0; });
