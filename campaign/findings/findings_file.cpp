@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
+#include <chrono>
 #include <filesystem>
 #include <iterator>
 #include <utility>
@@ -37,8 +39,14 @@ std::string list_of(const std::vector<std::string>& texts) {
 
 bool is_day(std::string_view text) {
   if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  return std::ranges::count_if(text, is_digit) == 8;
+  const auto number = [&](std::size_t from, std::size_t digits) {
+    unsigned value = 0;
+    const char* const end = text.data() + from + digits;
+    return std::from_chars(text.data() + from, end, value).ptr == end ? value : 0U;
+  };
+  using namespace std::chrono;
+  return year_month_day(year(static_cast<int>(number(0, 4))), month(number(5, 2)), day(number(8, 2))).ok();
+// A day of the calendar, as "2027-01-31".
 }
 
 std::string needed(TomlTable& table, std::string_view key) {
@@ -193,8 +201,9 @@ KeptFinding read_finding(TomlTable& table) {
   table.get("until", finding.until);
   table.get("reason", finding.reason);
   if (finding.status == FindingStatus::Waived && (!is_day(finding.until) || finding.reason.empty()))
-    throw InputError(table.place("status"),
-                     "a waiver has a last day and a reason: until = \"2027-01-31\" and reason = \"...\"");
+    throw InputError(
+        table.place("status"),
+        "a waiver has a last day, one of the calendar, and a reason: until = \"2027-01-31\" and reason = \"...\"");
   finding.end = needed(table, "end");
   finding.ways = lists(table, "ways");
   finding.doings = texts(table, "doings");

@@ -119,6 +119,12 @@ TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
 
 // What the whole runs of a finding showed, and the other findings of the same software.
 TEST_F(FindingsFiles, SaysHowElseTheSoftwareFailed) {
+  for (const char* day : {"2026-13-99", "2027-02-29", "2026-00-10", "2026-1-010", "2026-11-2x"})
+    EXPECT_THAT(error_of(toml_of(waived) + "reason = \"x\"\nuntil = \"" + day + "\"\n"), HasSubstr("until")) << day;
+  EXPECT_EQ(error_of(toml_of(waived) + "reason = \"x\"\nuntil = \"2028-02-29\"\n"), "");
+  auto other = odd();
+  other.laws_left_out = {"gravity"};
+  EXPECT_THAT(error_of(toml_of(other)), HasSubstr("\"gravity\" is no law"));
   KeptFinding other = odd(), elsewhere = odd();
   other.id = "F-00000002";
   other.ways = {{"breakdown"}};
