@@ -131,6 +131,8 @@ class FindingsDesk {
                      .doings = record.kept.doings,
                      .says = record.kept.says,
                      .found_in = finding.agent,
+                     .laws_left_out = plan_.laws_left_out,
+                     .limits = plan_.limits,
                      .smallest = id + ".case.json",
                      .world = id + ".world.json",
                      .neighbours = record.neighbours,

@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/streams.hpp"
@@ -120,6 +121,23 @@ void put_json(const std::vector<Retested>& all) {
   put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
 }
 
+// One for all findings with one configuration of the agent that are judged alike. Made before any thread.
+class RetestHosts {
+ public:
+  RetestHosts(const AgentPrograms& programs, int workers) : programs_(programs), workers_(workers) {}
+  CaseHost& of(const CaseAgent& agent) {
+    for (const auto& [known, host] : hosts_) {
+      if (known == agent) return *host;
+    }
+    return *hosts_.emplace_back(agent, std::make_unique<CaseHost>(agent, programs_, workers_)).second;
+  }
+
+ private:
+  const AgentPrograms& programs_;
+  int workers_;
+  std::vector<std::pair<CaseAgent, std::unique_ptr<CaseHost>>> hosts_;
+};
+
 int retest_findings(const RetestWords& words) {
   if (words.agent.empty()) throw InputError("--agent", "name the control software to test");
   if (words.neighbours && (*words.neighbours < 1 || *words.neighbours > kMostNeighbours))
@@ -129,16 +147,13 @@ int retest_findings(const RetestWords& words) {
   const std::string agent = meet_agent(words.agent, plugins, programs, &AgentPrograms::know);
   const FindingsFile file(words.file);
   std::vector<KeptFailure> failures;
-  const auto config_of = [&](const KeptFailure& failure) {
-    return words.config.empty() ? failure.smallest.agent_config : words.config;
-  };
-  std::map<std::string, std::unique_ptr<CaseHost>> hosts;  // by the configuration of the agent; made before any thread
+  RetestHosts hosts(programs, worker_count(words.jobs));
+  std::vector<CaseHost*> host_of;  // of each finding
   const auto findings = chosen(file, words.ids);
   for (const KeptFinding* finding : findings) {
     failures.push_back(file.failure(*finding));
-    const std::string config = config_of(failures.back());
-    auto& host = hosts[config];
-    if (!host) host = std::make_unique<CaseHost>(CaseAgent{agent, config}, programs, worker_count(words.jobs));
+    const std::string config = words.config.empty() ? failures.back().smallest.agent_config : words.config;
+    host_of.push_back(&hosts.of({agent, config, finding->laws_left_out, finding->limits}));
   }
   std::vector<Retested> all;
   // As many as when it was found: there, so many were needed for some of them to fail.
@@ -147,8 +162,7 @@ int retest_findings(const RetestWords& words) {
     return static_cast<std::uint32_t>(words.neighbours.value_or(usual));
   };
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    CaseHost& host = *hosts.at(config_of(failures[i]));
-    all.push_back({*findings[i], retest(host, failures[i], findings[i]->neighbours, neighbours_of(*findings[i]),
+    all.push_back({*findings[i], retest(*host_of[i], failures[i], findings[i]->neighbours, neighbours_of(*findings[i]),
                                         file.known_runs(*findings[i]))});
     if (!words.json) put_line(all.back());
   }

@@ -10,9 +10,13 @@
 #include <iterator>
 #include <utility>
 
+#include "campaign/plan/plan_fields.hpp"
 #include "campaign/plan/toml_table.hpp"
+#include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
+#include "laws/laws.hpp"
 
 namespace fleetproof {
 namespace {
@@ -37,6 +41,7 @@ std::string list_of(const std::vector<std::string>& texts) {
   return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
+// A day of the calendar, as "2027-01-31".
 bool is_day(std::string_view text) {
   if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
   const auto number = [&](std::size_t from, std::size_t digits) {
@@ -46,7 +51,6 @@ bool is_day(std::string_view text) {
   };
   using namespace std::chrono;
   return year_month_day(year(static_cast<int>(number(0, 4))), month(number(5, 2)), day(number(8, 2))).ok();
-// A day of the calendar, as "2027-01-31".
 }
 
 std::string needed(TomlTable& table, std::string_view key) {
@@ -173,6 +177,30 @@ std::string text_of_words(std::string_view prefix, const NeighbourCounts& counts
   return text;
 }
 
+// What decides how its runs are judged, beside the scenario.
+void read_judge(TomlTable& table, KeptFinding& finding) {
+  finding.laws_left_out = texts(table, "laws_left_out");
+  const auto names = names_of(default_laws());
+  for (const std::string& name : finding.laws_left_out) {
+    if (std::ranges::find(names, name) == names.end())
+      throw InputError(table.place("laws_left_out"), fmt::format("{} is no law of a campaign", in_quotes(name)));
+  }
+  visit_fields(finding.limits, [&](const Field& field, auto& value) {
+    const auto given = table.given(field.key);
+    if (!given) return;
+    if (const auto sentence = take(field, given->value, value); !sentence.empty()) given->refuse(sentence);
+  });
+}
+
+std::string text_of_judge(const KeptFinding& finding) {
+  std::string text;
+  if (!finding.laws_left_out.empty()) text += fmt::format("laws_left_out = {}\n", list_of(finding.laws_left_out));
+  const LimitSetup usual;
+  if (finding.limits.memory_mb != usual.memory_mb) text += fmt::format("memory_mb = {}\n", finding.limits.memory_mb);
+  if (finding.limits.cpu_s != usual.cpu_s) text += fmt::format("cpu_s = {}\n", finding.limits.cpu_s);
+  return text;
+}
+
 std::string lists_of(const std::vector<std::vector<std::string>>& lists) {
   std::vector<std::string> items;
   for (const auto& list : lists) items.push_back(list_of(list));
@@ -213,6 +241,7 @@ KeptFinding read_finding(TomlTable& table) {
   finding.world = needed(table, "world");
   finding.other_worlds = texts(table, "other_worlds");
   finding.whole.files = texts(table, "runs");
+  read_judge(table, finding);
   read_neighbours(table, finding.neighbours);
   read_whole_runs(table, finding);
   table.finish();
@@ -279,6 +308,7 @@ std::string toml_of(const KeptFinding& finding) {
                       lists_of(finding.ways), toml_text(finding.found_in), toml_text(finding.smallest),
                       toml_text(finding.world));
   if (!finding.other_worlds.empty()) text += fmt::format("other_worlds = {}\n", list_of(finding.other_worlds));
+  text += text_of_judge(finding);
   text += fmt::format("neighbours = {}\nneighbours_failing = {}\n", finding.neighbours.of, finding.neighbours.alike);
   text += fmt::format(
       "world_neighbours = {}\nworld_neighbours_failing = {}\nneighbours_driven_m = {}\n"

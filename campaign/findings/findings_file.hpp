@@ -42,6 +42,8 @@ struct KeptFinding {
   std::vector<std::vector<std::string>> ways;  // as KeptFailure has them; the first is the mechanism's
   std::vector<std::string> doings, says;       // likewise
   std::string found_in;                        // the agent that failed so
+  std::vector<std::string> laws_left_out{};    // of its campaign
+  LimitSetup limits{};                         // likewise
   std::string smallest, world;                 // paths of scenario files, from the findings file on
   std::vector<std::string> other_worlds{};     // likewise
   NeighbourCounts neighbours;                  // in the software in which it was found

@@ -20,6 +20,7 @@ struct CaseAgent {
   std::string program, config;
   std::vector<std::string> laws_left_out{};
   LimitSetup limits{};
+  friend bool operator==(const CaseAgent&, const CaseAgent&) = default;
 };
 
 // A case was to be simulated after the time for that was over.

@@ -39,6 +39,8 @@ class FindingsFiles : public testing::Test {
     finding.end = "too close";
     finding.ways = {{"lost messages", "the \"x\" messages"}, {}};
     finding.found_in = "a\tb";
+    finding.laws_left_out = {"progress"};
+    finding.limits = {512, 2.5};
     finding.smallest = "c.json";
     finding.world = "w.json";
     finding.other_worlds = {"v.json", "u.json"};
@@ -79,6 +81,8 @@ TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   EXPECT_EQ(read->ways, odd().ways);
   EXPECT_EQ(std::pair(read->doings, read->says), std::pair(odd().doings, odd().says));
   EXPECT_EQ(read->other_worlds, odd().other_worlds);
+  EXPECT_EQ(read->laws_left_out, odd().laws_left_out);
+  EXPECT_EQ(read->limits, odd().limits);
   EXPECT_EQ(std::pair(read->neighbours.of_world, read->neighbours.alike_of_world), std::pair(750UL, 9UL));
   EXPECT_EQ(std::pair(read->neighbours.driven_m, read->neighbours.driven_elsewhere_m), std::pair(12345UL, 678UL));
   EXPECT_EQ(read->neighbours.said.always, odd().neighbours.said.always);
@@ -115,16 +119,16 @@ TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
   waived.status = FindingStatus::Waived;
   EXPECT_THAT(error_of(toml_of(waived)), HasSubstr("until"));
   EXPECT_THAT(error_of(toml_of(waived)), HasSubstr("findings.toml:5"));
-}
-
-// What the whole runs of a finding showed, and the other findings of the same software.
-TEST_F(FindingsFiles, SaysHowElseTheSoftwareFailed) {
   for (const char* day : {"2026-13-99", "2027-02-29", "2026-00-10", "2026-1-010", "2026-11-2x"})
     EXPECT_THAT(error_of(toml_of(waived) + "reason = \"x\"\nuntil = \"" + day + "\"\n"), HasSubstr("until")) << day;
   EXPECT_EQ(error_of(toml_of(waived) + "reason = \"x\"\nuntil = \"2028-02-29\"\n"), "");
   auto other = odd();
   other.laws_left_out = {"gravity"};
   EXPECT_THAT(error_of(toml_of(other)), HasSubstr("\"gravity\" is no law"));
+}
+
+// What the whole runs of a finding showed, and the other findings of the same software.
+TEST_F(FindingsFiles, SaysHowElseTheSoftwareFailed) {
   KeptFinding other = odd(), elsewhere = odd();
   other.id = "F-00000002";
   other.ways = {{"breakdown"}};
