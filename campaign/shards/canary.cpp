@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -63,7 +65,16 @@ std::vector<std::string> lines_of(std::istream& text) {
 
 std::vector<std::string> lines_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  return lines_of(file);
+  if (!file) throw MachineError(path + ": this file is missing; run a shard of this folder again, which writes it");
+  std::ostringstream text;
+  text << file.rdbuf();
+  const std::string bytes = std::move(text).str();
+  if (!bytes.ends_with('\n'))
+    throw MachineError(path +
+                       ": this file is empty or incomplete; remove it and run a shard of this folder again, "
+                       "which writes it");
+  std::istringstream lines(bytes);
+  return lines_of(lines);
 }
 
 bool differ(const std::string& one, const std::string& other) {
@@ -80,6 +91,18 @@ void require_same(const std::string& stored_in, const std::vector<std::string>& 
         "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA on all of them and begin in a new folder",
         stored_in, here, i < stored.size() ? stored[i] : "", i < now.size() ? now[i] : ""));
   }
+}
+
+void write_canary(const std::string& path, const std::string& canary) {
+  std::ofstream file(path, std::ios::binary);
+  file << canary;
+  file.close();
+  if (file) return;
+  const int error = errno;
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  throw MachineError(fmt::format("{}: cannot be written ({}); free some space, then the same command goes on", path,
+                                 std::strerror(error)));
 }
 
 }  // namespace
@@ -99,7 +122,7 @@ std::string canary_text(const CampaignPlan& plan, const AgentPrograms& programs,
 
 void check_canary(const ShardFolder& folder, const std::string& canary) {
   const std::string target = folder.canary_file(), temporary = ShardFolder::temporary_name(target);
-  std::ofstream(temporary, std::ios::binary) << canary;
+  write_canary(temporary, canary);
   if (publish_once(temporary, target) != Publication::Differs) return;
   std::error_code ignored;
   std::filesystem::remove(temporary, ignored);

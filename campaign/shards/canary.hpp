@@ -14,10 +14,10 @@ namespace fleetproof {
 std::string canary_text(const CampaignPlan& plan, const AgentPrograms& programs, int workers);
 
 // The first shard stores its canary in the folder. Others compare: throws MachineError if a line differs, and neither
-// is unsteady.
+// is unsteady, if the file is empty or incomplete, or if it cannot be written.
 void check_canary(const ShardFolder& folder, const std::string& canary);
 
-// The same for two folders: throws MachineError if their canaries differ.
+// The same for two folders: throws MachineError if their canaries differ, or if one is missing.
 void require_same_canary(const ShardFolder& folder, const ShardFolder& other);
 
 }  // namespace fleetproof

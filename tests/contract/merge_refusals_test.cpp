@@ -137,6 +137,13 @@ TEST_F(MergeRefusals, AnExistingFileStays) {
   write("m.db", "mine");
   EXPECT_EQ(run("merge out --db m.db").exit_code, 2);
   EXPECT_EQ(run("merge out --db m.db --overwrite").exit_code, 2) << "no campaign file";
+  write("other/canary.txt", "");
+  expect_refused(3, {"other/canary.txt: this file is empty or incomplete; remove it"}, "out other");
+  EXPECT_EQ(run_shard("other", "1/1").exit_code, 3);
+  fs::remove(path("other/canary.txt"));
+  expect_refused(3, {"other/canary.txt: this file is missing; run a shard of this folder again"}, "out other");
+  EXPECT_EQ(run_shard("other", "1/1").exit_code, 0) << "the remedy";
+  merge("out other", "m.db");
   EXPECT_EQ(read(path("m.db")), "mine");
   fs::remove(path("m.db"));
   merge("out", "m.db");
