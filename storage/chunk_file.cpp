@@ -110,9 +110,20 @@ void write_chunk_file(const std::string& path, const ChunkLabel& label, const Ch
   if (!file) not_written(path);
 }
 
-ChunkFile::ChunkFile(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+// Before it is opened: a pipe would be waited for.
+bool is_chunk_there(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw InputError(path, "there is no such file");
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) return false;
+  if (!std::filesystem::is_regular_file(status))
+    throw InputError(path, "this is no regular file and stands where a chunk belongs; move it away");
+  return true;
+}
+
+ChunkFile::ChunkFile(const std::string& path) : path_(path) {
+  if (!is_chunk_there(path)) throw InputError(path, "there is no such file");
+  file_.open(path, std::ios::binary);
+  std::error_code error;
   if (!file_) throw InputError(path, fmt::format("cannot be read ({}); change its permissions", std::strerror(errno)));
   const std::uint64_t here = std::filesystem::file_size(path, error);
   const auto require_bytes = [&](std::uint64_t wanted) {

@@ -31,6 +31,9 @@ struct ChunkContent {
 // MachineError if the disk fails.
 void write_chunk_file(const std::string& path, const ChunkLabel& label, const ChunkContent& content);
 
+// Whether there is a chunk file. Throws InputError if something else has its name: a pipe, a folder.
+bool is_chunk_there(const std::string& path);
+
 // Reads a chunk file. Every error names the file and says what to do. Threads: one.
 class ChunkFile {
  public:

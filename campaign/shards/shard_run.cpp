@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -16,11 +15,10 @@
 #include "campaign/workers/run_host.hpp"
 #include "core/base/error.hpp"
 #include "storage/checksum.hpp"
+#include "storage/chunk_file.hpp"
 
 namespace fleetproof {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Runs between the oldest unfinished and the newest handed out. A chunk that waits for a slow run keeps its file open,
 // so there are less of them than a process may have.
@@ -47,7 +45,7 @@ class ShardSession {
       runs_.record(agent, plan.audit.share > 0.0 && programs.is_plugin(plan.agents[agent].program));
     for (std::uint64_t chunk = owned_.begin; chunk < owned_.end; ++chunk) {
       result_.runs.progress.planned += grid_.run_count(chunk);
-      if (!fs::exists(folder.chunk_file(chunk))) {
+      if (!is_chunk_there(folder.chunk_file(chunk))) {
         to_do_.push_back(chunk);
         runs_to_do_ += grid_.run_count(chunk);
       }

@@ -1,6 +1,7 @@
 #include "storage/chunk_file.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include "core/base/error.hpp"
 #include "storage/run_bytes.hpp"
@@ -84,6 +85,11 @@ TEST_F(ChunkFiles, OtherFilesAreRefused) {
   samples::write_bytes(path_, "SQLite format 3 and much more than the head of a chunk");
   EXPECT_THAT(test::sentence_of<InputError>([&] { ChunkFile{path_}; }), HasSubstr("this is no chunk"));
   EXPECT_THAT(test::sentence_of<InputError>([&] { ChunkFile{folder_ / "none.chunk"}; }), HasSubstr("no such file"));
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.chunk").c_str(), 0644), 0);
+  EXPECT_THAT(test::sentence_of<InputError>([&] { ChunkFile{folder_ / "pipe.chunk"}; }), HasSubstr("no regular file"));
+  EXPECT_TRUE(is_chunk_there(path_));
+  EXPECT_FALSE(is_chunk_there(folder_ / "none.chunk"));
+  EXPECT_THROW(is_chunk_there(folder_ / "pipe.chunk"), InputError);
 }
 
 }  // namespace
