@@ -48,13 +48,23 @@ std::vector<std::uint64_t> shards_of(const std::vector<std::uint64_t>& missing, 
   return shards;
 }
 
+// With which the shards were begun: without them, another one is refused.
+std::string overrides_of(const PublishedChunks& chunks) {
+  for (const std::string& session : chunks.sessions()) {
+    if (const std::string overrides = remembered_overrides(session); !overrides.empty()) return " " + overrides;
+  }
+  return "";
+}
+
 void print_text(const MissingWords& words, const PublishedChunks& chunks, const std::vector<std::uint64_t>& missing,
                 const std::vector<std::uint64_t>& shards, std::uint64_t count) {
   put("{} of {} are missing: {}\n", missing.size(), count_text(chunks.grid().count(), "chunk"), ranges_text(missing));
   put("{} of {} to run again: {}\n", shards.size(), count_text(count, "shard"), ranges_text(shards));
   constexpr std::size_t kTold = 10;
+  const std::string overrides = overrides_of(chunks);
   for (std::size_t i = 0; i < std::min(kTold, shards.size()); ++i)
-    put("  fleetproof run CAMPAIGN --shard {}/{} --out {}\n", shards[i], count, shell_word(words.folders.front()));
+    put("  fleetproof run CAMPAIGN{} --shard {}/{} --out {}\n", overrides, shards[i], count,
+        shell_word(words.folders.front()));
   if (shards.size() > kTold) put("  and {} more\n", shards.size() - kTold);
   put("in Slurm: sbatch --array={} with the script of before\n", ranges_text(shards, ","));
 }

@@ -1,5 +1,6 @@
 // Merge alone says whether the shards of a campaign are complete, of one plan and program, and undamaged.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -58,6 +59,22 @@ TEST_F(MergeRefusals, AGapAndMissingSaysWhatToRunAgain) {
   const std::string single = single_file();
   EXPECT_EQ(merge("out", "m.db"), single_code_);
   EXPECT_TRUE(read(path("m.db")) == single);
+}
+
+TEST_F(MergeRefusals, AShardIsRunAgainWithTheSeedOfBefore) {
+  ASSERT_EQ(run_shard("other", "1/1", "--seed 6 --replicates 39").exit_code, 0);
+  fs::remove(chunk(3, "other"));
+  EXPECT_THAT(run("missing other").out,
+              HasSubstr("  fleetproof run CAMPAIGN --seed 6 --replicates 39 --shard 1/1 --out other\n"));
+}
+
+// A pipe is not waited for.
+TEST_F(MergeRefusals, APipeInPlaceOfAChunk) {
+  fs::remove(chunk(3));
+  ASSERT_EQ(::mkfifo(chunk(3).c_str(), 0644), 0);
+  expect_refused(2, {"000003.chunk: this is no regular file"});
+  EXPECT_THAT(run("missing out").out, HasSubstr("1 of 10 chunks are missing: 3\n"));
+  EXPECT_EQ(run_shard("out", "1/1").exit_code, 2);
 }
 
 TEST_F(MergeRefusals, AnOverlap) {
@@ -120,6 +137,13 @@ TEST_F(MergeRefusals, MachinesThatComputeDifferently) {
   ASSERT_EQ(run_shard("other", "1/1").exit_code, 0);
   flip(path("other/canary.txt"), 3);
   expect_refused(3, {"other/canary.txt computes differently"}, "out other");
+  write("other/canary.txt", "");
+  expect_refused(3, {"other/canary.txt: this file is empty or incomplete; remove it"}, "out other");
+  EXPECT_EQ(run_shard("other", "1/1").exit_code, 3);
+  fs::remove(path("other/canary.txt"));
+  expect_refused(3, {"other/canary.txt: this file is missing; run a shard of this folder again"}, "out other");
+  EXPECT_EQ(run_shard("other", "1/1").exit_code, 0) << "the remedy";
+  merge("out other", "m.db");
 }
 
 TEST_F(MergeRefusals, WhatIsNoFolderOfShards) {
@@ -137,13 +161,6 @@ TEST_F(MergeRefusals, AnExistingFileStays) {
   write("m.db", "mine");
   EXPECT_EQ(run("merge out --db m.db").exit_code, 2);
   EXPECT_EQ(run("merge out --db m.db --overwrite").exit_code, 2) << "no campaign file";
-  write("other/canary.txt", "");
-  expect_refused(3, {"other/canary.txt: this file is empty or incomplete; remove it"}, "out other");
-  EXPECT_EQ(run_shard("other", "1/1").exit_code, 3);
-  fs::remove(path("other/canary.txt"));
-  expect_refused(3, {"other/canary.txt: this file is missing; run a shard of this folder again"}, "out other");
-  EXPECT_EQ(run_shard("other", "1/1").exit_code, 0) << "the remedy";
-  merge("out other", "m.db");
   EXPECT_EQ(read(path("m.db")), "mine");
   fs::remove(path("m.db"));
   merge("out", "m.db");
@@ -160,6 +177,14 @@ TEST_F(MergeRefusals, ADamagedPlan) {
   merge("out", "m.db");
 }
 
+TEST_F(MergeRefusals, AMergeThatWasKilledCanBeRepeated) {
+  const std::string single = single_file();
+  write("m.db.merging", "");  // as a kill leaves it
+  EXPECT_EQ(merge("out", "m.db"), single_code_);
+  EXPECT_TRUE(read(path("m.db")) == single);
+  EXPECT_FALSE(fs::exists(path("m.db.merging")));
+}
+
 // What was not published does not count.
 TEST_F(MergeRefusals, UnfinishedFilesAreIgnored) {
   write("out/chunks/000/.tmp-77-000003.chunk", "half a chunk");
@@ -170,11 +195,3 @@ TEST_F(MergeRefusals, UnfinishedFilesAreIgnored) {
 
 }  // namespace
 }  // namespace fleetproof
-TEST_F(MergeRefusals, AMergeThatWasKilledCanBeRepeated) {
-  const std::string single = single_file();
-  write("m.db.merging", "");  // as a kill leaves it
-  EXPECT_EQ(merge("out", "m.db"), single_code_);
-  EXPECT_TRUE(read(path("m.db")) == single);
-  EXPECT_FALSE(fs::exists(path("m.db.merging")));
-}
-
