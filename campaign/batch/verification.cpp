@@ -35,7 +35,7 @@ std::uint64_t sample_size(const std::string& text, std::uint64_t runs) {
                      fmt::format("{} is no share as in 1% (above 0 %, at most 100 %) and no number of runs as in 200",
                                  in_quotes(text)));
   }
-  const double wanted = is_share ? std::ceil(value / 100.0 * static_cast<double>(runs)) : value;
+  const double wanted = is_share ? std::ceil(value * static_cast<double>(runs) / 100.0) : value;
   return std::min(runs, static_cast<std::uint64_t>(wanted));
 }
 

@@ -126,6 +126,7 @@ TEST(SampleOfRuns, EveryRunHasItsChance) {
 TEST(SampleSize, IsAShareOrANumber) {
   EXPECT_EQ(sample_size("1%", 4608), 47U);
   EXPECT_EQ(sample_size("0.5%", 1000), 5U);
+  EXPECT_EQ(sample_size("7%", 100), 7U);
   EXPECT_EQ(sample_size("1%", 3), 1U);
   EXPECT_EQ(sample_size("100%", 77), 77U);
   EXPECT_EQ(sample_size("200", 77), 77U);
