@@ -71,12 +71,10 @@ class CopiedRows {
   std::string below_stop_, kept_;
 };
 
-std::uint64_t number(const SQLite::Statement& row) { return std::bit_cast<std::uint64_t>(row.getColumn(0).getInt64()); }
-
 std::uint64_t checksums_digest(SQLite::Database& db, const char* checksums) {
   RowsDigest digest;
   SQLite::Statement rows(db, checksums);
-  while (rows.executeStep()) digest.add(number(rows));
+  while (rows.executeStep()) digest.add(unsigned_of(rows));
   return digest.value();
 }
 
@@ -98,8 +96,8 @@ void seal(SQLite::Database& db, const std::string& below_stop, bool folded) {
   std::uint64_t count = 0;
   SQLite::Statement rows(db, fmt::format("SELECT checksum FROM live.runs WHERE {} ORDER BY run_index", below_stop));
   for (; rows.executeStep(); ++count) {
-    content.add_run(count, number(rows));
-    all.add(number(rows));
+    content.add_run(count, unsigned_of(rows));
+    all.add(unsigned_of(rows));
   }
   content.add_rest(db);
   insert_chunks(db, content.chunks());

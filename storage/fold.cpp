@@ -20,16 +20,12 @@
 namespace fleetproof {
 namespace {
 
-std::uint64_t number(const SQLite::Statement& row, int column) {
-  return std::bit_cast<std::uint64_t>(row.getColumn(column).getInt64());
-}
-
 std::set<std::uint64_t> runs_with_more(SQLite::Database& db) {
   std::set<std::uint64_t> runs;
   SQLite::Statement rows(db,
                          "SELECT run_index FROM live.recordings UNION SELECT a.run_index FROM live.audits a JOIN "
                          "live.runs r ON r.run_index = a.run_index WHERE a.checksum <> r.checksum");
-  while (rows.executeStep()) runs.insert(number(rows, 0));
+  while (rows.executeStep()) runs.insert(unsigned_of(rows, 0));
   return runs;
 }
 
@@ -112,7 +108,8 @@ class Folder {
 std::uint64_t repeated_traces(SQLite::Database& db) {
   std::vector<std::uint64_t> keys;  // eight bytes a run
   SQLite::Statement rows(db, "SELECT cell, digest FROM live.runs");
-  while (rows.executeStep()) keys.push_back(trace_key(static_cast<std::uint32_t>(number(rows, 0)), number(rows, 1)));
+  while (rows.executeStep())
+    keys.push_back(trace_key(static_cast<std::uint32_t>(unsigned_of(rows, 0)), unsigned_of(rows, 1)));
   std::ranges::sort(keys);
   return static_cast<std::uint64_t>(keys.end() - std::unique(keys.begin(), keys.end()));
 }

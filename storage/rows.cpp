@@ -1,5 +1,7 @@
 #include "storage/rows.hpp"
 
+#include <SQLiteCpp/Column.h>
+#include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -16,6 +18,10 @@ std::optional<std::int64_t> maybe(EntityId id) {
 }
 
 }  // namespace
+
+std::uint64_t unsigned_of(const SQLite::Statement& row, int column) {
+  return std::bit_cast<std::uint64_t>(row.getColumn(column).getInt64());
+}
 
 void bind_recording(SQLite::Statement& insert, std::uint64_t run_index, const std::string& calls,
                     std::uint64_t checksum) {

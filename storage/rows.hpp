@@ -18,6 +18,9 @@ namespace fleetproof {
 
 class Row;
 
+// 64 bits of a signed column.
+std::uint64_t unsigned_of(const SQLite::Statement& row, int column = 0);
+
 // Conversion between records and rows. Binds a record to an INSERT, and reads a record from a SELECT. Both use the
 // column lists of schema.hpp. What is bound is not copied: the record must live until the statement has run.
 void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum);

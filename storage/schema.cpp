@@ -250,9 +250,9 @@ std::string factor_definitions(std::string_view FactorInfo::*name, std::string_v
   return list;
 }
 
-std::string with_prefix(const std::string& prefix, std::initializer_list<const char*> names) {
+std::string listed(std::initializer_list<const char*> names) {
   std::string list;
-  for (const auto* name : names) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", prefix, name);
+  for (const auto* name : names) list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
   return list;
 }
 
@@ -262,16 +262,15 @@ std::string counter_list(const std::string& prefix) {
   return list;
 }
 
-std::string run_list(const std::string& prefix, const std::string& factors) {
-  return with_prefix(prefix, {"run_index", "cell", "replicate", "scenario_digest"}) + factors + ", " +
-         with_prefix(prefix, {"outcome_class", "violation", "contact", "stuck", "crash", "hang", "indeterminate",
-                              "engine_error", "min_clearance_um", "simulated_ns", "agv_count", "digest",
-                              "running_digests", "message"}) +
-         ", " + counter_list(prefix) + ", " + prefix + "checksum";
+std::string run_list(const std::string& factors) {
+  return listed({"run_index", "cell", "replicate", "scenario_digest"}) + factors + ", " +
+         listed({"outcome_class", "violation", "contact", "stuck", "crash", "hang", "indeterminate", "engine_error",
+                 "min_clearance_um", "simulated_ns", "agv_count", "digest", "running_digests", "message"}) +
+         ", " + counter_list("") + ", checksum";
 }
 
 std::string cell_list(const std::string& factors) {
-  return with_prefix("", {"cell", "agent", "layout", "fleet_size"}) + factors;
+  return listed({"cell", "agent", "layout", "fleet_size"}) + factors;
 }
 
 // " WHEN 1 THEN 'battery-empty' ...", from the catalogue of kinds.
@@ -317,9 +316,9 @@ std::string schema_ddl() { return ddl_with(", WITHOUT ROWID"); }
 
 std::string live_schema_ddl() { return ddl_with(""); }
 
-std::string run_columns(const std::string& prefix) { return run_list(prefix, factor_names(&FactorInfo::key, prefix)); }
+std::string run_columns() { return run_list(factor_names(&FactorInfo::key)); }
 
-std::string run_values(std::int32_t schema) { return run_list("", factor_values(&FactorInfo::key, schema)); }
+std::string run_values(std::int32_t schema) { return run_list(factor_values(&FactorInfo::key, schema)); }
 
 std::string campaign_values(std::int32_t schema) {
   std::string columns = kCampaignColumns;
@@ -349,8 +348,8 @@ std::string cell_values(std::int32_t schema) {
 }
 
 std::string violation_columns() {
-  return with_prefix("", {"run_index", "ordinal", "entity_a", "entity_b", "first_ns", "last_ns", "closest_at_ns",
-                          "min_clearance_um", "relative_speed_um_s", "normal_speed_um_s", "x_um", "y_um", "contact"});
+  return listed({"run_index", "ordinal", "entity_a", "entity_b", "first_ns", "last_ns", "closest_at_ns",
+                 "min_clearance_um", "relative_speed_um_s", "normal_speed_um_s", "x_um", "y_um", "contact"});
 }
 
 std::string violation_values(std::int32_t schema) {

@@ -26,9 +26,8 @@ std::string schema_ddl();
 // The same for the live file, but `runs` has rowids: a wide row is stored with less work. It reads the same.
 std::string live_schema_ddl();
 
-// Column lists, separated by commas, in the order in which rows.hpp binds and reads them. `prefix` (for example "r.")
-// is put before every name.
-std::string run_columns(const std::string& prefix = "");
+// Column lists, separated by commas, in the order in which rows.hpp binds and reads them.
+std::string run_columns();
 std::string cell_columns();
 // The same places, to be read from a file of this schema: a column that it does not have is replaced by its value.
 std::string run_values(std::int32_t schema);

@@ -4,18 +4,10 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
-#include <bit>
-
 #include "core/base/error.hpp"
+#include "storage/rows.hpp"
 
 namespace fleetproof {
-namespace {
-
-std::uint64_t number(const SQLite::Statement& row, int column) {
-  return std::bit_cast<std::uint64_t>(row.getColumn(column).getInt64());
-}
-
-}  // namespace
 
 SealedContent::SealedContent(std::uint64_t chunk_runs) : chunk_runs_(chunk_runs) {
   ensure(chunk_runs >= 1, "a chunk has at least one run");
@@ -45,17 +37,17 @@ void SealedContent::add_rest(SQLite::Database& db) {
   std::uint64_t count = 0;
   SQLite::Statement audits(db, "SELECT run_index, checksum FROM main.audits ORDER BY run_index");
   while (audits.executeStep()) {
-    all_.add(number(audits, 0));
-    all_.add(number(audits, 1));
+    all_.add(unsigned_of(audits, 0));
+    all_.add(unsigned_of(audits, 1));
     ++count;
   }
   all_.add(count);
   SQLite::Statement recordings(db, "SELECT run_index, checksum, calls FROM main.recordings ORDER BY run_index");
   while (recordings.executeStep()) {
-    all_.add(number(recordings, 0));
-    all_.add(number(recordings, 1));
-    if (recording_checksum(recordings.getColumn(2).getString()) != number(recordings, 1))
-      throw EngineError(fmt::format("the recording of run {} does not match its checksum", number(recordings, 0)));
+    all_.add(unsigned_of(recordings, 0));
+    all_.add(unsigned_of(recordings, 1));
+    if (recording_checksum(recordings.getColumn(2).getString()) != unsigned_of(recordings, 1))
+      throw EngineError(fmt::format("the recording of run {} does not match its checksum", unsigned_of(recordings, 0)));
   }
 }
 

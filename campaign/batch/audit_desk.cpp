@@ -16,7 +16,8 @@ namespace {
 // Runs that one process audits: its start costs as much as some short runs.
 constexpr std::size_t kBatch = 16;
 constexpr std::size_t kFirstBatch = 4;  // the first findings are wanted soon: they may end the recording of runs
-constexpr int kMostHangs = 3;           // of runs that did not hang before; then nothing more is audited
+constexpr std::uint64_t kMostOpen = 65'536;
+constexpr int kMostHangs = 3;  // of runs that did not hang before; then nothing more is audited
 
 // So many threads that the audits keep up with the campaign.
 int threads_for(double share, int workers) {
@@ -80,6 +81,8 @@ bool AuditDesk::idle() const {
   const std::lock_guard lock(mutex_);
   return waiting_.empty() && under_way_ == 0;
 }
+
+bool AuditDesk::is_far_behind() const { return open_count() >= kMostOpen; }
 
 std::uint64_t AuditDesk::open_count() const {
   const std::lock_guard lock(mutex_);

@@ -46,6 +46,7 @@ class AuditDesk {
   void abandon();       // nothing more is audited; the audits under way end within a second
   bool idle() const;    // nothing waits and nothing is under way
   std::uint64_t open_count() const;
+  bool is_far_behind() const;  // of the campaign, which waits then
   // Why no more is audited, for example because the file of a plug-in was changed; empty: nothing went wrong. The
   // campaign goes on: its runs do not need the audits.
   std::string failure() const;

@@ -31,8 +31,6 @@ namespace {
 // Runs between the oldest unfinished and the newest handed out: one slow run stalls nothing, and memory stays bounded.
 constexpr std::uint64_t kLiveWindow = 65'536;
 
-constexpr std::uint64_t kAuditsAhead = 65'536;
-
 constexpr std::chrono::seconds kDrain{4};  // what runs under way get after the stop; then they are abandoned
 constexpr std::size_t kLossesKept = 1000;
 
@@ -133,7 +131,7 @@ class Session {
     audits_.start();
     simulate();
     finish_audits();
-    keep_losses();
+    result_.add(runs_.take_losses());
     result_.stored = stop_length().value_or(ledger_.prefix_length());
     const bool goes_on = !result_.complete() || result_.progress.audits_open > 0;
     archive_.publish(result_.stored, keep == Keep::Failing && !goes_on ? MayFold(is_quiet) : MayFold());
@@ -148,7 +146,7 @@ class Session {
         options_.workers, ledger_.prefix_length(), result_.progress.planned, kLiveWindow,
         [this](std::uint64_t index) { return runs_(index); }, ledger_.ahead(), stretch_);
     while (!pool.finished()) {
-      if (audits_.open_count() >= kAuditsAhead && !stopped_) {  // with a large share the audits set the pace
+      if (audits_.is_far_behind() && !stopped_) {  // with a large share the audits set the pace
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       } else if (const auto record = pool.next(std::chrono::milliseconds(100))) {
         take(*record);
@@ -239,7 +237,7 @@ class Session {
       result_.progress.audits_open = audits_.open_count();
       listener_.tick(result_.progress);
       if (listener_.wants_status()) listener_.status(result_.progress, under_way());
-      keep_losses();
+      result_.add(runs_.take_losses());
       keep_findings();
     }
     if (now - last_commit_ >= std::chrono::seconds(1)) {  // even while one slow run lets no other finish
@@ -253,13 +251,6 @@ class Session {
       archive_.add(finding.audit);
       count(finding);
       if (!finding.same) ++result_.audits_differing;
-    }
-  }
-
-  void keep_losses() {
-    for (WorkerLoss& loss : runs_.take_losses()) {
-      ++result_.loss_count;
-      if (result_.losses.size() < kLossesKept) result_.losses.push_back(std::move(loss));
     }
   }
 

@@ -45,6 +45,8 @@ struct CampaignResult {
   std::uint64_t stored = 0;            // the number of runs in the gap-free prefix that the campaign file contains
   int threads = 0;
   bool complete() const { return stored == progress.planned; }
+  // Counts them, and keeps the first of them.
+  void add(std::vector<WorkerLoss> lost);
 };
 
 // What a running campaign reports, on the caller's thread.

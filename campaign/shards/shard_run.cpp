@@ -23,8 +23,6 @@ namespace {
 // Runs between the oldest unfinished and the newest handed out. A chunk that waits for a slow run keeps its file open,
 // so there are less of them than a process may have.
 constexpr std::uint64_t kLiveWindow = 4096;
-constexpr std::uint64_t kAuditsAhead = 65'536;
-constexpr std::size_t kLossesKept = 1000;
 
 // One session of a shard. It counts, publishes and reports on the caller's thread.
 class ShardSession {
@@ -61,7 +59,7 @@ class ShardSession {
     audits_.start();
     simulate();
     finish_audits();
-    keep_losses();
+    result_.runs.add(runs_.take_losses());
     result_.published = found_ + desk_.published();
     result_.runs.stored = result_.runs.progress.done - desk_.open_runs();
     return std::move(result_);
@@ -80,7 +78,7 @@ class ShardSession {
         options_.workers, 0, runs_to_do_, std::max(kLiveWindow, grid_.chunk_runs()),
         [this](std::uint64_t place) { return runs_(run_at(place)); }, {}, stretch_);
     while (!pool.finished()) {
-      if (audits_.open_count() >= kAuditsAhead) {  // with a large share the audits set the pace
+      if (audits_.is_far_behind()) {  // with a large share the audits set the pace
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       } else if (const auto record = pool.next(std::chrono::milliseconds(100))) {
         take(*record);
@@ -126,7 +124,7 @@ class ShardSession {
     const auto now = Clock::now();
     if (now - last_tick_ < std::chrono::milliseconds(100)) return;
     last_tick_ = now;
-    keep_losses();
+    result_.runs.add(runs_.take_losses());
     keep_findings();
     if (!audits_.failure().empty()) desk_.audits_end();
     desk_.publish();
@@ -144,13 +142,6 @@ class ShardSession {
       desk_.add(finding.audit);
       ++result_.runs.progress.audited;
       if (!finding.same) ++result_.runs.audits_differing;
-    }
-  }
-
-  void keep_losses() {
-    for (WorkerLoss& loss : runs_.take_losses()) {
-      ++result_.runs.loss_count;
-      if (result_.runs.losses.size() < kLossesKept) result_.runs.losses.push_back(std::move(loss));
     }
   }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +25,7 @@ struct TrialLimits {
   std::optional<std::uint64_t> trials;  // counted as one worker would make them
 };
 
-// Verdicts on scenarios by their digest, so that none is simulated twice. They may come from a file.
+// Verdicts on scenarios by their digest, so that none that passes is simulated twice. They may come from a file.
 class TrialCache {
  public:
   virtual ~TrialCache() = default;
@@ -56,7 +55,6 @@ class Trials {
   bool ended() const { return ended_; }
   // So many candidates were simulated, or known from the cache, as one worker would have had to.
   std::uint64_t count() const { return count_; }
-  std::uint64_t simulated() const { return simulated_; }
   CaseHost& host() { return host_; }
 
  private:
@@ -68,7 +66,6 @@ class Trials {
   FailurePattern pattern_;
   TrialLimits limits_;
   std::uint64_t count_ = 0;
-  std::atomic<std::uint64_t> simulated_ = 0;
   bool ended_ = false;
 };
 

@@ -29,7 +29,6 @@ class Channel {
   std::string received();
 
   int fd() const { return fd_; }
-  bool is_open() const { return fd_ >= 0; }
   void close();
 
   struct Pair;
