@@ -26,8 +26,8 @@ struct VisitFolded {
 // Reads a published (or live) campaign file. Threads: one.
 class ArchiveReader {
  public:
-  // Throws InputError if there is no such file, or if it is not a campaign file, or if it has another schema. Throws
-  // EngineError if the file is damaged.
+  // Throws InputError if there is no such file, if it is not a campaign file, or if its schema is newer than ours or
+  // older than kOldestReadable. Throws EngineError if the file is damaged.
   explicit ArchiveReader(const std::string& path, Checksums checksums = Checksums::Verify);
   ~ArchiveReader();
   ArchiveReader(const ArchiveReader&) = delete;
@@ -56,7 +56,7 @@ class ArchiveReader {
   std::uint64_t recording_count(const std::string& agent) const;
   // One digest over plan, cells, gates and all rows. Two files have the same digest if they have the same content.
   std::uint64_t content_digest() const;
-  // The same without the identity of the engine: two builds that compute the same results give the same digest.
+  // The same without the identity of the engine. Files of two builds with one schema and equal results have it alike.
   std::uint64_t results_digest() const;
 
  private:

@@ -71,8 +71,8 @@ struct CampaignRecord {
   // "tugger and cart": pairs of kinds of bodies to which the safety distance does not apply
   std::vector<std::string> exempt_pairs;
   std::vector<std::string> plugin_agents;  // names of the agents that came from shared objects, without line ends
-  // Runs [k x chunk_runs, (k + 1) x chunk_runs) are chunk k: what one machine does of a campaign that many share. Part
-  // of the campaign's identity; the number of runs is not, so that a campaign can grow.
+  // Digests of rows are taken over blocks of so many runs. The chunks of shards are others (shards/chunk_grid.hpp).
+  // Part of the campaign's identity; the number of runs is not, so that a campaign can grow.
   std::uint64_t chunk_runs = kChunkRuns;
   Keep keep = Keep::All;
   friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;

@@ -16,7 +16,8 @@ namespace {
 
 constexpr long kLongest_s = 1'000'000'000;
 
-// The whole number at the beginning of `text`, which it takes away; none if there is no digit or more than nine.
+// The whole number at the beginning of `text`, which it takes away; none if there is no digit, or if it is above
+// kLongest_s.
 std::optional<long> take_number(std::string_view& text) {
   long value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

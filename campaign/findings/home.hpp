@@ -18,8 +18,8 @@ struct Home {
   bool takes_more = true;         // failures that need more, too
   bool is_last = false;           // only failures that no other home takes
 
-  // `needed`: what it needs, without kinds of messages that are chance. Who just drove on where nearly all others did
-  // something may have done so a little later.
+  // `needed`: what it needs, without kinds of messages that are chance. If nearly all failures show a turn or a bend,
+  // one in which both AGVs just drove on may belong to them: its AGV might have turned a little later.
   bool takes(const FailureNeeds& failure, const std::vector<std::string>& needed) const;
   // Whether it says the words that tell this one, or needs what was tried first of what this one needs: hardly any
   // failure needs that by chance.

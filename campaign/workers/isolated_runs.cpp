@@ -19,7 +19,7 @@ namespace {
 constexpr std::chrono::milliseconds kLookEvery{100};
 constexpr double kTimesSlowest = 20.0;  // the CPU time that a run may use, in times of the slowest run so far
 constexpr double kRepeatFactor = 10.0;  // a run that went beyond it gets so much more in the repeat
-constexpr int kKillsFromOutside = 3;    // in a row; then the run itself is the reason
+constexpr int kKillsFromOutside = 3;    // of one run; then the run itself is the reason
 
 }  // namespace
 

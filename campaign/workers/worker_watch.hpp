@@ -8,8 +8,8 @@
 
 namespace fleetproof {
 
-// Watches a worker from outside while it has a run under way, by its CPU time. Neither the clock on the wall nor the
-// load of the machine counts: a worker that gets no CPU is not slow.
+// Watches a worker from outside while it has a run under way. CPU time decides: a worker that gets no CPU is not slow.
+// Only a worker that sleeps is measured by the clock on the wall.
 class WorkerWatch {
  public:
   // The run may use `limit_s` of CPU time, and may sleep for as long in a row.
