@@ -1,5 +1,6 @@
 // A reference agent that thinks 5 ms longer at each event: a change of its timing, and of nothing else. Its parameters
 // begin with the name of that agent. "NAME numbered": each message has a kind of its own, too.
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -19,8 +20,11 @@ struct Retouched {
 void (*describe)(fp_controller*, const char*) = nullptr;
 std::uint64_t described = 0;
 
-void describe_with_number(fp_controller* controller, const char* kind) {
-  describe(controller, (kind + std::to_string(described++)).c_str());
+// The first word is the kind.
+void describe_with_number(fp_controller* controller, const char* text) {
+  std::string numbered = text;
+  numbered.insert(std::min(numbered.find_first_of(": "), numbered.size()), std::to_string(described++));
+  describe(controller, numbered.c_str());
 }
 
 // The host of the process, with another `describe`.
