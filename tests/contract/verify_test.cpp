@@ -8,6 +8,8 @@
 #include "campaign/batch/verification.hpp"
 #include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
+#include "reports/evidence/quiet_run.hpp"
+#include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
@@ -20,7 +22,8 @@ using testing::HasSubstr;
 class Verify : public test::ProgramTest {
  protected:
   // Writes a campaign with valid checksums, as if `program_sha256` had computed these rows.
-  void write_archive(const std::string& program_sha256, const std::function<void(RunRecord&)>& change) {
+  void write_archive(const std::string& program_sha256, const std::function<void(RunRecord&)>& change,
+                     const MayFold& may_fold = {}) {
     const AgentPrograms programs;
     CampaignRecord record = campaign_record(plan_, programs);
     record.engine.program_sha256 = program_sha256;
@@ -31,7 +34,20 @@ class Verify : public test::ProgramTest {
       change(run);
       writer.add(run);
     }
-    writer.publish(plan_.run_count());
+    writer.publish(plan_.run_count(), may_fold);
+  }
+  // Some run in which nothing went wrong is folded and was stored with another counter. Returns its number.
+  std::string write_wrong_folded_run(const std::string& program_sha256) {
+    plan_.keep = Keep::Failing;
+    write_archive(
+        program_sha256, [](RunRecord&) {}, is_quiet);
+    std::uint64_t wrong = plan_.run_count();
+    while (wrong-- > 0 && !ArchiveReader(path("v.db")).folded_run(wrong)) continue;
+    write_archive(
+        program_sha256, [&](RunRecord& run) { run.outcome.counters.turns ^= run.run_index == wrong ? 1 : 0; },
+        is_quiet);
+    EXPECT_TRUE(ArchiveReader(path("v.db")).folded_run(wrong));
+    return std::to_string(wrong);
   }
   static void change_run_17(RunRecord& run) {
     if (run.run_index == 17) run.outcome.counters.turns ^= 1;
@@ -72,6 +88,27 @@ TEST_F(Verify, AnotherRowOfAnotherProgramIsOtherSoftware) {
   EXPECT_EQ(finished.exit_code, 4) << finished.out << finished.err;
   EXPECT_THAT(finished.out, HasSubstr("SOFTWARE DIFFERS  run 17: "));
   EXPECT_THAT(finished.out, HasSubstr("sha256 another then"));
+}
+
+TEST_F(Verify, AWrongFoldedRunOfTheSameProgramIsItsFault) {
+  const std::string wrong = write_wrong_folded_run(this_program_);
+  const auto replayed = run("replay v.db " + wrong);
+  EXPECT_EQ(replayed.exit_code, 3) << replayed.out << replayed.err;
+  EXPECT_THAT(replayed.out, HasSubstr("kept of its checksum do not match"));
+  const auto verified = run("verify v.db --sample 100%");
+  EXPECT_EQ(verified.exit_code, 3) << verified.out << verified.err;
+  EXPECT_THAT(verified.out, HasSubstr("DIVERGED  run " + wrong + ": "));
+  EXPECT_THAT(verified.out, HasSubstr("71 agree, 1 differ"));
+}
+
+TEST_F(Verify, AWrongFoldedRunOfAnotherProgramIsOtherSoftware) {
+  const std::string wrong = write_wrong_folded_run("another");
+  const auto replayed = run("replay v.db " + wrong);
+  EXPECT_EQ(replayed.exit_code, 4) << replayed.out << replayed.err;
+  EXPECT_THAT(replayed.out, HasSubstr("kept of its checksum do not match"));
+  const auto verified = run("verify v.db --sample 100%");
+  EXPECT_EQ(verified.exit_code, 4) << verified.out << verified.err;
+  EXPECT_THAT(verified.out, HasSubstr("71 agree, 1 differ"));
 }
 
 TEST_F(Verify, ADamagedRowOutsideTheSampleIsFound) {
