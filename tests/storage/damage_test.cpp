@@ -1,4 +1,5 @@
 // Damage to a finished archive is noticed or changes no figure of its report. FLEETPROOF_DAMAGE multiplies the trials.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include "reports/report.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
+#include "tests/storage/refusal.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof {
@@ -182,6 +184,19 @@ TEST_P(Damage, OfTheSealItself) {
   bytes[18] = bytes[19] = 2;  // says that it is a live file, which has no seal to miss
   samples::write_bytes(path_, bytes);
   EXPECT_EQ(report(), whole_) << "a seal that is there counts";
+  const std::string last = "DELETE FROM {} WHERE run_index = (SELECT max(run_index) FROM runs);";
+  std::string without_last_run;
+  for (const char* table : {"violations", "incidents", "probes", "audits", "recordings", "runs"})
+    without_last_run += fmt::format(fmt::runtime(last), table);
+  for (const std::string& change : {without_last_run, std::string("DROP VIEW v1_audits")}) {
+    samples::write_bytes(path_, live);
+    test::tamper(path_, change);
+    bytes = samples::bytes_of(path_);
+    ASSERT_NE(bytes, live) << change;
+    bytes[18] = bytes[19] = 2;
+    samples::write_bytes(path_, bytes);
+    EXPECT_FALSE(report()) << change;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutFoldedRuns, Damage, testing::Bool());
