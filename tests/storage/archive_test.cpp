@@ -6,7 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <set>
+#include <thread>
 
 #include "core/base/error.hpp"
 #include "tests/storage/sample_records.hpp"
@@ -172,6 +174,22 @@ TEST(Archive, a_killed_writer_loses_nothing_that_was_committed) {
   std::size_t next = 0;
   reader.for_each_run([&](const RunRecord& run) { expect_equal(run, runs.at(next++)); });
   EXPECT_EQ(next, 12u);
+}
+
+// What a kill loses at most: the caller commits nothing here.
+TEST(Archive, what_was_added_two_seconds_ago_is_committed) {
+  const TemporaryFolder folder;
+  const auto runs = samples::runs(4);
+  ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::size_t i = 0; i < 3; ++i) writer.add(runs[i]);
+  const std::uint64_t at_once = ArchiveReader(folder / "a.fp.partial").run_count();
+  if (std::chrono::steady_clock::now() - begin < std::chrono::seconds(2)) {
+    EXPECT_EQ(at_once, 0U) << "a commit for each run would be slow";
+  }
+  std::this_thread::sleep_until(begin + std::chrono::milliseconds(2100));
+  writer.add(runs[3]);
+  EXPECT_EQ(ArchiveReader(folder / "a.fp.partial").run_count(), 4U);
 }
 
 TEST(Archive, the_same_run_twice_is_stored_once_but_never_with_two_outcomes) {
