@@ -237,13 +237,16 @@ TEST(StyleFinds, ALargeClass) {
 }
 
 TEST(StyleFinds, AnUnformattedFile) {
-  const fs::path file = fs::path(testing::TempDir()) / ("unformatted-" + std::to_string(::getpid()) + ".cpp");
-  fs::copy_file(fs::path(FLEETPROOF_SOURCE_DIR) / ".clang-format", file.parent_path() / ".clang-format",
-                fs::copy_options::overwrite_existing);
+  // A folder of its own: a .clang-format holds for everything below it.
+  std::string folder = (fs::path(testing::TempDir()) / "unformatted-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(folder.data()), nullptr) << folder;
+  fs::copy_file(fs::path(FLEETPROOF_SOURCE_DIR) / ".clang-format", fs::path(folder) / ".clang-format");
+  const fs::path file = fs::path(folder) / "unformatted.cpp";
   std::ofstream(file) << "int  f( ){ return 1 ; }\n";
   EXPECT_NE(formatting_of("'" + file.string() + "'"), "");
   std::ofstream(file) << "int f() { return 1; }\n";
   EXPECT_EQ(formatting_of("'" + file.string() + "'"), "");
+  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -19,15 +20,21 @@ struct Finished {
   std::string out, err;
 };
 
+// Whether the program came to a verdict: demonstrated (0), violated (1) or not demonstrated (4).
+inline testing::AssertionResult has_verdict(const Finished& finished) {
+  if (finished.exit_code == 0 || finished.exit_code == 1 || finished.exit_code == 4) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "exit code " << finished.exit_code << "\n" << finished.out << finished.err;
+}
+
 class ProgramTest : public testing::Test {
  protected:
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name =
-        std::string("fleetproof-") + info->test_suite_name() + "-" + info->name() + "-" + std::to_string(getpid());
+    std::string name = std::string("fleetproof-") + info->test_suite_name() + "-" + info->name() + "-XXXXXX";
     std::ranges::replace(name, '/', '-');  // tests with parameters have one in their names
-    folder_ = std::filesystem::temp_directory_path() / name;
-    std::filesystem::create_directory(folder_);
+    name = (std::filesystem::temp_directory_path() / name).string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr) << name;
+    folder_ = name;
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
