@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 
 #include "core/base/error.hpp"
 #include "damage.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/map/reachability.hpp"
 #include "generators/worlds/world_maker.hpp"
-#include "independent_check.hpp"
+#include "real_layout.hpp"
 
 namespace fleetproof {
 namespace {
@@ -262,16 +260,9 @@ TEST(OpenTcs, TwinPathsBecomeOneSegmentUnlessKept) {
   EXPECT_EQ(read_opentcs(kCrossdock, warnings, keep).segments.size(), 43U);
 }
 
-// Other projects' layouts lie outside the tree; where they are absent their tests say so and pass.
-std::string real_layout(const std::string& name) {
-  const char* folder = std::getenv("FLEETPROOF_LAYOUTS");
-  return (folder != nullptr ? std::string(folder) : independent::source_file("../shared/layouts")) + "/opentcs/" + name;
-}
-
 TEST(RealLayouts, OpenTcsDemo) {
-  const auto path = real_layout("opentcs_demo-01_v7.xml");
-  if (!std::filesystem::exists(path))
-    GTEST_SKIP() << path << " is absent; set FLEETPROOF_LAYOUTS to the folder of real layouts";
+  const auto path = independent::real_layout("opentcs/opentcs_demo-01_v7.xml");
+  FLEETPROOF_SKIP_IF_ABSENT(path);
   std::vector<std::string> warnings;
   const Layout layout = read_opentcs(path, warnings);
   EXPECT_EQ(layout.stations.size(), 59U);
@@ -293,9 +284,8 @@ TEST(RealLayouts, OpenTcsDemo) {
 }
 
 TEST(RealLayouts, OpenTcsPersistenceSample) {
-  const auto path = real_layout("opentcs_persistence_sample_v7.xml");
-  if (!std::filesystem::exists(path))
-    GTEST_SKIP() << path << " is absent; set FLEETPROOF_LAYOUTS to the folder of real layouts";
+  const auto path = independent::real_layout("opentcs/opentcs_persistence_sample_v7.xml");
+  FLEETPROOF_SKIP_IF_ABSENT(path);
   std::vector<std::string> warnings;
   const Layout layout = read_opentcs(path, warnings);
   EXPECT_EQ(layout.stations.size(), 15U);
