@@ -5,7 +5,7 @@ A sentence with digits that no pattern knows is an error, so that no figure reac
 import re
 
 import wording as w
-from sentences import agv_hours, judged
+from conditions import is_sample
 from counts import END_POINTS, KINDS
 from drawings import field_maps, gate_on_violations, grids, worlds_needed
 
@@ -70,15 +70,31 @@ WEAK = {"have no run": "count(run_index) = 0",
 
 
 def is_weak_point(archive, found):
-    """"48 of 81 cells in the contract region have stuck runs"."""
+    """"48 of 81 cells in the contract region have stuck runs: A on ring, fleet of 3, 0 %, 2 s; ...; and 44 more."."""
     inside = "WHERE loss_to <= 0.4 AND delay_to_s <= 2.0" if found[3] else ""
     having = next((sql for words, sql in WEAK.items() if words in found.string), None)
     if having is None:
         having = f"coalesce(sum({EARLY_UNKNOWN}), 0) > 0"
-    cells = archive.one("SELECT count(*) AS n FROM (SELECT c.cell FROM cells c LEFT JOIN runs r ON r.cell = c.cell AND "
-                        f"replicate < {archive.replicates} {inside} GROUP BY c.cell HAVING {having})")["n"]
+    cells = archive.all("SELECT c.* FROM cells c LEFT JOIN runs r ON r.cell = c.cell AND "
+                        f"replicate < {archive.replicates} {inside} GROUP BY c.cell HAVING {having} ORDER BY c.cell")
     of = archive.one(f"SELECT count(*) AS n FROM cells {inside}")["n"]
-    return (cells, of) == (int(found[1]), int(found[2]))
+    if (len(cells), of) != (int(found[1]), int(found[2])):
+        return False
+    if len(cells) == of:
+        return ": " not in found.string
+    more = f"; and {len(cells) - NAMED} more" if len(cells) > NAMED else ""
+    return found.string.endswith(": " + "; ".join(map(cell_name, cells[:NAMED])) + more + ".")
+
+
+NAMED = 4  # cells in a sentence
+
+
+def cell_name(cell):
+    values = [w.span(0, cell["loss"], cell["loss_to"]), w.span(1, cell["delay_s"], cell["delay_to_s"])]
+    values += [f"{word} {w.span(i, cell[column], cell[to])}"
+               for i, word, column, to in ((2, "outages of", "mean_outage_s", "mean_outage_to_s"),
+                                           (3, "call cost", "call_cost_s", "call_cost_to_s")) if cell[to] > 0.0]
+    return f"{cell['agent']} on {cell['layout']}, fleet of {cell['fleet_size']}, " + ", ".join(values)
 
 
 EARLY_UNKNOWN = f"({END_POINTS['violation'][0]}) = 2"
@@ -158,6 +174,10 @@ def confidences(archive, found):
     return found[1] == ", ".join(said)
 
 
+def is_confidence(archive, found):
+    return found[1] in ["95 %", *(w.percent(gate["confidence"]) for gate in archive.gates)]
+
+
 def gates_by_verdict(archive, found):
     """"Gates of A: violated: hang; demonstrated: violation (fleet of 5), crash (3 gates). Gates of B: ..."."""
     rest = found.string
@@ -177,15 +197,16 @@ def gates_by_verdict(archive, found):
     return not re.search("[0-9]", rest)
 
 
-def condition(archive, found):
-    """"Runs: 96 judged, 12 of 12 planned replicates complete" and the others of the plan."""
-    counted = {"Cells (test conditions)": str(len(archive.cells)), "Runs": judged(archive), "Simulated":
-               agv_hours(archive)}
-    return found[2] == counted.get(found[1], found[2])
+def sample(archive, found):
+    return is_sample(archive, found.string)
 
 
-def replicates(archive, found):
-    return int(found[1]) == archive.replicates
+def short_gate(archive, found):
+    """"every cell of it has 3 runs; even without a failure a limit of 0.01 at 95 % takes 337"."""
+    gates = [gate for gate in archive.gates if gate["name"] == found[1]]
+    return any((int(found[2]), found[3], found[4]) == (archive.replicates, f"{gate['limit_rate']:g}",
+                                                       w.percent(gate["confidence"]))
+               and int(found[5]) == worlds_needed(gate, 1) for gate in gates)
 
 
 def planned(archive, found):
@@ -211,18 +232,20 @@ def compared_elsewhere(archive, found):
     return True
 
 
-constant = compared_elsewhere
+def constant(archive, found):
+    """Every number of the sentence stands in its pattern."""
+    return set(NUMBER.findall(found.string)) <= set(NUMBER.findall(found.re.pattern.replace("\\", "")))
+
+
+NUMBER = re.compile(r"[0-9]+(?:[.,][0-9]+)*")
 
 PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^run ([0-9]+): .*", is_run),
     (r"^([a-z-]+) of agent (.+), for instance in run ([0-9]+):", is_first_with_kind),
     (r"^Agent (.+): ([0-9]+) runs? w(?:as|ere) audited, and ", is_audit),
     (r"^([0-9]+) of ([0-9]+) cells (in the contract region )?\D", is_weak_point),
-    (r"^(Safety distance|Loss|Delay|Mean outage|Radio|Layouts|Fleet sizes|Vehicles|Transports \(orders\)|Faults|Agents "
-     r"\(control software\)|Laws \(monitors\)|Operator|Horizon of a run|Cells \(test conditions\)|Runs|Simulated|"
-     r"Software|Plan digest): (.*)$", condition),
     (r"^Gates of .+: (?:not )?(?:demonstrated|violated): ", gates_by_verdict),
-    (r"Sampled: ([0-9]+) worlds?\b", replicates),
+    (r"Sampled: .*[0-9]+ worlds?\b", sample),
     (r"weak evidence for agent (.+): its ([0-9]+) runs? did not meet", agent_runs),
     (r"A run takes up to ([0-9.]+) s\. stalled", longest_run),
     (r"^([0-9]+) of ([0-9]+) planned replicates? (?:is|are) complete", planned),
@@ -231,7 +254,6 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
      foreign_body_runs),
     (r"^(.+) stalled in ([0-9]+) of ([0-9]+) worlds of the contract region: ", stalled),
     (r"^No run ended in an error of the simulator\. ([0-9]+) runs? w(?:as|ere) simulated once more", soundness),
-    (r"^Gates of .*: (demonstrated|violated|not demonstrated): ", constant),
     (r"^Plan digest ([0-9a-f]{16}) was fixed before run 0, at ", plan_time),
     (r"^When plan digest ([0-9a-f]{16}) was fixed is not known", plan_time),
     (r"^Seed ([0-9]+) (was chosen by a person|follows from)", seed),
@@ -239,10 +261,10 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^Layouts as units: runs of (.+) failed or stayed unknown on ([0-9]+) of ([0-9]+) layouts(?: \(design effect, by which .*: "
      r"([0-9.]+)\))?\. A claim about layouts that were not run has ([0-9]+) units", layouts),
     # From files beside the archive: contract/attempt_ledgers_test.cpp and reports/attempts_test.cpp.
-    (r"^Earlier attempts unknown: the ledger names no other", constant),
-    (r"^The ledger names [0-9]+ attempts", constant),
-    (r"^The results were looked at with [0-9]+ numbers of runs", constant),
-    (r"^[0-9]+ more gates?: the reasons stand below", constant),
+    (r"^Earlier attempts unknown: the ledger names no other", compared_elsewhere),
+    (r"^The ledger names [0-9]+ attempts", compared_elsewhere),
+    (r"^The results were looked at with [0-9]+ numbers of runs", compared_elsewhere),
+    (r"^[0-9]+ more gates?: the reasons stand below", compared_elsewhere),
     # In recount.py: the title, the claim, the gates, the headlines, the charts.
     (r"^fleetproof report: ", compared_elsewhere),
     (r"(the true (share|rate) is at (most|least)|in 0 of 0 (worlds|runs)|in [0-9]+ runs?)\b.*gates? ", compared_elsewhere),
@@ -257,7 +279,8 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^Guaranteed envelope: shown in ([0-9]+) of ([0-9]+) fields. .* in which (.+) breaks the safety distance is below "
      r"([0-9.e-]+) %: in all these fields together, with ([0-9.]+ %) confidence(, however often one looks)?\. .* each needs "
      r"([0-9]+) worlds? without a failure\.$", is_envelope),
-    (r"^Gate \".*\": every cell of it has ([0-9]+) runs?; even without a failure a limit of ", replicates),
+    (r"^Gate \"(.*)\": every cell of it has ([0-9]+) runs?; even without a failure a limit of ([0-9.e-]+) at ([0-9.]+ %) "
+     r"takes ([0-9]+)\.$", short_gate),
     (r"^[^:]*: newly failing: [0-9]+ runs?; newly passing: ", compared_elsewhere),
     (r"^Newly failing: run [0-9]+", compared_elsewhere),
     (r"^[0-9]+ more newly failing runs", compared_elsewhere),
@@ -265,22 +288,23 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^before, now = .* \(95 % confidence\), .* below the margin of 5 %", constant),
     # Constants of the method and of the contract.
     (r"^Required: at least one in 20000 runs has to meet ", constant),
-    (r"upper = one-sided upper bound at [0-9.]+ %", constant),
+    (r"upper = one-sided upper bound at ([0-9.]+ %)", is_confidence),
     (r"upper = one-sided upper bound, at ([0-9.]+ % for .+)\.$", confidences),
     (r"^0 \.\. 40 % = every replicate draws", constant),
     (r"Thick lines: the bounds of the contract, 40 % loss and 2 s delay", constant),
     (r"Clearances above 0\.5 m are not told apart", constant),
     (r"The upper bound is the largest limit that the release gate \(an e-value, Ville 1939\)", constant),
-    (r"minimal safety distance \(0\.10 m unless the scenario says otherwise\)", constant),
+    (r"minimal safety distance \(0\.10 m unless the scenario says otherwise\)\. Clearances are rounded down to 1 cm; "
+     r"\"> 0\.5 m\" .* loss <= 40 % and delay <= 2 s\.", constant),
     (r"ISO 3691-4", constant),
     (r"^Runs with an unknown outcome stand here, too\. End point = .* above 0\.3 m/s", constant),
     (r"95 % is how often this procedure is right", constant),
     (r"40 % loss and 2 s delay are stress", constant),
-    (r"^(plan digest|fleetproof|program sha256|compiler|flags|libraries|archive|campaign): ", constant),
-    (r"^No film strip: ", constant),
+    (r"^(plan digest|fleetproof|program sha256|compiler|flags|libraries|archive|campaign): ", compared_elsewhere),
+    (r"^No film strip: ", compared_elsewhere),
     (r"^Agent .*, (outages of|call cost) ", compared_elsewhere),
-    (r"^... ?[0-9]+ more", constant),
-    (r"^[0-9]+ (more )?(rows?|groups?|with fewer failures)", constant),
+    (r"^... ?[0-9]+ more", compared_elsewhere),
+    (r"^[0-9]+ (more )?(rows?|groups?|with fewer failures)", compared_elsewhere),
 )]
 
 

@@ -8,11 +8,13 @@ difference, too.
 import re
 import sys
 from collections import Counter
+from itertools import zip_longest
 
 import comparison as c
 import drawings
 import sentences as s
 import tables as t
+from conditions import conditions, provenance, safety_distance
 from counts import Archive
 from failures import Failures, discoveries
 from known_sentences import explained
@@ -85,10 +87,11 @@ def check_gates(archive, page, section, head):
         if not any(re.match(pattern, each) for each in map(plain, section.sentences)):
             differ(f"{page}, gates", s.gate_sentence(gate, counts), section.sentences)
         verdict = re.search(r"(not demonstrated|demonstrated|violated)( \(told only\))?$", text)
-        told = s.finding(gate, counts, verdict and verdict[1])
+        distance = re.escape(safety_distance(archive))
+        told = s.finding(gate, counts, verdict and verdict[1], distance)
         if told and gate["decides"]:
             about = [each for each in head
-                     if re.search(s.subject(gate), each) and "within the contract region" not in each]
+                     if re.search(s.subject(gate, "[0-9.]+ m"), each) and "within the contract region" not in each]
             if about and not any(re.search(told, each) for each in about):
                 differ(f"{page}, claim", told, about)
     deciding = [row[-1] if page == "html" else " ".join(row) for (_, gate, _), row in zip(t.gate_rows(archive), rows)
@@ -116,12 +119,25 @@ def check_head(archive, page, sections):
     check_gates(archive, page, sections["Gates (acceptance criteria)"], head)
 
 
+def check_conditions(archive, page, section):
+    """Exactly these, in this order: one row each, or one sentence."""
+    rows = [row[:2] for row in section.tables[0]] if page == "html" else \
+        [plain(text).split(": ", 1) for text in section.sentences if text.strip()]
+    expected = [list(each) for each in conditions(archive).items()]
+    for one, other in zip_longest(expected, rows):
+        if one != other:
+            differ(f"{page}, Conditions", one, other)
+
+
+def check_provenance(archive, page, section):
+    """Each of these, as a row or a sentence."""
+    said = [": ".join(row[:2]) for table in section.tables for row in table] + [plain(text) for text in section.sentences]
+    for name, value in provenance(archive).items():
+        if value and f"{name}: {value}" not in said:
+            differ(f"{page}, Provenance", f"{name}: {value}", said)
+
+
 def check_html(archive, sections):
-    facts = {row[0]: row[1] for row in sections["Conditions"].tables[0]}
-    for name, value in (("Cells (test conditions)", str(len(archive.cells))), ("Runs", s.judged(archive)),
-                        ("Simulated", s.agv_hours(archive))):
-        if facts.get(name) != value:
-            differ(f"html, {name}", value, facts.get(name))
     maps = sections["Failures, throughput and safe mode by radio quality"].drawings
     for label, expected in drawings.field_maps(archive).items():
         if label not in maps and len(archive.conditions()) > 1000:
@@ -178,8 +194,12 @@ def check_failures(failures, section):
 
 def check_rest(archive, page, sections):
     """Every other sentence with digits is one whose numbers are computed or are constants of the method."""
+    confidences = {"95", *(f"{100.0 * gate['confidence']:g}" for gate in archive.gates)}
     for title, section in sections.items():
-        for text in section.sentences:
+        for table in section.tables if title not in ("Conditions", "Provenance") else ():
+            if not set(re.findall(r"([0-9.]+) %", " ".join(table[0]))) <= confidences:
+                differ(f"{page}, {title}", f"a head with {confidences} %", table[0])
+        for text in section.sentences if title != "Conditions" else ():
             if title == "" and "Why " in text:
                 wrong = unexplained(archive, REASONS[page], plain(text).split("Why ", 1)[1])
                 if wrong:
@@ -194,6 +214,8 @@ def main():
         sections = read(open(path, encoding="utf-8").read())
         check_head(archive, page, sections)
         check_tables(archive, page, sections)
+        check_conditions(archive, page, sections["Conditions"])
+        check_provenance(archive, page, sections["Provenance"])
         if page == "html":
             check_html(archive, sections)
         if len(sys.argv) > 4:

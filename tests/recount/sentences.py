@@ -43,20 +43,22 @@ def gate_sentence(gate, counts):
                    f"{w.of_gate(gate, '{:g}'.format, gate['limit_rate'])} ({when}).")
 
 
-def subject(gate):
-    """How the claim about a gate begins, as a pattern. Gates on the same end point differ in the cells they name."""
+def subject(gate, distance):
+    """How the claim about a gate begins, as a pattern with that of the distance. Gates on the same end point differ in
+    the cells they name."""
     named = w.named_cells(gate)
-    return (re.escape(f"{gate['agent']} {FAILURES[gate['end_point']]}") + "( of 0.10 m)? " +
+    of = f" of {distance}" if gate["end_point"] == "violation" else ""
+    return (re.escape(f"{gate['agent']} {FAILURES[gate['end_point']]}") + of + " " +
             (re.escape(f"({named}) ") if named else "(?![(])"))
 
 
-def finding(gate, counts, verdict):
+def finding(gate, counts, verdict, distance):
     """The claim about a gate in the head of the page, as a pattern."""
     units, known, failing, most, cells = counts
     if gate["end_point"] not in FAILURES:
         return None
     hourly = gate["unit"] == "agv-hour"
-    text = subject(gate)
+    text = subject(gate, distance)
     text += re.escape(f"{w.count(known, 'time')} in {units / 3.6e9:.6g} AGV-hours") if hourly else \
         re.escape(f"in {known} of {units} ") + "(runs|worlds)"
     if failing > known:
