@@ -54,6 +54,24 @@ double passing(const Chances& truth, const Chances& at_limit) {
   return passed;
 }
 
+bool shown(std::uint64_t failing, std::uint64_t units) {
+  static const std::vector<std::uint64_t> needed = [] {
+    std::vector<std::uint64_t> list;
+    for (std::uint64_t k = 0; k <= 600; ++k) list.push_back(*units_needed(k, kLimit, kConfidence));
+    return list;
+  }();
+  return units >= needed.at(failing);
+}
+
+// The product passes a claim with exactly the numbers of failures that `passing` counts.
+void expect_passed_by_the_product(const Chances& at_limit) {
+  double risk = 0.0;
+  for (std::size_t k = 0; k < at_limit.size(); ++k) {
+    risk += at_limit[k];
+    EXPECT_EQ(shown(k, at_limit.size() - 1), risk <= 1.0 - kConfidence) << k << " of " << at_limit.size() - 1;
+  }
+}
+
 struct Campaign {
   const Family& family;
   std::uint64_t layouts, worlds_each;
@@ -103,15 +121,6 @@ std::vector<Cluster> fixed_layouts(const Campaign& campaign, std::uint64_t seed)
   return clusters;
 }
 
-bool shown(std::uint64_t failing, std::uint64_t units) {
-  static const std::vector<std::uint64_t> needed = [] {
-    std::vector<std::uint64_t> list;
-    for (std::uint64_t k = 0; k <= 600; ++k) list.push_back(*units_needed(k, kLimit, kConfidence));
-    return list;
-  }();
-  return units >= needed.at(failing);
-}
-
 bool a_layout_for_each_world(const Campaign& campaign, std::uint64_t seed) {
   Draws draws(seed, 3);
   std::uint64_t failing = 0;
@@ -158,10 +167,12 @@ void expect_share(const std::function<bool(const Campaign&, std::uint64_t)>& met
   EXPECT_GE(share, least_by_chance(exact)) << campaign.layouts << " layouts";
 }
 
-TEST(FewLayouts, TheTableIsThatOfTheBinomialDistribution) {
+TEST(FewLayouts, TheTableAndTheProductFollowTheBinomialDistribution) {
   for (const auto& [campaign, fresh, pooled, layouts, effect] : kTable) {
     ASSERT_NEAR(campaign.rate(), kLimit, 1e-12);
     const Chances worlds_at_limit = binomial(campaign.worlds(), kLimit);
+    expect_passed_by_the_product(worlds_at_limit);
+    expect_passed_by_the_product(binomial(campaign.layouts, kLimit));
     EXPECT_NEAR(passing(worlds_at_limit, worlds_at_limit), fresh, 5e-5);
     EXPECT_NEAR(passing(campaign.of_pooled_worlds(), worlds_at_limit), pooled, 5e-5);
     EXPECT_NEAR(passing(binomial(campaign.layouts, campaign.failing_layout()), binomial(campaign.layouts, kLimit)),
