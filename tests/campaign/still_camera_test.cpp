@@ -14,7 +14,7 @@ TEST(StillCamera, agrees_with_the_judge) {
   const AgentPrograms programs;
   const RunOne run_one(plan, programs);
   std::size_t compared = 0;
-  for (std::uint64_t index = 0; index < 30; ++index) {
+  for (std::uint64_t index = 0; index < 40; ++index) {
     const RunRecord plain = run_one(index);
     for (const Violation& violation : plain.outcome.violations) {
       std::vector<Still> stills{{violation.closest_at, {}}};

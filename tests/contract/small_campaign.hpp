@@ -46,14 +46,9 @@ inline CampaignPlan hostile_plan() {
   slow.name = "slow";
   slow.drive.speed_mps = 1.0;
   plan.vehicles.push_back({slow, 0.5});
-  plan.faults.breakdowns_per_agv_hour = 20.0;
-  plan.faults.repair_s = 10.0;
-  plan.faults.protective_stops_per_agv_hour = 60.0;
+  plan.faults = hard_world(plan.horizon_s).faults;
   plan.faults.load_drops_per_transport = 0.3;
   plan.faults.obstacles_per_hour = 60.0;
-  plan.faults.freezes_per_agv_hour = 60.0;
-  plan.faults.clock_drift_ppm = 100.0;
-  plan.faults.low_battery_share = 0.5;
   plan.scanner.on = true;
   plan.operator_help.on = true;
   return plan;

@@ -61,6 +61,8 @@ inline WorldSpec hard_world(double horizon_s) {
   f.protective_stops_per_agv_hour = 60.0;
   f.restarts_per_agv_hour = 40.0;
   f.freezes_per_agv_hour = 60.0;
+  f.power_failures_per_agv_hour = 20.0;
+  f.power_back_s = 20.0;
   f.clock_offset_s = 1.0;
   f.clock_drift_ppm = 500.0;
   f.position_error_m = 0.05;
