@@ -107,13 +107,14 @@ def provenance(archive):
 
 
 def is_sample(archive, text):
-    """"3 worlds wherever loss <= 40 % and ..., fleets of 3 or 5, 120 s a run": worlds, fleets and time are as counted, and
-    every other number is one of the cells, or of how many they are."""
+    """"3 worlds wherever loss <= 40 % and ..., fleets of 3 or 5, 120 s a run": worlds, fleets and time are as counted,
+    and every other number is one of the cells, or of how many they are."""
     for name in {cell["layout"] for cell in archive.cells}:
         text = text.replace(name, "")
     longest = {w.hundredths(row["ns"] / 1e9) for row in archive.all(
         "SELECT max(simulated_ns) AS ns FROM runs WHERE replicate < ? GROUP BY cell", archive.replicates)}
-    said = re.search(r"\b([0-9]+) worlds? (.*), fleets of ([0-9 or,]+?)(?:, ([0-9.]+) s a run)?(?:;|\.|$)", text)
+    time = r"(?:, ([0-9.]+) s a run)?(?:;|\.|$)"
+    said = re.search(r"\b([0-9]+) worlds? (.*), fleets of ([0-9 or,]+?)" + time, text)
     fleets = {str(cell["fleet_size"]) for cell in archive.cells}
     if (said is None or int(said[1]) != archive.replicates or (said[4] and said[4] not in longest) or
             not set(re.findall("[0-9]+", said[3])) <= fleets):
