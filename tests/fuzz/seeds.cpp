@@ -39,6 +39,25 @@ Layout small_layout() {
   return layout;
 }
 
+// With everything that a layout may say about a station or a segment.
+Layout ruled_layout() {
+  Layout layout = small_layout();
+  layout.name = "ruled";
+  layout.stations[2].turning = false;
+  layout.stations[1].heading = Vec2(-1.0, 0.0);
+  layout.blocks = {{"exit | 1", BlockKind::OneVehicle}, {"no segment", BlockKind::SameDirection}};
+  Segment &there_and_back = layout.segments[0], &curve = layout.segments[2];
+  there_and_back.speed_limit_mps = 1.5;
+  there_and_back.back_speed_limit_mps = 0.5;
+  there_and_back.width_m = 2.5;
+  there_and_back.blocks = {0};
+  there_and_back.travel = Travel::Backward;
+  there_and_back.permissions = {{"tugger", LoadState::Loaded}, {"cart:2", LoadState::Any}};
+  curve.back_travel = Travel::Either;
+  curve.permissions = {{"", LoadState::Empty}};
+  return layout;
+}
+
 // A layout of a family that has curves.
 Layout drawn_layout() {
   Draws draws(3);
@@ -174,7 +193,9 @@ std::string source_file(const std::string& relative) { return std::string(FLEETP
 
 std::vector<std::string> opentcs_seeds() { return {kModel, text_of("tests/layouts/crossdock.xml")}; }
 
-std::vector<std::string> lif_seeds() { return {kLif, to_lif(small_layout()), to_lif(drawn_layout())}; }
+std::vector<std::string> lif_seeds() {
+  return {kLif, to_lif(small_layout()), to_lif(ruled_layout()), to_lif(drawn_layout())};
+}
 
 std::vector<std::string> rmf_building_seeds() { return {kBuilding}; }
 
@@ -184,9 +205,13 @@ std::vector<std::string> grid_map_seeds() {
   return {"type octile\nheight 3\nwidth 4\nmap\n..@.\n.TS.\n@...\n", "width 2\nheight 1\nmap\r\nEG\r\n"};
 }
 
-std::vector<std::string> csv_layout_seeds() { return {to_csv(small_layout()), to_csv(drawn_layout())}; }
+std::vector<std::string> csv_layout_seeds() {
+  return {to_csv(small_layout()), to_csv(ruled_layout()), to_csv(drawn_layout())};
+}
 
-std::vector<std::string> layout_seeds() { return {to_text(small_layout()), to_text(drawn_layout())}; }
+std::vector<std::string> layout_seeds() {
+  return {to_text(small_layout()), to_text(ruled_layout()), to_text(drawn_layout())};
+}
 
 std::vector<std::string> scenario_seeds() {
   return {text_of("tests/scenarios/figure4.json"), text_of("tests/scenarios/parked_then_leaves.json"), busy_scenario()};
