@@ -147,7 +147,7 @@ TEST_F(FindingsVerb, ACrashOfAPlugInIsAFinding) {
 TEST_F(FindingsVerb, AnInterruptKeepsWhatIsKnown) {
   write("b.toml",
         std::string(kCampaign).replace(std::string(kCampaign).find("replicates = 4"), 14, "replicates = 900"));
-  ASSERT_NE(run("run b.toml --db b.db").exit_code, 2);
+  ASSERT_TRUE(test::has_verdict(run("run b.toml --db b.db")));
   const auto all = R"(
 "$FLEETPROOF" findings b.db --jobs 1 --max-failures 900 --file f.toml --add & pid=$!
 for i in $(seq 600); do grep -q 'failures looked at' "../$(basename "$PWD")/stderr.txt" && break; sleep 0.1; done

@@ -41,7 +41,7 @@ class ReplayReasons : public test::ProgramTest {
     write("talk.json", kWorld);
     const auto done = run("simulate talk.json --agent talker --plugin '" + std::string(FLEETPROOF_TALKING_AGENT) +
                           "' --agent-config '" + calls + "' --html p.html");
-    EXPECT_LE(done.exit_code, 1) << done.err;
+    EXPECT_TRUE(test::has_verdict(done)) << done.err;
     pugi::xml_document document;
     const std::string text = read(path("p.html"));
     EXPECT_TRUE(document.load_buffer(text.data(), text.size(), pugi::parse_full));

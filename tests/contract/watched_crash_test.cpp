@@ -15,7 +15,7 @@ class WatchedCrash : public test::AuditedCampaign {
   // The scenario of the first run, whose agent fails at its third event.
   void write_case(const std::string& kind) const {
     write_campaign(test::failing(kind + " 1"), 1, 0.0, "[limits]\ncpu_s = 0.1\n");
-    EXPECT_NE(run("run c.toml --db " + kind + ".db").exit_code, 3);
+    EXPECT_TRUE(test::has_verdict(run("run c.toml --db " + kind + ".db")));
     EXPECT_EQ(run("replay " + kind + ".db 0 --scenario " + kind + ".json").exit_code, 0);
   }
   static constexpr const char* kFiles =
