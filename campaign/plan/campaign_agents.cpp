@@ -3,6 +3,7 @@
 #include <array>
 
 #include "campaign/plan/campaign_layouts.hpp"
+#include "campaign/plan/plan_names.hpp"
 #include "core/base/error.hpp"
 
 namespace fleetproof {
@@ -25,7 +26,7 @@ AgentFactor agent_from_table(TomlTable& table, std::string& file) {
   if (agent.program.empty() == file.empty()) {
     throw InputError(table.place("file"), "a table under factors.agents has either file = \"...\" or agent = \"...\"");
   }
-  table.get("name", agent.name);
+  take_name(table, agent.name);
   if (agent.name.empty()) agent.name = agent.program;
   if (std::string config; table.has("config")) {
     table.get("config", config);

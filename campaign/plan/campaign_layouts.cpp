@@ -4,8 +4,10 @@
 
 #include <filesystem>
 
+#include "campaign/plan/plan_names.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/families/mutated_import.hpp"
 #include "generators/formats/importer.hpp"
@@ -85,6 +87,10 @@ LayoutFactor layout_from_word(const std::string& place, const std::string& word,
     choice.purposes = purposes;
     return {layout_name(word), read_map(beside(path, word), choice, warnings)};
   }
+  if (std::error_code ignored; std::filesystem::is_regular_file(beside(path, word), ignored))
+    throw InputError(place, fmt::format("factors.layouts names {}, a file whose ending is that of no layout; known: "
+                                        ".xml .json .yaml .yml .map .csv",
+                                        in_quotes(word)));
   const auto names = names_of(layout_families());
   throw InputError(place, fmt::format("factors.layouts names \"{}\", which is neither a family nor a file{}", word,
                                       name_hint(word, names)));
@@ -96,7 +102,7 @@ LayoutFactor layout_from_table(TomlTable& table, const std::string& path, const 
   std::string word, base, name;
   table.get("file", word);
   table.get("mutate", base);
-  table.get("name", name);
+  take_name(table, name);
   if (word.empty() == base.empty())
     throw InputError(table.place("file"),
                      "a table under factors.layouts has either file = \"...\" or mutate = \"...\"");

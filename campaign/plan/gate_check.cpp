@@ -7,6 +7,7 @@
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "storage/gate_cells.hpp"
 
 namespace fleetproof {
@@ -35,6 +36,7 @@ class GateCheck {
 
   void run() const {
     check_agent();
+    check_name();
     check_layout_and_fleet();
     check_unit();
     for (const FactorInfo& factor : kFactors) {
@@ -55,6 +57,13 @@ class GateCheck {
     if (std::ranges::find(agents, gate_.agent) == agents.end())
       refuse("agent",
              fmt::format("agent \"{}\" is not among factors.agents{}", gate_.agent, name_hint(gate_.agent, names)));
+  }
+
+  // Pages and JUnit tell the gates of an agent apart by their names.
+  void check_name() const {
+    const auto same = [&](const GateRecord& gate) { return gate.agent == gate_.agent && gate.name == gate_.name; };
+    if (std::ranges::count_if(plan_.gates, same) > 1)
+      refuse("name", fmt::format("another gate of {} has this name; give each its own", in_quotes(gate_.agent)));
   }
 
   void check_layout_and_fleet() const {

@@ -6,6 +6,7 @@
 
 #include "campaign/plan/gate_check.hpp"
 #include "campaign/plan/plan_fields.hpp"
+#include "campaign/plan/plan_names.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
@@ -100,6 +101,35 @@ class PlanBounds {
   const PlanPlaces& places_;
 };
 
+// The archive has the names of agents one a line; pages, JUnit and command lines have all of them on one line.
+void check_names(const CampaignPlan& plan, const PlanPlaces& places) {
+  const auto check = [&](const std::string& path, const std::string& name) {
+    const char* fault = fault_of_plan_name(name);
+    demand(fault == nullptr, places, path.c_str(),
+           fmt::format("{}: {} is refused: {}", without_numbers(path), in_quotes(name), fault == nullptr ? "" : fault));
+  };
+  check("name", plan.name);
+  for (std::size_t i = 0; i < plan.agents.size(); ++i)
+    check(fmt::format("factors.agents.{}.name", i), plan.agents[i].name);
+  for (std::size_t i = 0; i < plan.layouts.size(); ++i)
+    check(fmt::format("factors.layouts.{}.name", i), plan.layouts[i].name);
+  for (std::size_t i = 0; i < plan.gates.size(); ++i) check(fmt::format("gate.{}.name", i), plan.gates[i].name);
+}
+
+// A family is named by itself, a file by its last part.
+void check_layout_names(const CampaignPlan& plan, const PlanPlaces& places) {
+  for (std::size_t i = 0; i < plan.layouts.size(); ++i) {
+    const auto& name = plan.layouts[i].name;
+    const auto first = std::ranges::find(plan.layouts, name, &LayoutFactor::name) - plan.layouts.begin();
+    demand(first == static_cast<std::ptrdiff_t>(i), places, fmt::format("factors.layouts.{}", i).c_str(),
+           plan.layouts[i].map == nullptr
+               ? fmt::format("factors.layouts names {} twice; every value may stand once", in_quotes(name))
+               : fmt::format("factors.layouts: two layouts are called {}; give one a name: {{ {} = \"...\", name = "
+                             "\"...\" }}",
+                             in_quotes(name), plan.layouts[i].mutate ? "mutate" : "file"));
+  }
+}
+
 void check_factors(const CampaignPlan& plan, const PlanPlaces& places) {
   demand(!plan.agents.empty(), places, "factors.agents",
          "factors.agents is empty; name at least one (see: fleetproof list agents)");
@@ -112,14 +142,12 @@ void check_factors(const CampaignPlan& plan, const PlanPlaces& places) {
            "factors.mean_outage_s is drawn from 0 on, which stands for independent losses and not for short outages; "
            "begin at 0.001 or above");
   }
-  std::vector<std::string> layout_names;
-  for (const auto& layout : plan.layouts) layout_names.push_back(layout.name);
   const auto once = [&](const char* path, const auto& values) {
     demand(!has_duplicates(values), places, path,
            fmt::format("{} names one value twice; each combination is one cell, so every value may stand once", path));
   };
   once("factors.agents", plan.agent_names());
-  once("factors.layouts", layout_names);
+  check_layout_names(plan, places);
   once("factors.fleet_sizes", plan.fleet_sizes);
   for (const FactorInfo& factor : kFactors) {
     once(fmt::format("factors.{}", factor.key).c_str(), plan.factors[factor.id]);
@@ -177,6 +205,19 @@ void check_exemption(const LawSetup& law, const PlanPlaces& places) {
   demand(purposes || law.exempt_radius_m == 0.0, places, "law.exempt_radius_m",
          "law.exempt_radius_m is given, but law.exempt_purposes names no stations; name their purposes, as in "
          "[\"charging\"], or leave both out");
+}
+
+// A message of an AGV that no fleet has would never be played.
+void check_recording(const CampaignPlan& plan, const PlanPlaces& places) {
+  if (plan.radio.trace == nullptr) return;
+  const std::uint32_t fleet = std::ranges::max(plan.fleet_sizes);
+  for (const RecordedMessage& message : *plan.radio.trace) {
+    const std::uint32_t number = std::max(message.sender.value, message.receiver.value);
+    demand(number < fleet, places, "radio.trace",
+           fmt::format("radio.trace names AGV {}, but the largest fleet of this campaign has {} AGVs, and their "
+                       "numbers count from 0; renumber the recording, or add a larger fleet to factors.fleet_sizes",
+                       number, fleet));
+  }
 }
 
 // The rules of the radio hold for every mean outage of the cells.
@@ -263,6 +304,7 @@ void check_orders(const CampaignPlan& plan, const PlanPlaces& places) {
 
 void check_plan(const CampaignPlan& plan, const PlanPlaces& places) {
   PlanBounds(places).fields("", plan);
+  check_names(plan, places);
   check_vehicles(plan, places);
   check_factors(plan, places);
   check_sampling(plan, places);
@@ -271,6 +313,7 @@ void check_plan(const CampaignPlan& plan, const PlanPlaces& places) {
   check_exemption(plan.law, places);
   check_exempt_pairs(plan, places);
   check_laws_and_coverage(plan, places);
+  check_recording(plan, places);
   check_radio(plan, places);
   demand(plan.replicates <= static_cast<std::uint64_t>(kMostRuns) / plan.cell_count(), places, "replicates",
          fmt::format("replicates is {}; with {} cells at most {} are possible", plan.replicates, plan.cell_count(),

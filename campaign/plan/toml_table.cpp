@@ -160,7 +160,9 @@ std::optional<std::vector<TomlTable::Given>> TomlTable::array(std::string_view k
   const auto found = given(key);
   if (!found) return std::nullopt;
   const toml::array* array = impl_->table->get(key)->as_array();
-  if (array == nullptr) found->refuse("expected an array, as in [1, 2]");
+  if (array == nullptr)
+    found->refuse(fmt::format("expected an array, as in [{}]",
+                              std::holds_alternative<std::monostate>(found->value) ? "1, 2" : found->shown));
   std::vector<Given> items;
   for (const toml::node& item : *array) items.push_back(given_by(impl_->file, item, found->path));
   return items;

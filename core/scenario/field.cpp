@@ -31,6 +31,12 @@ constexpr std::pair<std::string_view, std::string_view> kUnits[] = {
     {"_s", "s"},
 };
 
+// A double where a whole number is wanted.
+std::string expected_integer(const Field& field, const GivenValue& given) {
+  return expected_whole(field) +
+         (std::holds_alternative<double>(given) ? ", written without a point or an exponent" : "");
+}
+
 // "from 0 to 1", "above 0, at most 10 s", "from 0 to below 1", "above 0.5, below 1".
 std::string bounds_of(const Field& field) {
   const auto unit = unit_of(field.key);
@@ -140,7 +146,7 @@ std::string take(const Field&, const GivenValue& given, bool& target) {
 
 std::string take(const Field& field, const GivenValue& given, std::uint32_t& target) {
   const auto value = natural(given);
-  if (!value || *value > std::numeric_limits<std::uint32_t>::max()) return expected_whole(field);
+  if (!value || *value > std::numeric_limits<std::uint32_t>::max()) return expected_integer(field, given);
   if (auto fault = fault_of(field, static_cast<std::uint32_t>(*value)); !fault.empty()) return fault;
   target = static_cast<std::uint32_t>(*value);
   return {};
@@ -149,7 +155,7 @@ std::string take(const Field& field, const GivenValue& given, std::uint32_t& tar
 std::string take(const Field& field, const GivenValue& given, std::uint64_t& target) {
   const auto* text = std::get_if<std::string>(&given);
   const auto value = field.is_seed && text != nullptr ? hexadecimal(*text) : natural(given);
-  if (!value) return expected_whole(field);
+  if (!value) return expected_integer(field, given);
   if (auto fault = fault_of(field, *value); !fault.empty()) return fault;
   target = *value;
   return {};

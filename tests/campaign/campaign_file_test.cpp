@@ -195,7 +195,11 @@ TEST_F(CampaignFileTest, LayoutTablesAreRefusedByPlaceAndRemedy) {
   EXPECT_THAT(error("3"), HasSubstr("it must be an array of strings and tables"));
   EXPECT_THAT(error("\"aisle-grid/stres\""), HasSubstr("did you mean \"stress\"?"));
   EXPECT_THAT(error("\"aisle-gird/stress\""), HasSubstr("did you mean \"aisle-grid\"?"));
-  EXPECT_THAT(error("\"m.map\", { file = \"m.map\" }"), HasSubstr("names one value twice"));
+  EXPECT_THAT(error("\"m.map\", { file = \"m.map\" }"),
+              HasSubstr("two layouts are called \"m\"; give one a name: { file = "));
+  EXPECT_THAT(error("\"aisle-grid\", \"aisle-grid\""), HasSubstr("factors.layouts names \"aisle-grid\" twice"));
+  std::ofstream(folder_ / "mine.db") << "SQLite format 3";
+  EXPECT_THAT(error("\"mine.db\""), HasSubstr("names \"mine.db\", a file whose ending is that of no layout"));
 }
 
 TEST_F(CampaignFileTest, ErrorsNamePlaceValueAndRemedy) {
