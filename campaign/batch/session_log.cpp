@@ -62,7 +62,9 @@ void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs,
   gethostname(host.data(), host.size() - 1);
   Json plugins = Json::object();
   for (const AgentProgram& program : programs.all()) {
-    if (program.is_plugin()) plugins[program.name] = {{"file", program.file}, {"sha256", program.sha256}};
+    if (program.is_plugin())
+      plugins[program.name] = {{"file", std::filesystem::weakly_canonical(program.file).string()},
+                               {"sha256", program.sha256}};
   }
   const MachineFacts machine = machine_facts();
   Json line = {{"started_utc", utc_now()},

@@ -1,9 +1,11 @@
 #include "campaign/cli/campaign_words.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <thread>
 
 #include "campaign/batch/campaign.hpp"
@@ -14,10 +16,12 @@
 #include "campaign/plan/plan_check.hpp"
 #include "campaign/run/agent_inspection.hpp"
 #include "campaign/run/release.hpp"
+#include "campaign/run/replay.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/scenario/field.hpp"
 #include "generators/map/permitted_types.hpp"
+#include "generators/text/text_file.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -60,9 +64,24 @@ void warn_of_foreign_types(CampaignFile& file) {
   file.warnings.insert(file.warnings.begin(), sentences.begin(), sentences.end());
 }
 
+void warn_of_idle_gates(CampaignFile& file) {
+  if (file.plan.kind != CampaignKind::Search || file.plan.gates.empty()) return;
+  file.warnings.insert(file.warnings.begin(),
+                       fmt::format("{}: kind is \"search\", which counts failures and judges no gate; set kind to "
+                                   "\"claim\", or leave the gates out",
+                                   file.places.of("gate")));
+}
+
 }  // namespace
 
+void refuse_results(const std::string& path, std::string_view remedy) {
+  constexpr std::string_view kFirstWords = "SQLite format 3";
+  if (read_beginning(path, kFirstWords.size()) == kFirstWords)
+    throw InputError(path, fmt::format("this holds the results of a campaign; {}", remedy));
+}
+
 CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
+  refuse_results(path, "name its campaign file (TOML)");
   CampaignFile file = read_campaign_file(path);
   std::vector<AgentFactor>& agents = file.plan.agents;
   const auto place_of = [&](std::size_t agent) { return file.places.of(fmt::format("factors.agents.{}", agent)); };
@@ -84,6 +103,7 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   }
   check_plan(file.plan, file.places);
   warn_of_foreign_types(file);
+  warn_of_idle_gates(file);
   std::vector<bool> is_plugin;
   for (const std::string& path_of_object : file.agent_files) is_plugin.push_back(!path_of_object.empty());
   for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i].program, place_of(i) + ": factors.agents");
@@ -114,6 +134,22 @@ void meet_plugins(const std::string& archive_path, const CampaignRecord& campaig
                                    in_quotes(agent.program), archive_path));
     }
     (programs.*meet)(remembered, agent.global_symbols);
+  }
+}
+
+void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentFactor> agents,
+                          const AgentPrograms& programs) {
+  constexpr std::size_t kToldDigits = 12;
+  std::set<std::string> told;
+  for (const AgentFactor& factor : agents) {
+    if (!programs.is_plugin(factor.program) || !told.insert(factor.program).second) continue;
+    const AgentProgram& agent = programs.program(factor.program, "--plugin");
+    std::vector<std::string> stored = stored_plugins(campaign.engine, agent.name);
+    if (stored == std::vector{agent.sha256}) continue;
+    for (std::string& digest : stored) digest = digest.substr(0, kToldDigits) + "...";
+    talk("warning: {} is not the one of the campaign (stored {}, now {}...); what follows is about this one\n",
+         agent.file, stored.empty() ? "nothing" : fmt::format("{}", fmt::join(stored, " and ")),
+         agent.sha256.substr(0, kToldDigits));
   }
 }
 

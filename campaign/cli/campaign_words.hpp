@@ -17,6 +17,9 @@ namespace fleetproof::cli {
 // object whose agents have unlike `symbols`.
 CampaignFile load_campaign(const std::string& path, AgentPrograms& programs);
 
+// Throws InputError, which ends in `remedy`, if the file holds the results of a campaign: another file was meant.
+void refuse_results(const std::string& path, std::string_view remedy);
+
 // Draws one world for each layout and fleet size, and prints a warning on stderr for each fleet that may be too large.
 // Throws what build_first_worlds() throws.
 void try_first_worlds(const CampaignPlan& plan);
@@ -29,6 +32,11 @@ using MeetPlugin = std::string (AgentPrograms::*)(const std::string& path, bool 
 // if no session does, and what `meet` throws.
 void meet_plugins(const std::string& archive_path, const CampaignRecord& campaign, std::span<const AgentFactor> agents,
                   const std::vector<std::string>& named, AgentPrograms& programs, MeetPlugin meet);
+
+// Prints a warning on stderr for each plug-in of `agents` that is not the one with which the campaign was made. Call it
+// before results are printed. Requires: the agents are known to `programs`.
+void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentFactor> agents,
+                          const AgentPrograms& programs);
 
 // The name of the agent that `word` names: a name, or the path of a shared object. A path is added to `plugins`, and
 // all of them are met. Throws what `meet` throws.

@@ -11,6 +11,7 @@
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/engine_identity.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "storage/archive_reader.hpp"
@@ -34,7 +35,10 @@ CaseSource of_run(const CaseWords& words, AgentPrograms& programs) {
     throw InputError("RUN", fmt::format("{} does not exist; the campaign has runs 0 to {}", run, plan.run_count() - 1));
   const AgentFactor& agent = plan.agent_of_cell(run);
   meet_plugins(words.source, archive.campaign(), {&agent, 1}, words.plugins, programs, &AgentPrograms::know);
+  tell_rebuilt_plugins(archive.campaign(), {&agent, 1}, programs);
   CaseSource source;
+  if (const auto stored = archive.run(run); stored && stored->outcome.outcome_class() != OutcomeClass::Clean)
+    source.stored_failure = name_of(stored->outcome.outcome_class());
   source.name = fmt::format("{}-{}", std::filesystem::path(words.source).stem().string(), run);
   source.scenario = ScenarioSource(plan).scenario(run);
   source.agent = {agent.program, plan.config_of(agent), plan.laws_left_out, plan.limits};
@@ -42,6 +46,8 @@ CaseSource of_run(const CaseWords& words, AgentPrograms& programs) {
 }
 
 CaseSource of_file(const CaseWords& words, AgentPrograms& programs) {
+  refuse_results(words.source,
+                 fmt::format("name a run of it: fleetproof {} {} RUN", words.verb, shell_word(words.source)));
   CaseSource source;
   source.scenario = read_scenario(words.source);
   source.name = std::filesystem::path(words.source).stem().string();
@@ -57,7 +63,7 @@ CaseSource of_file(const CaseWords& words, AgentPrograms& programs) {
 }  // namespace
 
 void add_case_options(Options& options, CaseWords& words) {
-  options.positional("CASE", words.source, "campaign file, with the index of a failing run; or a scenario file");
+  options.positional("CASE", words.source, "results file, with the index of a failing run; or a scenario file");
   options.optional_positional("RUN", words.run, "run index");
   options.option("--agent", words.agent, "of a scenario file: the control software (default: the file's)");
   options.option("--agent-config", words.config, "of a scenario file: text handed to the agent (default: the file's)");
@@ -71,7 +77,10 @@ CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
     throw InputError("--agent", "a run has its agent and its configuration; leave --agent and --agent-config out");
   CaseSource source = is_run ? of_run(words, programs) : of_file(words, programs);
   source.scenario.expected = {};
-  const AgentProgram& agent = programs.program(source.agent.program, "--agent");
+  const bool names_agent = is_run || words.agent.empty();  // the file, not the command line
+  const AgentProgram& agent =
+      programs.program(source.agent.program, names_agent ? words.source + ": /agent" : "--agent");
+  if (agent.is_plugin()) source.plugin = " --plugin " + shell_word(agent.file);
   source.identity = fmt::format("{:016x} {} {} {}", scenario_digest(source.scenario), agent.name,
                                 agent.is_plugin() ? agent.sha256 : "built in", engine_identity().program_sha256);
   source.identity += fmt::format(" {:016x}", name_hash(source.agent.config));
@@ -80,6 +89,12 @@ CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
 
 FailingCase failing_case(CaseHost& host, const CaseSource& source) {
   const auto first = failure_of(host(source.scenario)), second = failure_of(host(source.scenario));
+  if (!first && !source.stored_failure.empty())
+    throw InputError(source.name,
+                     fmt::format("does not fail any more: the campaign stores {} for this run, and nothing "
+                                 "went wrong when it was simulated now; the software differs, or does not "
+                                 "always do the same (see: fleetproof replay)",
+                                 source.stored_failure));
   if (!first)
     throw InputError(source.name, "does not fail: nothing went wrong when it was simulated; name a run that fails");
   if (!second || !(first->kind == second->kind) || first->at != second->at) {

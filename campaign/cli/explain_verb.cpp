@@ -123,11 +123,13 @@ void save_runs(const ExplainWords& words, const CaseSource& source, CaseHost& ho
     save(branching.run, fmt::format("branch-{}", ++number), false);
 }
 
-void put_runs(const std::string& folder) {
+void put_runs(const std::string& folder, const CaseSource& source) {
   if (folder.empty()) return put("\n[n]: the run that shows it; --runs DIR writes each as a scenario file\n");
-  put("\n[n]:       fleetproof simulate {}, and so on\n", file_in(folder, name_of_claim(1)));
-  put("[share n]: fleetproof simulate {} --luck N, N from 1 to {}\n", file_in(folder, "share-1"), kLuckRuns);
-  put("branches:  fleetproof simulate {} --radio-luck N, N from 1 to {}\n", file_in(folder, "branch-1"), kBranches);
+  put("\n[n]:       fleetproof simulate {}{}, and so on\n", file_in(folder, name_of_claim(1)), source.plugin);
+  put("[share n]: fleetproof simulate {}{} --luck N, N from 1 to {}\n", file_in(folder, "share-1"), source.plugin,
+      kLuckRuns);
+  put("branches:  fleetproof simulate {}{} --radio-luck N, N from 1 to {}\n", file_in(folder, "branch-1"),
+      source.plugin, kBranches);
 }
 
 void put_curve(const NoReturn& curve) {
@@ -160,7 +162,7 @@ int explain_case(const ExplainWords& words) {
   put("{}: {}\n", source.name, text_of(pattern.kind));
   for (const std::string& sentence : sentences_of(explanation)) put("- {}\n", sentence);
   put_curve(explanation.no_return);
-  put_runs(words.runs);
+  put_runs(words.runs, source);
   return kDemonstrated;
 }
 
@@ -168,6 +170,7 @@ int explain_case(const ExplainWords& words) {
 
 Action prepare_explain(Options& options) {
   auto words = std::make_shared<ExplainWords>();
+  words->from.verb = "explain";
   add_case_options(options, words->from);
   options.option("--runs", words->runs, "write the runs that show what is said to this folder, as scenario files");
   options.option("--max-time", words->max_time, "look for the smallest case so long at most (default: 60)");

@@ -17,6 +17,7 @@
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "generators/text/text_file.hpp"
 #include "reports/findings/found_record.hpp"
@@ -47,6 +48,7 @@ class FindingsDesk {
         out_(words.out.empty() ? findings_path(words.archive) : words.out),
         runs_(failing_runs(archive_, plan_, words.most.value_or(kMostFailures))) {
     meet_plugins(words.archive, archive_.campaign(), plan_.agents, words.plugins, programs_, &AgentPrograms::know);
+    tell_rebuilt_plugins(archive_.campaign(), plan_.agents, programs_);
     if (words.add) require_writable({words.file, "--file", OutputKind::Findings});
     require_writable({out_, "--output", OutputKind::FoundFindings});
   }
@@ -148,15 +150,25 @@ class FindingsDesk {
     };
     write_all(record.kept.other_worlds, "world", 2, kept.other_worlds);
     write_all(record.kept.runs, "run", 1, kept.whole.files);
-    write_beside(id + ".md", OutputKind::Explanation, explanation_text(kept, record.explanation));
+    write_beside(id + ".md", OutputKind::Explanation, explanation_text(kept, record.explanation, agent.program));
     return kept;
   }
 
-  std::string explanation_text(const KeptFinding& kept, const Explanation& explanation) const {
+  // " --plugin FILE", from the folder of the findings file, in which the commands are called.
+  std::string plugin_words(const std::string& program) const {
+    const AgentProgram& agent = programs_.program(program, "findings");
+    if (!agent.is_plugin()) return "";
+    const auto folder = std::filesystem::absolute(file_.path_beside(".")).lexically_normal();
+    const auto file = std::filesystem::path(agent.file).lexically_normal();
+    return " --plugin " + shell_word(file.lexically_proximate(folder).string());
+  }
+
+  std::string explanation_text(const KeptFinding& kept, const Explanation& explanation,
+                               const std::string& program) const {
     std::string text = fmt::format("# {}: {}\n\n", kept.id, printable(kept.mechanism));
     for (const std::string& sentence : sentences_of(explanation)) text += fmt::format("- {}\n", printable(sentence));
-    return text + fmt::format("\n`fleetproof explain {} --max-trials {} --runs DIR` writes the runs in brackets.\n",
-                              kept.world, trials());
+    return text + fmt::format("\n`fleetproof explain {}{} --max-trials {} --runs DIR` writes the runs in brackets.\n",
+                              kept.world, plugin_words(program), trials());
   }
 
   FindingWorlds worlds_of(const Finding& finding) const {
@@ -223,7 +235,7 @@ int find_findings(const FindingsWords& words) {
 
 Action prepare_findings(Options& options) {
   auto words = std::make_shared<FindingsWords>();
-  options.positional("DB", words->archive, "campaign file");
+  options.positional("DB", words->archive, "results file");
   options.option("--file", words->file, "findings file (TOML) that says what is known, fixed or waived");
   options.flag("--add", words->add, "add what is new to it, with its smallest case and its explanation beside it");
   options.option("-o,--output", words->out,

@@ -79,6 +79,7 @@ ReplayResult replay_software(const ReplayVerbWords& words, const ArchiveReader& 
     ends = known_ends(ScenarioSource(plan).scenario(words.run), agent.program, plan.config_of(agent), plan, known);
   }
   meet_agent_of(words, archive, plan, programs, in_process ? &AgentPrograms::load : &AgentPrograms::know);
+  tell_rebuilt_plugins(archive.campaign(), {&plan.agent_of_cell(words.run), 1}, programs);
   if (!in_process) return replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
   RunWatch watch;
   watch.known_ends = ends;
@@ -174,7 +175,7 @@ int replay_run(const ReplayVerbWords& words) {
 
 Action prepare_replay(Options& options) {
   auto words = std::make_shared<ReplayVerbWords>();
-  options.positional("DB", words->archive, "campaign file");
+  options.positional("DB", words->archive, "results file");
   options.positional("RUN", words->run, "run index");
   options.option("--plugin", words->plugins,
                  "shared object with the agent of that run (default: the file that the campaign used)");

@@ -36,6 +36,7 @@ struct SimulateWords {
   std::optional<std::uint64_t> luck, radio_luck;
   ObserverWords observed;
   bool json = false, in_process = false;
+  std::string agent_place;  // what names the agent: the option, or the key of the scenario file
 };
 
 // Divided, not multiplied: the double nearest to the decimal number.
@@ -227,7 +228,7 @@ std::vector<KnownEnd> ends_of_plugin(SimulateWords words, const Scenario& scenar
   if (words.in_process) return {};
   AgentPrograms known;
   words.agent = meet_agent(words.agent, words.plugins, known, &AgentPrograms::know);
-  known.program(words.agent, "--agent");
+  known.program(words.agent, words.agent_place);
   return known_ends(scenario, words.agent, words.config, {}, known);
 }
 
@@ -260,16 +261,19 @@ ReplayWords page_words(const SimulateWords& words) {
 }
 
 int simulate_scenario(SimulateWords words) {
+  refuse_results(words.scenario, fmt::format("name a run of it: fleetproof replay {} RUN", shell_word(words.scenario)));
   Scenario scenario = with_luck(words, read_scenario(words.scenario));
   if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
   AgentPrograms programs;
+  const bool names_agent = words.agent.empty() && !scenario.agent.empty();
+  words.agent_place = names_agent ? words.scenario + ": /agent" : "--agent";
   words.agent = agent_of(words, scenario, programs);
   if (words.config.empty()) words.config = scenario.agent_config;
   const std::vector<KnownEnd> ends = ends_of_plugin(words, scenario);
   words.agent = meet_agent(words.agent, words.plugins, programs, &AgentPrograms::load);
   RunWatch watch;
   watch.known_ends = ends;
-  const fp_agent_type& agent = programs.find(words.agent, "--agent");
+  const fp_agent_type& agent = programs.find(words.agent, words.agent_place);
   const Observers observers = observers_of(words.law, scenario);
   std::optional<RunObservers> observed;
   if (words.observed.wanted())

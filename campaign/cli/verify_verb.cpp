@@ -69,6 +69,7 @@ int verify(const VerifyWords& words) {
   const CampaignPlan plan = parse_plan(file.campaign.plan_json);
   AgentPrograms programs;
   meet_plugins(words.archive, file.campaign, plan.agents, words.plugins, programs, &AgentPrograms::know);
+  tell_rebuilt_plugins(file.campaign, plan.agents, programs);
   const auto sample = sample_of_runs(file.content_digest, file.runs, size);
   const Verification verification = verify_runs(words.archive, plan, programs, sample, workers);
   words.json ? print_json(words, file, verification) : print_text(words, file, verification);
@@ -81,7 +82,7 @@ int verify(const VerifyWords& words) {
 
 Action prepare_verify(Options& options) {
   auto words = std::make_shared<VerifyWords>();
-  options.positional("DB", words->archive, "campaign file");
+  options.positional("DB", words->archive, "results file");
   options.option("--sample", words->sample, "how many runs to simulate again: 1% (default), 100%, or a number");
   options.option("--plugin", words->plugins,
                  "shared object with an agent of the campaign (default: the file that the campaign used)");

@@ -1,6 +1,7 @@
 #include "campaign/run/replay.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -86,18 +87,41 @@ const char* name_of(ReplayVerdict verdict) {
   invariant_violated("a verdict of a replay has a name");
 }
 
+namespace {
+
+// The digests behind these words, each once.
+void add_digests(std::string_view text, const std::string& words, std::vector<std::string>& digests) {
+  constexpr std::string_view kName = "sha256 ";
+  constexpr std::size_t kDigits = 64;
+  for (auto at = text.find(words); at != std::string_view::npos; at = text.find(words, at + 1)) {
+    const auto name = text.find(kName, at);
+    if (name == std::string_view::npos) return;
+    std::string digest(text.substr(name + kName.size(), kDigits));
+    if (std::ranges::find(digests, digest) == digests.end()) digests.push_back(std::move(digest));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> stored_plugins(const EngineIdentity& stored, const std::string& program) {
+  std::vector<std::string> digests;
+  add_digests(stored.libraries, "plug-in " + program + " sha256 ", digests);
+  return digests;
+}
+
 std::string software_difference(const EngineIdentity& stored, const AgentProgram& agent) {
   if (agent.is_plugin()) {
-    const std::string words = "plug-in " + agent.name + " sha256 ";
-    const auto at = stored.libraries.find(words);
-    const std::string then = at == std::string::npos ? "unknown" : stored.libraries.substr(at + words.size(), 64);
-    if (then != agent.sha256)
-      return fmt::format("the software differs (plug-in {}: sha256 {} then, {} now)", agent.name, then, agent.sha256);
+    const auto then = stored_plugins(stored, agent.name);
+    if (then != std::vector{agent.sha256})
+      return fmt::format("the software differs (plug-in {}: sha256 {} then, {} now)", agent.name,
+                         then.empty() ? "unknown" : fmt::format("{}", fmt::join(then, " and ")), agent.sha256);
   }
   const EngineIdentity now = engine_identity();
-  if (stored.program_sha256 == now.program_sha256) return "";
+  std::vector<std::string> then{stored.program_sha256};
+  add_digests(stored.libraries, "begun by fleetproof ", then);
+  if (then == std::vector{now.program_sha256}) return "";
   return fmt::format("the software differs (fleetproof {}: sha256 {} then, {}: {} now)", stored.version,
-                     stored.program_sha256, now.version, now.program_sha256);
+                     fmt::join(then, " and "), now.version, now.program_sha256);
 }
 
 ReplayResult compare_runs(RunRecord stored, RunRecord recomputed) {

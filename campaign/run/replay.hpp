@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
@@ -49,8 +50,12 @@ AuditCount audits_of(const ArchiveReader& archive, const CampaignPlan& plan, con
 // does if it promises so (FP_DETERMINISTIC) and its audits bear that out.
 bool is_trusted(const AgentProgram& agent, const AuditCount& audits);
 
+// The digests of the shared object with this agent, one for each engine that wrote to the archive, each once. Empty:
+// the archive does not know it.
+std::vector<std::string> stored_plugins(const EngineIdentity& stored, const std::string& program);
+
 // How the software that made a run differs from the software at hand: "the software differs (...)"; empty: it is the
-// same.
+// same. Where several engines wrote to the archive, nobody knows which of them made the run.
 std::string software_difference(const EngineIdentity& stored, const AgentProgram& agent);
 
 // What differs between the stored record of a run and its recomputed record.
