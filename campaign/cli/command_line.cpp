@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <memory>
 #include <sstream>
 
@@ -12,9 +13,26 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/machine_error.hpp"
+#include "core/base/outside_text.hpp"
 
 namespace fleetproof::cli {
 namespace {
+
+// Replaces the word by its number in decimal digits, or says what is wrong with it. Left alone, CLI11 turns a negative
+// number into a huge one, and reads "010" as eight.
+std::string take_whole_number(std::string& word) {
+  const bool is_hexadecimal = word.starts_with("0x");
+  const char* const begin = word.data() + (is_hexadecimal ? 2 : 0);
+  const char* const end = word.data() + word.size();
+  std::uint64_t number = 0;
+  const auto [stop, error] = std::from_chars(begin, end, number, is_hexadecimal ? 16 : 10);
+  if (error == std::errc() && stop == end) return word = fmt::format("{}", number), std::string();
+  const bool is_large = error == std::errc::result_out_of_range && stop == end;
+  return fmt::format("{} is refused: expected a whole number from 0{}{}", in_quotes(word),
+                     is_large ? " to 2^64 - 1" : "",
+                     word == "fresh" ? "; seed = \"fresh\" stands in the campaign file" : "");
+}
+const CLI::Validator kWholeNumber(take_whole_number, "");
 
 class Cli11Options final : public Options {
  public:
@@ -23,7 +41,7 @@ class Cli11Options final : public Options {
     app_.add_option(name, value, help)->required();
   }
   void positional(const std::string& name, std::uint64_t& value, const std::string& help) override {
-    app_.add_option(name, value, help)->required()->check(CLI::NonNegativeNumber);
+    app_.add_option(name, value, help)->required()->transform(kWholeNumber);
   }
   void optional_positional(const std::string& name, std::string& value, const std::string& help) override {
     app_.add_option(name, value, help);
@@ -34,9 +52,8 @@ class Cli11Options final : public Options {
   void option(const std::string& names, std::string& value, const std::string& help) override {
     app_.add_option(names, value, help);
   }
-  // If the target is unsigned, CLI11 turns a negative number into a huge one.
   void option(const std::string& names, std::optional<std::uint64_t>& value, const std::string& help) override {
-    app_.add_option(names, value, help)->check(CLI::NonNegativeNumber);
+    app_.add_option(names, value, help)->transform(kWholeNumber);
   }
   void option(const std::string& names, std::optional<double>& value, const std::string& help) override {
     app_.add_option(names, value, help);

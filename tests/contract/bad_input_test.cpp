@@ -58,6 +58,18 @@ TEST_F(BadInput, AgentsOfACampaignFile) {
           ": factors.agents names one value twice");
 }
 
+// A search counts failures; whoever writes a gate into it may have meant a claim.
+TEST_F(BadInput, GatesOfASearchAreWarnedOf) {
+  const std::string rest = campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]") +
+                           "[[gate]]\nagent = \"reckless\"\n";
+  write("claim.toml", "horizon_s = 10\n" + rest);
+  write("search.toml", "horizon_s = 10\nkind = \"search\"\n" + rest);
+  EXPECT_EQ(run("check claim.toml").err, "");
+  const auto checked = run("check search.toml");
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_THAT(checked.err, HasSubstr("warning: search.toml:7:1: kind is \"search\", which counts failures"));
+}
+
 TEST_F(BadInput, AnOpenTcsFileCutInHalf) {
   const std::string whole = read(test::source("tests/layouts/crossdock.xml"));
   ASSERT_GT(whole.size(), 1000U);
@@ -85,7 +97,12 @@ TEST_F(BadInput, ARunThatDoesNotExist) {
         campaign("agents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [2]", "horizon_s = 10\n"));
   run("run tiny.toml --db tiny.db");
   expect_refused("replay tiny.db 1", "1 does not exist; the campaign has runs 0 to 0");
-  expect_refused("replay tiny.db many", "RUN");
+  const std::string results = "tiny.db: this holds the results of a campaign; name ";
+  for (const std::string verb : {"shrink", "explain"})
+    expect_refused(verb + " tiny.db", results + "a run of it: fleetproof " + verb + " tiny.db RUN");
+  expect_refused("simulate tiny.db", results + "a run of it: fleetproof replay tiny.db RUN");
+  for (const std::string verb : {"check", "run", "plan"})
+    expect_refused(verb + " tiny.db", results + "its campaign file (TOML)");
   expect_refused("run tiny.toml --db tiny.db --seed 2", "tiny.db: this file holds runs of another campaign");
 }
 
@@ -114,9 +131,15 @@ TEST_F(BadInput, Words) {
   expect_refused("simulate " + test::source("tests/scenarios/figure4.json") + " --agent recless",
                  "did you mean \"reckless\"?");
   expect_refused("list lawss", "did you mean \"laws\"?");
-  expect_refused("run a.toml --jobs many", "--jobs");
-  expect_refused("run a.toml --replicates -3", "--replicates");
-  expect_refused("run a.toml --seed -1", "--seed");
+  const std::string whole = " is refused: expected a whole number from 0";
+  expect_refused("run a.toml --jobs many", "--jobs: \"many\"" + whole);
+  expect_refused("run a.toml --replicates -3", "--replicates: \"-3\"" + whole);
+  expect_refused("run a.toml --replicates 2.0", "--replicates: \"2.0\"" + whole);
+  expect_refused("run a.toml --seed -1", "--seed: \"-1\"" + whole);
+  expect_refused("run a.toml --seed fresh", "\"fresh\"" + whole + "; seed = \"fresh\" stands in the campaign file");
+  expect_refused("replay a.db abc", "RUN: \"abc\"" + whole);
+  expect_refused("replay a.db -- -1", "RUN: \"-1\"" + whole);
+  expect_refused("replay a.db 99999999999999999999", "\"99999999999999999999\"" + whole + " to 2^64 - 1");
   expect_refused("generate fishbones", "did you mean \"fishbone\"?");
   expect_refused("generate fishbone --seed many", "--seed");
   expect_refused("generate fishbone --svg nowhere/a.svg",
