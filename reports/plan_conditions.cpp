@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/outside_text.hpp"
+#include "reports/plan_facts.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
@@ -113,14 +114,25 @@ std::string faults_text(const Json& faults) {
   return words.empty() ? "none injected" : joined(words);
 }
 
+std::string recording_text(const RecordedRadio& recorded) {
+  return fmt::format(
+      "recorded for {} of sender and receiver ({}, {} lost), whose messages the loss and delay of the plan do not "
+      "concern; for all others: ",
+      count_text(recorded.pairs, "pair"), count_text(recorded.messages, "message"),
+      percent(static_cast<double>(recorded.lost) / static_cast<double>(recorded.messages)));
+}
+
 // The model of outages says nothing where no outage is planned.
-std::string radio_text(const Json& radio, bool has_outages) {
+std::string radio_text(const Json& radio, bool has_outages, const std::optional<RecordedRadio>& recorded) {
   const std::string losses = has_outages
                                  ? fmt::format("losses in outages ({}, by {})", word(part(radio, "outage_model")),
                                                word(part(radio, "outage_scope")))
                                  : "each loss independent of the others";
-  auto text =
-      fmt::format("delay {}, {}, range {:g} m", word(part(radio, "delay_model")), losses, number(radio, "range_m"));
+  auto text = recorded ? recording_text(*recorded) : std::string();
+  text += fmt::format("delay {}, {}, range {:g} m", word(part(radio, "delay_model")), losses, number(radio, "range_m"));
+  if (number(radio, "range_falloff_m") > 0.0)
+    text += fmt::format(" with more losses over a falloff of {:g} m", number(radio, "range_falloff_m"));
+  if (number(radio, "asymmetry") > 0.0) text += fmt::format(", asymmetry {:g}", number(radio, "asymmetry"));
   if (number(radio, "duplicates") > 0.0) text += fmt::format(", duplicates {}", percent(number(radio, "duplicates")));
   if (part(radio, "interference") == Json(true)) text += ", interference";
   if (number(radio, "sources") > 0.0) text += fmt::format(", {:g} outside sources", number(radio, "sources"));
@@ -173,7 +185,7 @@ std::vector<Fact> plan_conditions(const std::string& plan_json) {
   const Json& outage = part(factors, "mean_outage_s");
   const bool has_outages = outage != Json::array({0.0});
   if (has_outages) add("Mean outage", list(outage) + " s (0 = each loss independent of the others)");
-  add("Radio", radio_text(part(plan, "radio"), has_outages));
+  add("Radio", radio_text(part(plan, "radio"), has_outages, recorded_radio(plan_json)));
   add("Layouts", layouts_text(part(factors, "layouts")));
   add("Fleet sizes", list(part(factors, "fleet_sizes")) + " AGVs");
   add("Vehicles", vehicles_text(part(plan, "vehicles")));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "reports/plan_facts.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
@@ -169,6 +170,13 @@ std::vector<Headline> reservations(const ReportInput& input) {
                     fmt::format("every replicate has the {} of replicate {}: what follows speaks of {} alone.",
                                 printable(joined(campaign.held_streams), 120), campaign.held_replicate,
                                 held_world(input.evidence)),
+                    {}});
+  }
+  if (const auto recorded = recorded_radio(campaign.plan_json)) {
+    list.push_back({"recorded",
+                    fmt::format("the radio of {} of sender and receiver is a recording: the loss and delay that are "
+                                "named below do not apply to their messages.",
+                                count_text(recorded->pairs, "pair")),
                     {}});
   }
   return list;

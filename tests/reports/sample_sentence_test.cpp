@@ -137,6 +137,16 @@ TEST(SampleSentence, HeldRandomnessLimitsWhatIsClaimed) {
               HasSubstr("speaks of that one draw of them alone"));
 }
 
+TEST(SampleSentence, ARecordedRadioIsSaidAboveTheVerdicts) {
+  auto campaign = campaign_of("claim", 20);
+  campaign.plan_json = R"({"radio": {"trace": [[0, 1, 0, 5], [0, 1, 9], [1, 0, 3, 5]]}})";
+  const auto page = render("text", report_of(campaign, grid({"sound"}, {0.0}, {0.0}),
+                                             {gate_of("sound", GateKind::Rate, Region::Contract, 0.02)}));
+  const auto at = page.find("the radio of 2 pairs of sender and receiver is a recording");
+  ASSERT_NE(at, std::string::npos) << page;
+  EXPECT_LT(at, page.find("gate \"safe\""));
+}
+
 TEST(SampleSentence, ExemptPairsHeadEveryReport) {
   auto campaign = campaign_of("claim", 20);
   campaign.exempt_pairs = {"tugger and cart", "cart and obstacle"};
