@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include "reports/wording.hpp"
 
@@ -10,6 +12,13 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kMostTold = 3;
+
+// Something of this name is there, but it is a folder, or a file without the permission.
+bool is_unreadable(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored) &&
+         !(std::filesystem::is_regular_file(path, ignored) && std::ifstream(path).is_open());
+}
 
 std::string told(const Attempt& attempt) {
   const std::string state = attempt.ended_utc.empty() ? "aborted or still under way" : attempt.verdict;
@@ -22,6 +31,7 @@ std::string told(const Attempt& attempt) {
 AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord& campaign) {
   AttemptHistory history;
   const auto& attempts = ledger.attempts();
+  if (is_unreadable(ledger.path())) history.ledger = ledger.path();
   if (attempts.empty()) return history;
   history.ledger = ledger.path();
   history.broken_lines = ledger.broken_lines();
@@ -48,6 +58,8 @@ AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord
 }
 
 std::string attempts_sentence(const AttemptHistory& history, double risk) {
+  if (is_unreadable(history.ledger))
+    return fmt::format("Earlier attempts unknown: the ledger {} cannot be read.", printable(history.ledger));
   if (history.ledger.empty() || !history.own)
     return "Earlier attempts unknown: no ledger of attempts tells of this campaign.";
   const auto& others = history.others;

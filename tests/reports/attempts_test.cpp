@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "core/base/error.hpp"
@@ -50,6 +51,9 @@ class Attempts : public testing::Test {
 
 TEST_F(Attempts, AreUnknownWithoutALedgerAndNeverTheFirst) {
   EXPECT_EQ(sentence(campaign(1)), "Earlier attempts unknown: no ledger of attempts tells of this campaign.");
+  std::filesystem::create_directory(path_);
+  EXPECT_EQ(sentence(campaign(1)), "Earlier attempts unknown: the ledger " + path_ + " cannot be read.");
+  std::filesystem::remove(path_);
   tried(1, "demonstrated");
   EXPECT_THAT(sentence(campaign(1)), HasSubstr("Earlier attempts unknown: the ledger names no other attempt"));
   EXPECT_THAT(sentence(campaign(1)), HasSubstr("begins on 2026-01-01"));
