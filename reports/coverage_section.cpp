@@ -56,9 +56,11 @@ std::vector<Headline> weak_headlines(const ReportInput& input) {
     if (agent.missing.empty() || !is_under_test(input.evidence.gates(), agent.agent)) continue;
     list.push_back(
         {"weak",
-         fmt::format("this campaign is weak evidence for agent {}: its {} did not meet what a test has to meet ({}). "
-                     "Few failures say little then.",
-                     printable(agent.agent, 40), count_text(agent.coverage.runs(), "run"), missing_text(agent.missing)),
+         fmt::format(
+             "this campaign is weak evidence for agent {}: its {} did not meet what a test has to meet ({}; see "
+             "[coverage] probes of the campaign file). "
+             "Few failures say little then.",
+             printable(agent.agent, 40), count_text(agent.coverage.runs(), "run"), missing_text(agent.missing)),
          {}});
   }
   return list;
