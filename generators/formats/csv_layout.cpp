@@ -109,6 +109,13 @@ class TableReader {
     throw InputError(at_line(source_, lines_.number()), sentence);
   }
 
+  // Spreadsheets of many countries write other separators.
+  [[noreturn]] void refuse_first_line(const std::vector<std::string>& fields) const {
+    const bool other = fields.size() == 1 && fields[0].find_first_of(";\t") != std::string::npos;
+    refuse(fmt::format("expected a line with the names of the columns first: id,x,y,purposes{}",
+                       other ? "; the separator is a comma, no semicolon and no tabulator" : ""));
+  }
+
   // Each table has its header at its top. In the rows below, stations may have the names "from" and "to".
   Table table_begun_by(const std::vector<std::string>& fields) const {
     const auto has = [&](std::string_view name) { return std::ranges::find(fields, name) != fields.end(); };
@@ -119,7 +126,7 @@ class TableReader {
   }
 
   void add_row(const std::vector<std::string>& fields) {
-    if (table_ == Table::None) refuse("expected a line with the names of the columns first: id,x,y,purposes");
+    if (table_ == Table::None) refuse_first_line(fields);
     if (fields.size() > columns_.size())
       refuse(fmt::format("the line has {} fields, its table {} columns", fields.size(), columns_.size()));
     if (table_ == Table::Layout) return take_layout(fields);

@@ -121,6 +121,10 @@ TEST(CsvLayoutErrors, NamePlaceValueAndRemedy) {
             "l.csv:2: \"purpose\" is not a column of nodes; did you mean \"purposes\"?");
   EXPECT_EQ(break_at("id,x,y,purposes", "x,y"),
             "l.csv:2: expected a line with the names of the columns first: id,x,y,purposes");
+  EXPECT_EQ(
+      break_at("id,x,y,purposes", "id;x;y;purposes"),
+      "l.csv:2: expected a line with the names of the columns first: id,x,y,purposes; the separator is a comma, no "
+      "semicolon and no tabulator");
   EXPECT_EQ(break_at("6.5 0 7 3", "6.5 0 7"), "l.csv:9: control_points are 3 numbers; expected x y x y ...");
   EXPECT_EQ(break_at("\"end, of it\",9,3", "\"end, of it,9,3"),
             "l.csv:5: a double quote is not closed; close it on the same line");
