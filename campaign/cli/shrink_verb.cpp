@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@
 #include "campaign/shrink/shrink.hpp"
 #include "campaign/shrink/trial_file.hpp"
 #include "core/base/error.hpp"
+#include "generators/scenario_file/scenario_file.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "reports/wording.hpp"
 
@@ -49,7 +51,18 @@ nlohmann::ordered_json to_json(const CaseSize& size) {
   return json;
 }
 
-void put_result(const ShrinkWords& words, const FailingCase& original, const ShrinkResult& result) {
+// Whether the smallest case is known, or how to look for it further.
+std::string minimal_text(const ShrinkWords& words, const ShrinkResult& result) {
+  if (result.one_minimal)
+    return fmt::format("1-minimal: nothing of it can be left out alone ({})", count_text(result.trials, "trial"));
+  std::string text = "1-minimal: not known; " + result.why_not;
+  if (!result.ended) return text;
+  const bool by_trials = words.trials && result.trials >= *words.trials;
+  return text + (by_trials ? "; give more --max-trials" : "; the same command goes on where this one ended");
+}
+
+void put_result(const ShrinkWords& words, const FailingCase& original, const ShrinkResult& result,
+                const CaseSource& source) {
   if (words.json) {
     const nlohmann::ordered_json json = {{"schema_version", 1},
                                          {"failure", text_of(original.failure.kind)},
@@ -65,12 +78,35 @@ void put_result(const ShrinkWords& words, const FailingCase& original, const Shr
   put("{}\n", text_of(original.failure.kind));
   put("  before: {}\n", size_text(result.before));
   put("  after:  {}\n", size_text(result.after));
-  if (result.one_minimal) {
-    put("  1-minimal: nothing of it can be left out alone ({})\n", count_text(result.trials, "trial"));
-  } else {
-    put("  1-minimal: not known; {}; the same command goes on where this one ended\n", result.why_not);
+  put("  {}\n", minimal_text(words, result));
+  put("  fleetproof simulate {}{}\n", shell_word(words.out), source.plugin);
+}
+
+// What an earlier search of this case has left in the file, if it still fails in the same way.
+std::optional<FailingCase> found_before(const ShrinkWords& words, CaseHost& host, const CaseSource& source,
+                                        const FailurePattern& pattern) {
+  if (!std::filesystem::exists(words.out)) return std::nullopt;
+  Scenario before;
+  try {
+    before = read_scenario(words.out);
+  } catch (const InputError&) {  // of an older version, or damaged
+    return std::nullopt;
   }
-  put("  fleetproof simulate {}\n", shell_word(words.out));
+  const bool is_of_this_case = before.name == source.scenario.name && before.agent == source.agent.program &&
+                               before.agent_config == source.agent.config;
+  if (!is_of_this_case) return std::nullopt;
+  before.expected = {};
+  const auto failure = pattern.match(host(before));
+  return failure ? std::optional(FailingCase{std::move(before), *failure}) : std::nullopt;
+}
+
+// A search with less time must not replace what one with more time has found.
+void prefer(std::optional<FailingCase> before, ShrinkResult& result) {
+  if (!before || !CaseSize::of(before->scenario).is_smaller_than(result.after)) return;
+  result.best = *std::move(before);
+  result.after = CaseSize::of(result.best.scenario);
+  result.one_minimal = false;
+  result.why_not = "an earlier search has found this case, which is smaller than that of the present one";
 }
 
 void save(const ShrinkWords& words, CaseHost& host, const CaseSource& source, FailingCase failing) {
@@ -96,10 +132,11 @@ int shrink_case(ShrinkWords words) {
     if (size != told) talk("{}: {}\n", pass, size);
     told = std::move(size);
   };
-  const ShrinkResult result = shrink(host, trials, original, pattern, {deadline, words.trials}, tell);
+  ShrinkResult result = shrink(host, trials, original, pattern, {deadline, words.trials}, tell);
+  prefer(found_before(words, host, source, pattern), result);
   save(words, host, source, result.best);
   if (result.one_minimal) trials.remove();
-  put_result(words, original, result);
+  put_result(words, original, result, source);
   return kDemonstrated;
 }
 
@@ -107,6 +144,7 @@ int shrink_case(ShrinkWords words) {
 
 Action prepare_shrink(Options& options) {
   auto words = std::make_shared<ShrinkWords>();
+  words->from.verb = "shrink";
   add_case_options(options, words->from);
   options.option("-o,--output", words->out, "the smallest case, a scenario file (default: NAME-RUN.case.json)");
   options.option("--max-time", words->max_time, "end after this time with the smallest case so far (default: 60)");

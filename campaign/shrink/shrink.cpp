@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include "campaign/shrink/adverse_fates.hpp"
@@ -30,6 +31,14 @@ CaseSize CaseSize::of(const Scenario& scenario) {
 std::size_t CaseSize::price() const {
   constexpr std::size_t few_agvs = 3, of_an_agv = 4;
   return fates_are_drawn ? ~std::size_t{0} : fates + of_an_agv * (std::max(agvs, few_agvs) - few_agvs);
+}
+
+bool CaseSize::is_smaller_than(const CaseSize& other) const {
+  const auto rank = [](const CaseSize& size) {
+    return std::tuple(size.price(), size.agvs + size.transports + size.faults + size.obstacles + size.segments,
+                      size.horizon);
+  };
+  return rank(*this) < rank(other);
 }
 
 namespace {
@@ -202,6 +211,7 @@ ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& origin
   result.before = CaseSize::of(original.scenario);
   result.after = CaseSize::of(result.best.scenario);
   result.trials = trials.count();
+  result.ended = trials.ended();
   result.why_not = why_not_known(result, trials.ended());
   result.one_minimal = result.why_not.empty();
   return result;

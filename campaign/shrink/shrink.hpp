@@ -18,6 +18,8 @@ struct CaseSize {
   // How hard it is to see through, in adverse messages: each AGV beyond the third is as hard as four. While fates are
   // drawn, more than any list of them.
   std::size_t price() const;
+  // By the price, then by the number of things, then by the time.
+  bool is_smaller_than(const CaseSize& other) const;
 };
 
 // The smallest case that was found. `one_minimal`: each single AGV, transport, fault, obstacle, segment and message
@@ -27,6 +29,7 @@ struct ShrinkResult {
   CaseSize before, after;
   std::uint64_t trials = 0;  // that one worker would have made
   bool one_minimal = false;
+  bool ended = false;  // by a limit
   std::string why_not;
 };
 

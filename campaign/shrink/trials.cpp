@@ -34,6 +34,26 @@ std::optional<FailingCase> Trials::attempt(Scenario scenario) {
   return FailingCase{std::move(scenario), *failure};
 }
 
+// Passes over the candidates that an earlier search has tried. Their answers need no workers and no time of the search:
+// else a search with little time would end before it is where the earlier one ended. Returns the first rank that is
+// still to be tried.
+std::size_t Trials::pass_known(const Candidates& candidates, std::size_t end, std::optional<Found>& found) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::size_t rank = 0;
+  for (; rank < end && all_known_ && !found; ++rank) {
+    auto scenario = candidates.make(rank);
+    if (!scenario) continue;
+    const auto known = cache_.find(scenario_digest(*scenario));
+    all_known_ = known.has_value();
+    if (!all_known_) break;
+    if (*known) {
+      if (auto failing = attempt(*std::move(scenario))) found = Found{rank, *std::move(failing)};
+    }
+  }
+  if (limits_.deadline) *limits_.deadline += std::chrono::steady_clock::now() - begin;
+  return rank;
+}
+
 // Indices are handed out in ascending order. When one has failed, all before it are therefore under way or done, and
 // none behind it matters.
 std::optional<Trials::Found> Trials::first_failing(const Candidates& candidates) {
@@ -43,12 +63,13 @@ std::optional<Trials::Found> Trials::first_failing(const Candidates& candidates)
   }
   std::size_t end = candidates.count;
   if (limits_.trials) end = std::min<std::size_t>(end, *limits_.trials - count_);
+  std::optional<Found> found;
+  const std::size_t begin = pass_known(candidates, end, found);
   std::atomic<std::size_t> best = end;
   std::mutex mutex;
-  std::optional<Found> found;
   std::atomic<bool> late = false;
-  {
-    TaskPool pool(host_.workers(), 0, end, 64, [&](std::uint64_t rank) -> std::optional<RunRecord> {
+  if (!found && begin < end) {
+    TaskPool pool(host_.workers(), begin, end, 64, [&](std::uint64_t rank) -> std::optional<RunRecord> {
       RunRecord done;
       done.run_index = rank;
       if (rank > best || late) return done;
@@ -73,7 +94,7 @@ std::optional<Trials::Found> Trials::first_failing(const Candidates& candidates)
   if (!found && end < candidates.count) ended_ = true;  // the others were not tried
   // A candidate before the one that was found may not have been tried any more: the result would depend on the clock.
   if (late) ended_ = true;
-  if (late && best != 0) return std::nullopt;
+  if (late && best != begin) return std::nullopt;
   return found;
 }
 

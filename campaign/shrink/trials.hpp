@@ -21,6 +21,7 @@ struct Candidates {
 };
 
 struct TrialLimits {
+  // Put off by what it takes to repeat the answers of an earlier search.
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::optional<std::uint64_t> trials;  // counted as one worker would make them
 };
@@ -59,6 +60,7 @@ class Trials {
 
  private:
   bool is_over() const;
+  std::size_t pass_known(const Candidates& candidates, std::size_t end, std::optional<Found>& found);
   std::optional<FailingCase> attempt(Scenario scenario);
 
   CaseHost& host_;
@@ -67,6 +69,7 @@ class Trials {
   TrialLimits limits_;
   std::uint64_t count_ = 0;
   bool ended_ = false;
+  bool all_known_ = true;  // so far: an earlier search has tried the same
 };
 
 }  // namespace fleetproof

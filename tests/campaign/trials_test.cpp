@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <thread>
 
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/other_luck.hpp"
@@ -82,6 +83,35 @@ TEST(Trials, NoneIsMadeBeyondTheLimit) {
   EXPECT_FALSE(trials.first_failing(lucks.from(10)));
   EXPECT_TRUE(trials.ended());
   EXPECT_EQ(cache.added, 7U);
+}
+
+// A search with little time gets to where the earlier one ended: what that one has found out costs no time.
+TEST(Trials, KnownAnswersTakeNoTimeAndNoWorkers) {
+  using namespace std::chrono_literals;
+  const Lucks lucks;
+  AgentPrograms programs;
+  CaseHost host({"timeout-grant", ""}, programs, 2);
+  const FailurePattern none{{"never seen", {}}};
+  TrialCache cache;
+  EXPECT_FALSE(Trials(host, cache, none, {}).first_failing(lucks.from(1)));
+  const auto caller = std::this_thread::get_id();
+  const Candidates slow{kLucks - 1, [&](std::size_t rank) {
+                          EXPECT_EQ(std::this_thread::get_id(), caller);
+                          std::this_thread::sleep_for(5ms);
+                          return lucks.from(1).make(rank);
+                        }};
+  Trials again(host, cache, none, {std::chrono::steady_clock::now() + 100ms, {}});
+  EXPECT_FALSE(again.first_failing(slow));
+  EXPECT_FALSE(again.first_failing(slow));
+  EXPECT_FALSE(again.ended());
+  EXPECT_EQ(again.count(), 2 * (kLucks - 1));
+  const Candidates unknown{1, [&](std::size_t) {
+                             std::this_thread::sleep_for(500ms);
+                             return lucks.from(0).make(0);
+                           }};
+  EXPECT_FALSE(again.first_failing(unknown));
+  EXPECT_FALSE(again.first_failing(unknown));
+  EXPECT_TRUE(again.ended());
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/program.hpp"
@@ -83,6 +85,47 @@ TEST_F(ShrinkVerb, APlugInIsShrunkInWorkers) {
   EXPECT_EQ(small["agent_config"], "segfault 1");
   EXPECT_EQ(small["expected"]["failure"], "crash");
   EXPECT_LT(small["horizon_ns"], 60'000'000'000);
+  // The command that it prints finds the agent.
+  const auto at = shrunk.out.find("fleetproof simulate small.json --plugin ");
+  ASSERT_NE(at, std::string::npos) << shrunk.out;
+  const auto played = run(shrunk.out.substr(at + 11, shrunk.out.find('\n', at) - at - 11));
+  EXPECT_THAT(played.out, HasSubstr("as expected: crash")) << played.err;
+  for (const std::string verb : {"simulate", "shrink"})
+    EXPECT_THAT(run(verb + " small.json").err, HasSubstr("small.json: /agent: agent \"failing\" is not known"));
+}
+
+// What is said of a run is not said of other software without a word.
+TEST_F(ShrinkVerb, ARebuiltPlugInIsNamedFirst) {
+  std::filesystem::copy(FLEETPROOF_FAILING_AGENT, path("mine.so"));
+  std::string mine = kCampaign;
+  mine.replace(mine.find("[\"hull-lock\", \"timeout-grant\"]"), 30, "[\"./mine.so\"]");
+  mine.replace(mine.find("loss ="), 0, "fleet_sizes = [1]\n");
+  write("mine.toml", mine);
+  run("run mine.toml --db mine.db");
+  EXPECT_THAT(read(path("mine.sessions.jsonl")),
+              HasSubstr("\"file\":\"" + std::filesystem::canonical(path("mine.so")).string() + "\""));
+  const std::string told = "mine.so is not the one of the campaign (stored ";
+  const auto words = {"verify mine.db", "replay mine.db 0", "shrink mine.db 0 --max-time 1", "findings mine.db"};
+  for (const std::string& each : words) EXPECT_THAT(run(each).err, testing::Not(HasSubstr(told))) << each;
+  std::ofstream(path("mine.so"), std::ios::app) << "another build";
+  for (const std::string& each : words) EXPECT_THAT(run(each).err, HasSubstr(told)) << each;
+}
+
+// A search with less time must not undo what one with more time has found.
+TEST_F(ShrinkVerb, ASmallerCaseOfTheSameFailureStays) {
+  const std::string shrink = "shrink a.db " + failing_ + " -o small.json";
+  ASSERT_EQ(run(shrink + " --max-trials 3000 --max-time 600").exit_code, 0);
+  const std::string small = read(path("small.json"));
+  std::filesystem::remove(path("small.json.trials"));
+  const auto again = run(shrink + " --max-trials 10");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read(path("small.json")), small);
+  EXPECT_THAT(again.out, HasSubstr("an earlier search has found this case"));
+  EXPECT_THAT(again.out, HasSubstr("; give more --max-trials"));
+  // Of another failure it is no result.
+  write("small.json", read(path("case.json")));
+  ASSERT_EQ(run(shrink + " --max-trials 300").exit_code, 0);
+  EXPECT_NE(read(path("small.json")), read(path("case.json")));
 }
 
 TEST_F(ShrinkVerb, BadWordsAreRefused) {
