@@ -124,7 +124,8 @@ class RunsToReplay {
   }
   std::string text(const ReportInput& input) {
     std::ranges::sort(runs_);
-    std::string lines;
+    std::string lines = fmt::format("# Call these where {} lies; it is no part of this folder.\n",
+                                    printable(std::filesystem::path(input.archive_path).filename().string()));
     for (const auto& [is_reference, severity, run_index] : runs_) lines += replay_line(input, run_index) + "\n";
     return lines;
   }

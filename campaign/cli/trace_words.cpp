@@ -45,6 +45,10 @@ TraceFilter filter_of(const TraceWords& words, const Scenario& scenario) {
   }
   filter.from = instant_of(words.from_s, filter.from);
   filter.to = instant_of(words.to_s, filter.to);
+  if (filter.to < filter.from)
+    throw InputError("--trace-to",
+                     fmt::format("is {} s, which is before --trace-from, {} s; no event lies between them",
+                                 to_seconds(filter.to - kStart), to_seconds(filter.from - kStart)));
   return filter;
 }
 
