@@ -71,8 +71,8 @@ int compare_releases(const CompareWords& words) {
 
 Action prepare_compare(Options& options) {
   auto words = std::make_shared<CompareWords>();
-  options.positional("OLD", words->old_archive, "campaign file of the release before");
-  options.positional("NEW", words->new_archive, "campaign file of the new release");
+  options.positional("OLD", words->old_archive, "results file of the release before");
+  options.positional("NEW", words->new_archive, "results file of the new release");
   options.option("--agent", words->new_agent, "the agent of the new release (default: the one under test)");
   options.option("--old-agent", words->old_agent, "the agent of the old release (default: likewise)");
   options.option("--margin", words->margin, "a share of worlds that the new release may be worse (default: 0.05)");

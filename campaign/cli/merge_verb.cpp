@@ -92,14 +92,14 @@ Action prepare_merge(Options& options) {
   options.positionals("DIR", words->folders,
                       "folder of the shards; several, if the shards had no common disk and each wrote to its own");
   options.option("--db", words->archive,
-                 "campaign file to write (default: the campaign's name and .db, in this folder)");
+                 "results file to write (default: the campaign's name and .db, in this folder)");
   options.option("--fail-fast", words->fail_fast, "keep the runs up to so many failed ones, in order of run index");
   options.flag("--until-verdict", words->until_verdict,
                "keep the runs up to where the gates had given the verdict; chunks after it may be missing");
   options.option("--keep", words->keep, "rows that the file keeps: all or failing; instead of the shards' word");
   options.option("--ledger", words->ledger,
-                 "ledger of the attempts to make a claim (default: attempts.jsonl beside the campaign file)");
-  options.flag("--overwrite", words->overwrite, "replace an existing campaign file");
+                 "ledger of the attempts to make a claim (default: attempts.jsonl beside the results file)");
+  options.flag("--overwrite", words->overwrite, "replace an existing results file");
   options.flag("--exit-zero", words->exit_zero, "end with exit code 0 whatever the verdict is; 2 and 3 stay");
   options.flag("--json", words->json, "print the report as JSON");
   return [words] { return merge(*words); };

@@ -107,11 +107,11 @@ int report(const ReportWords& words) {
 
 Action prepare_report(Options& options) {
   auto words = std::make_shared<ReportWords>();
-  options.positional("DB", words->archive, "campaign file");
+  options.positional("DB", words->archive, "results file");
   options.option("--format", words->format, "text (default), markdown, junit, json or summary");
   options.option("-o,--output", words->out, "write the report to this file instead of standard output");
   options.option("--html", words->html, "write one self-contained HTML page with maps and charts to this file");
-  options.option("--baseline", words->baseline, "also say what changed since this campaign file");
+  options.option("--baseline", words->baseline, "also say what changed since this results file");
   options.flag("--no-film", words->no_film, "leave out the film strips, which simulate up to ten runs again");
   options.option("--evidence", words->evidence,
                  "write the evidence of a release to this new folder: page, reports, runs as CSV, checksums");

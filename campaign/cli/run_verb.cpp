@@ -221,7 +221,7 @@ Action prepare_run(Options& options) {
   auto words = std::make_shared<RunWords>();
   options.positional("CAMPAIGN", words->campaign, "campaign file (TOML)");
   options.option("--db", words->archive,
-                 "campaign file to write, or to go on with (default: the campaign's name and .db, in this folder)");
+                 "results file to write, or to go on with (default: the campaign's name and .db, in this folder)");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.option("--replicates", words->plan.replicates, "instead of the file's number of replicates");
   options.option("--seed", words->plan.seed, "instead of the file's seed");
@@ -234,9 +234,9 @@ Action prepare_run(Options& options) {
   options.option("--findings", words->findings,
                  "first play the smallest cases of this findings file; they count in no claim");
   options.option("--ledger", words->ledger,
-                 "ledger of the attempts to make a claim (default: attempts.jsonl beside the campaign file)");
+                 "ledger of the attempts to make a claim (default: attempts.jsonl beside the results file)");
   add_shard_options(options, words->shard);
-  options.flag("--overwrite", words->overwrite, "begin again, and replace an existing campaign file");
+  options.flag("--overwrite", words->overwrite, "begin again, and replace an existing results file");
   options.flag("--allow-drift", words->allow_drift, "go on in a file of another build or plug-in, and record it");
   options.flag("--exit-zero", words->exit_zero, "end with exit code 0 whatever the verdict is; 3 stays 3");
   options.flag("--json", words->json, "print the report as JSON");

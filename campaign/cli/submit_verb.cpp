@@ -85,7 +85,7 @@ Action prepare_submit(Options& options) {
   options.option("--engine", words->engine, "the job engine (default: slurm)");
   options.option("--shards", words->shards, "number of tasks");
   options.option("--out", words->out, "folder that all shards write to, on that disk");
-  options.option("--db", words->archive, "campaign file that the merge writes (default: the campaign's name and .db)");
+  options.option("--db", words->archive, "results file that the merge writes (default: the campaign's name and .db)");
   options.option("--cpus", words->cpus, "cores of each task (default: 1)");
   options.option("--time", words->time, "time limit of each task, as in 45m or 5h30m (default: that of the partition)");
   options.option("--array", words->array, "only these shards, as `fleetproof missing DIR --array` prints them");
