@@ -135,7 +135,7 @@ TEST_F(EvidenceSet, ReplaysExactlyTheFailingRunsTheWorstOfTheSoftwareUnderTestFi
     }
   }
   EXPECT_THAT(kinds, testing::IsSupersetOf({"mine1", "mine0", "reckless1"})) << "an order of one kind shows nothing";
-  EXPECT_EQ(read(path("set/replay.txt")), "# Call these where a.db lies; it is no part of this folder.\n" + expected);
+  EXPECT_EQ(read(path("set/replay.txt")), "# Call these where d.db lies; it is no part of this folder.\n" + expected);
 }
 
 TEST_F(EvidenceSet, IsGoneIfTheDiskIsFull) {
