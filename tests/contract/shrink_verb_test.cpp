@@ -106,9 +106,9 @@ TEST_F(ShrinkVerb, ARebuiltPlugInIsNamedFirst) {
               HasSubstr("\"file\":\"" + std::filesystem::canonical(path("mine.so")).string() + "\""));
   const std::string told = "mine.so is not the one of the campaign (stored ";
   const auto words = {"verify mine.db", "replay mine.db 0", "shrink mine.db 0 --max-time 1", "findings mine.db"};
-  for (const std::string& each : words) EXPECT_THAT(run(each).err, testing::Not(HasSubstr(told))) << each;
+  for (const std::string each : words) EXPECT_THAT(run(each).err, testing::Not(HasSubstr(told))) << each;
   std::ofstream(path("mine.so"), std::ios::app) << "another build";
-  for (const std::string& each : words) EXPECT_THAT(run(each).err, HasSubstr(told)) << each;
+  for (const std::string each : words) EXPECT_THAT(run(each).err, HasSubstr(told)) << each;
 }
 
 // A search with less time must not undo what one with more time has found.
