@@ -104,7 +104,7 @@ ask() {
   print -r -- "${heard//$'\e'\[[0-9;]#[A-Za-z]/}"
   zpty -w terminal $'\x15'
 }
-ask 'fleetproof rep' 'simulate one run of a campaign again' 'judge a campaign file'
+ask 'fleetproof rep' 'simulate one run of a campaign again' 'judge a results file'
 ask 'fleetproof run --sha' 'simulate one part of the campaign: i/n' 'the number of shards'
 )");
   ASSERT_EQ(shell("timeout 60 zsh -f try.zsh"), 0) << read(path("said"));
