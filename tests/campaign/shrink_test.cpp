@@ -98,7 +98,7 @@ duplicates = 0.1
                                                 "night.toml")
                                 .plan;
   Bench bench("stale-grant");
-  const Scenario scenario = ScenarioSource(plan).scenario(57);
+  const Scenario scenario = ScenarioSource(plan).scenario(44);
   const auto failure = failure_of(bench.host(scenario));
   ASSERT_TRUE(failure.has_value());
   const ShrinkResult result = bench.shrunk({scenario, *failure}, {.deadline = {}, .trials = 60000});
