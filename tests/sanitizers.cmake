@@ -5,14 +5,14 @@ file(GLOB engine_tests CONFIGURE_DEPENDS core/*_test.cpp)
 list(FILTER engine_tests EXCLUDE REGEX "detector|clearance|geometry|piece|curve|motion_profile|swept_region")
 if(FLEETPROOF_SANITIZE MATCHES thread)
   set(sanitized_sources campaign/task_pool_test.cpp campaign/trials_test.cpp campaign/findings_test.cpp
-    campaign/workers_test.cpp storage/archive_test.cpp)
+    campaign/failure_needs_test.cpp campaign/workers_test.cpp storage/archive_test.cpp)
   set(planted planted_race)
   set(report "ThreadSanitizer: data race")
 else()
   set(sanitized_sources ${engine_tests} fuzz/readers_test.cpp fuzz/readers.cpp fuzz/seeds.cpp fuzz/verdict.cpp
     campaign/task_pool_test.cpp campaign/trials_test.cpp campaign/workers_test.cpp campaign/channel_test.cpp
-    campaign/forker_test.cpp
-    campaign/findings_test.cpp storage/archive_test.cpp)
+    campaign/forker_test.cpp campaign/findings_test.cpp campaign/failure_needs_test.cpp campaign/fate_passes_test.cpp
+    storage/archive_test.cpp)
   set(planted planted_use_after_free)
   set(report "AddressSanitizer: heap-use-after-free")
 endif()
@@ -23,13 +23,17 @@ else()
   set(sanitizer_options "ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1")
 endif()
 
+# An agent with another timing, as in the other builds.
+add_library(retouched_agent MODULE EXCLUDE_FROM_ALL support/retouched_agent.cpp)
+target_link_libraries(retouched_agent PRIVATE fleetproof_agents fleetproof_options)
 add_executable(sanitized_tests EXCLUDE_FROM_ALL ${sanitized_sources})
 target_link_libraries(sanitized_tests
   PRIVATE fleetproof_campaign fleetproof_evidence rapidcheck GTest::gtest_main GTest::gmock
     nlohmann_json::nlohmann_json fmt::fmt SQLiteCpp SQLite::SQLite3 TBB::tbb)
 target_compile_definitions(sanitized_tests PRIVATE FLEETPROOF_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-  FLEETPROOF_PLUGIN="$<TARGET_FILE:fleetproof_agents_plugin>")
-add_dependencies(sanitized_tests fleetproof_agents_plugin)
+  FLEETPROOF_PLUGIN="$<TARGET_FILE:fleetproof_agents_plugin>"
+  FLEETPROOF_RETOUCHED_AGENT="$<TARGET_FILE:retouched_agent>")
+add_dependencies(sanitized_tests fleetproof_agents_plugin retouched_agent)
 target_compile_options(sanitized_tests PRIVATE ${test_warnings})
 target_precompile_headers(sanitized_tests
   PRIVATE <gtest/gtest.h> <gmock/gmock.h> <Eigen/Core> <fmt/format.h> <map> <set> <string> <vector>)

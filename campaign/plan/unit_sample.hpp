@@ -10,9 +10,8 @@ namespace fleetproof {
 // How the points of continuous factors are drawn.
 // - Uniform: every replicate by itself. The draws are independent; exact binomial bounds hold for them.
 // - LatinHypercube: of N planned replicates, each has a stratum of width 1/N to itself, in every dimension.
-// - Sobol: a Sobol sequence under a random digital shift. Any 2^k replicates from a multiple of 2^k on have a stratum
-// of
-//   width 2^-k each.
+// - Sobol: a Sobol sequence under a random digital shift. Any 2^k replicates from a multiple of 2^k on have strata of
+//   width 2^-k.
 // In all three, every single point is uniform on the unit cube. The points of the last two cover the cube more evenly,
 // but they are not independent of each other.
 enum class Sampling : std::uint8_t { Uniform, LatinHypercube, Sobol };

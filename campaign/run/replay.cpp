@@ -89,7 +89,7 @@ const char* name_of(ReplayVerdict verdict) {
 
 namespace {
 
-// The digests behind these words, each once.
+// Appends the digest that follows each occurrence of `words` in `text`, if it is not in the list yet.
 void add_digests(std::string_view text, const std::string& words, std::vector<std::string>& digests) {
   constexpr std::string_view kName = "sha256 ";
   constexpr std::size_t kDigits = 64;

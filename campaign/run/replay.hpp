@@ -50,8 +50,8 @@ AuditCount audits_of(const ArchiveReader& archive, const CampaignPlan& plan, con
 // does if it promises so (FP_DETERMINISTIC) and its audits bear that out.
 bool is_trusted(const AgentProgram& agent, const AuditCount& audits);
 
-// The digests of the shared object with this agent, one for each engine that wrote to the archive, each once. Empty:
-// the archive does not know it.
+// The SHA-256 digests that the archive stores of the shared object with this agent. There are several if sessions with
+// different builds wrote to it. Empty: the archive does not know the agent as a plug-in.
 std::vector<std::string> stored_plugins(const EngineIdentity& stored, const std::string& program);
 
 // How the software that made a run differs from the software at hand: "the software differs (...)"; empty: it is the

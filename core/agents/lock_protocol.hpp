@@ -74,10 +74,9 @@
 //
 // Restarts. A restarted i has forgotten its knowledge of other AGVs, and the requests that it granted. No step above
 // needs this memory:
-// - The restart of i ends its epoch. i then holds only what the AGV covers until its actions end: the lane under way
-// and
-//   the lane of a move that has been given already, or the standing body. This part of the locked floor is held without
-//   a gap, by the former self and by the new self from its first instant, because the new self answers no message
+// - The restart of i ends its epoch. i then holds only what the AGV covers until its actions end: the lane under way,
+//   with the lane of a move that has been given already, or the standing body. This part of the floor is held without a
+//   gap, by the former self and by the new self from its first instant, because the new self answers no message
 //   before. So (1) is true of every s_i in [t_i, t_j], with or without a restart between them. The new self may also
 //   hold the turn before the lane without having locked it. That only makes it defer more often.
 // - A GRANT of the former self for f may still be in the air, or j may have it. It stays true, because s_i lies before
@@ -92,9 +91,8 @@
 //   time. If a contact has stopped the AGV, it may be beside its station; then the AGV is out of order, and the new
 //   self never knows. Until it knows, it grants nothing, and its messages say that what it holds is not known
 //   (know_own_place). Nobody takes it for apart.
-// - No AGV is carried. If an operator sets one down, others may still count it as apart or far from what its former
-// self
-//   said, and lock the floor under it. Whoever sets it down must see to that.
+// - No AGV is carried. If an operator sets an AGV down, others may still count it as apart or far from what it had said
+//   before, and lock the floor under it. The operator must prevent this.
 #pragma once
 
 #include <cstdint>

@@ -28,9 +28,8 @@ namespace fleetproof {
 // - `speed_limit_mps`, `back_speed_limit_mps` (of the other direction), `width_m`. Empty: none, or not known.
 // - `turning` and `heading` of a node: true or false; a direction x y.
 // - `travel`, `back_travel` of an edge: forward, backward or either.
-// - `permissions` of an edge: TYPE:any|TYPE:loaded. `blocks`: NAME:one-vehicle|NAME:same-direction. A bar or backslash
-// in
-//   a name stands after a backslash.
+// - `permissions` of an edge: TYPE:any|TYPE:loaded. `blocks`: NAME:one-vehicle|NAME:same-direction. In a name, a bar or
+//   backslash stands after a backslash.
 // A table of blocks, block,kind, may stand before the edges: blocks without edges have no other place.
 // A field with a comma or a double quote stands in double quotes. Empty lines and lines that begin with # are skipped.
 //

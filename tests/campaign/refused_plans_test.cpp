@@ -53,6 +53,12 @@ TEST(RefusedPlans, GatesOfOneAgentHaveTheirOwnNames) {
               HasSubstr("gate \"safe\": another gate of \"reckless\" has this name"));
 }
 
+TEST(RefusedPlans, AGateHasALimitThatRunsCanMeet) {
+  const std::string gate = with("\"reckless\"") + "[[gate]]\nagent = \"reckless\"\nlimit = ";
+  EXPECT_EQ(error_in(gate + "0.001\n"), "no error");
+  EXPECT_THAT(error_in(gate + "0.0\n"), HasSubstr("limit 0 is refused: no number of runs can demonstrate it"));
+}
+
 TEST(RefusedPlans, ARecordingNamesAgvsOfTheFleet) {
   CampaignFile file = parse_campaign_file(with("\"reckless\""), "c.toml");
   const auto record = [&](const std::string& pair) {

@@ -10,7 +10,6 @@
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/shrink/adverse_fates.hpp"
-#include "campaign/shrink/fate_passes.hpp"
 #include "campaign/shrink/other_luck.hpp"
 #include "campaign/shrink/surgery.hpp"
 #include "campaign/shrink/trial_file.hpp"
@@ -29,13 +28,6 @@ const OnSmaller kNobody = [](const FailingCase&, std::string_view) {};
 struct Bench : test::CaseBench {
   using CaseBench::CaseBench;
 
-  // The first seed from `seed` on whose run fails.
-  FailingCase failing(std::uint64_t seed) {
-    for (;; ++seed) {
-      const Scenario scenario = bad_radio(seed);
-      if (const auto failure = failure_of(host(scenario))) return {scenario, *failure};
-    }
-  }
   ShrinkResult shrunk(const FailingCase& failing, const TrialLimits& limits = {}, TrialCache* cache = nullptr) {
     TrialCache own;
     return shrink(host, cache != nullptr ? *cache : own, failing, pattern_of(host, failing), limits, kNobody);
@@ -58,8 +50,7 @@ TEST(Shrink, AFewMessagesArePreferredToALargeFleet) {
   EXPECT_LT(price(5, 99), CaseSize{}.price()) << "the radio still draws";
 }
 
-// With the radio made perfect first, this one needs four AGVs and all of its faults; with the fleet made small first, a
-// lost message.
+// With the radio made perfect first, this one needs all five AGVs; with the fleet made small first, three.
 TEST(Shrink, AFleetThatStaysLargeIsMadeSmallBeforeTheRadioIsMadePerfect) {
   const CampaignPlan plan = parse_campaign_file(R"(
 name = "night"
@@ -98,7 +89,7 @@ duplicates = 0.1
                                                 "night.toml")
                                 .plan;
   Bench bench("stale-grant");
-  const Scenario scenario = ScenarioSource(plan).scenario(44);
+  const Scenario scenario = ScenarioSource(plan).scenario(47);
   const auto failure = failure_of(bench.host(scenario));
   ASSERT_TRUE(failure.has_value());
   const ShrinkResult result = bench.shrunk({scenario, *failure}, {.deadline = {}, .trials = 60000});
@@ -108,7 +99,7 @@ duplicates = 0.1
 TEST(Shrink, ASmallCaseFailsInTheSameWay) {
   Bench bench("timeout-grant");
   for (const std::uint64_t seed : {1U, 20U, 40U}) {
-    const FailingCase failing = bench.failing(seed);
+    const FailingCase failing = bench.failing_by_radio(seed);
     const ShrinkResult result = bench.shrunk(failing);
     const CaseRun again = bench.host(result.best.scenario);
     const auto failure = failure_of(again);
@@ -127,7 +118,7 @@ TEST(Shrink, ASmallCaseFailsInTheSameWay) {
 // What is left is looked at once more, by other code: without any one thing, the run does not fail in this way.
 TEST(Shrink, NothingOfItCanBeLeftOutAlone) {
   Bench bench("timeout-grant");
-  const FailingCase failing = bench.failing(1);
+  const FailingCase failing = bench.failing_by_radio(1);
   const ShrinkResult result = bench.shrunk(failing);
   ASSERT_TRUE(result.one_minimal) << result.why_not;
   const FailurePattern pattern = pattern_of(bench.host, failing);
@@ -154,7 +145,7 @@ TEST(Shrink, GivesTheSameCaseForAnyNumberOfWorkers) {
   std::vector<std::string> texts;
   for (const int workers : {1, 2, 7}) {
     Bench bench("timeout-grant", workers);
-    texts.push_back(to_text(bench.shrunk(bench.failing(3), {{}, 3000}).best.scenario));
+    texts.push_back(to_text(bench.shrunk(bench.failing_by_radio(3), {{}, 3000}).best.scenario));
   }
   EXPECT_EQ(texts[0], texts[1]);
   EXPECT_EQ(texts[0], texts[2]);
@@ -171,7 +162,7 @@ class ShrinkFile : public testing::Test {
 
 TEST_F(ShrinkFile, GoesOnWhereItEnded) {
   Bench bench("timeout-grant");
-  const FailingCase failing = bench.failing(3);
+  const FailingCase failing = bench.failing_by_radio(3);
   const std::string whole = to_text(bench.shrunk(failing, {{}, 3000}).best.scenario);
   const std::string path = folder_ / "case.json.trials";
   for (const std::uint64_t trials : {50U, 400U, 3000U}) {
@@ -198,38 +189,11 @@ TEST_F(ShrinkFile, VerdictsOnAnotherCaseAreDropped) {
 
 TEST(Shrink, EndsInTime) {
   Bench bench("timeout-grant");
-  const FailingCase failing = bench.failing(1);
+  const FailingCase failing = bench.failing_by_radio(1);
   const ShrinkResult result = bench.shrunk(failing, {std::chrono::steady_clock::now(), {}});
   EXPECT_FALSE(result.one_minimal);
   EXPECT_EQ(result.trials, 0U);
   EXPECT_EQ(scenario_digest(result.best.scenario), scenario_digest(failing.scenario));
-}
-
-// A smaller case takes the place of the best one while its messages are gone through.
-TEST(Shrink, AMessageThatIsLateAndDoubledIsWeakened) {
-  Bench bench("stale-grant");
-  const FailingCase failing = bench.failing(2);
-  TrialCache cache;
-  Trials trials(bench.host, cache, pattern_of(bench.host, failing), {});
-  Shrinker shrinker(trials, failing, kNobody);
-  write_fates_down(shrinker);
-  while (take_out_fates(shrinker)) {
-  }
-  const std::vector<GivenFate> least = shrinker.best().scenario.fates;
-  Scenario worse = shrinker.best().scenario;
-  for (GivenFate& fate : worse.fates) {
-    if (fate.lost) continue;
-    fate.copied = true;
-    fate.delay += std::chrono::milliseconds(150);
-    fate.copy_delay = fate.delay;
-  }
-  ASSERT_NE(worse.fates, least) << "a message is late";
-  const auto again = trials.first_failing({1, [&](std::size_t) { return std::optional(worse); }});
-  ASSERT_TRUE(again);
-  Shrinker once_more(trials, again->is, kNobody);
-  while (take_out_fates(once_more)) {
-  }
-  EXPECT_EQ(once_more.best().scenario.fates, least);
 }
 
 // ---- what it rests on

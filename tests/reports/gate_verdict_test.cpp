@@ -108,6 +108,9 @@ TEST(GateVerdict, a_parked_fleet_demonstrates_nothing) {
   idle.idle_cells = 1;
   EXPECT_THAT(judge_gate(gate(GateKind::None, 1e-3), idle).reason,
               HasSubstr("in 1 of 12 cells no transport was completed"));
+  idle.due_cells = 3;
+  EXPECT_THAT(judge_gate(gate(GateKind::None, 1e-3), idle).reason,
+              HasSubstr("in 1 of 3 cells of the contract region no transport was completed"));
   auto no_floor = gate(GateKind::None, 1e-3);
   no_floor.min_transports_per_agv_hour = 0.0;
   EXPECT_EQ(judge_gate(no_floor, idle).verdict, Verdict::Demonstrated);

@@ -124,6 +124,9 @@ TEST(JUnitReport, TheTypeOfAFailureSaysWhatIsMissing) {
   EXPECT_EQ(type_of_failure(loose, 60, fails(2)), "violated");
   EXPECT_EQ(type_of_failure(loose, 60, {}, 1), "not complete");
   EXPECT_EQ(type_of_failure(idle, 60, {}), "too little progress");
+  auto any_time = idle;
+  any_time.method = GateMethod::AnyTime;
+  EXPECT_EQ(type_of_failure(any_time, 60, {}, 1), "too little progress") << "it needs no planned number";
   EXPECT_EQ(type_of_failure(loose, 60, {}, 0, "search"), "counts only");
 }
 

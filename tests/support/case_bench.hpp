@@ -3,6 +3,7 @@
 #include <string>
 
 #include "campaign/shrink/case_host.hpp"
+#include "campaign/shrink/failure_pattern.hpp"
 #include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof::test {
@@ -42,6 +43,14 @@ struct CaseBench {
     for (;; ++seed) {
       Scenario scenario = bad_night(seed);
       if (failure_of(host(scenario))) return scenario;
+    }
+  }
+
+  // The same without copies and restarts.
+  FailingCase failing_by_radio(std::uint64_t seed) {
+    for (;; ++seed) {
+      const Scenario scenario = bad_radio(seed);
+      if (const auto failure = failure_of(host(scenario))) return {scenario, *failure};
     }
   }
 
