@@ -23,9 +23,6 @@ else()
   set(sanitizer_options "ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1")
 endif()
 
-# An agent with another timing, as in the other builds.
-add_library(retouched_agent MODULE EXCLUDE_FROM_ALL support/retouched_agent.cpp)
-target_link_libraries(retouched_agent PRIVATE fleetproof_agents fleetproof_options)
 add_executable(sanitized_tests EXCLUDE_FROM_ALL ${sanitized_sources})
 target_link_libraries(sanitized_tests
   PRIVATE fleetproof_campaign fleetproof_evidence rapidcheck GTest::gtest_main GTest::gmock
