@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/agents/facts.hpp"
+#include "core/agents/least_costs.hpp"
 #include "core/agents/map_view.hpp"
 
 namespace fleetproof::agents {
@@ -46,9 +47,9 @@ class Aisles {
   void set_against(const Way& way, bool against);
 
   const MapView& map_;
-  std::vector<bool> against_;     // by lane
-  std::vector<bool> dead_end_;    // by station
-  std::vector<double> so_far_m_;  // by station
+  std::vector<bool> against_;   // by lane
+  std::vector<bool> dead_end_;  // by station
+  LeastCosts ways_m_;           // without the lanes against the convention
 };
 
 // By lane: whether it is against the convention, worked out once for all AGVs.

@@ -32,27 +32,41 @@ LanePrices::LanePrices(const MapView& map, const DriveRules& rules, std::span<co
 }
 
 std::vector<std::byte> LanePrices::work_out(const MapView& map) {
-  std::vector<Meeting> meetings;
-  std::vector<std::uint32_t> first_meetings;
-  meetings.reserve(map.lane_count()), first_meetings.reserve(map.lane_count() + 1);
+  std::vector<Meeting> meetings(map.lane_count());
+  meetings.reserve(2 * meetings.size());
   for (std::uint32_t id = 0; id < map.lane_count(); ++id) {
     const fp_lane& lane = map.lane(id);
     const double extra_s = std::min(kMeetingCost_spm * lane.length_m, kLargestMeetingCost_s);
-    first_meetings.push_back(static_cast<std::uint32_t>(meetings.size()));
+    meetings[id].lane_back = id;
+    std::size_t last = id;
     for (const std::uint32_t back : map.lanes_from(lane.to)) {
-      if (map.lane(back).segment == lane.segment) meetings.push_back({back, 0, extra_s});
+      if (map.lane(back).segment != lane.segment) continue;
+      if (meetings[id].extra_s > 0.0) {
+        meetings[last].next = static_cast<std::uint32_t>(meetings.size());
+        last = meetings.size();
+        meetings.emplace_back();
+      }
+      meetings[last] = {back, 0, extra_s};
     }
   }
-  first_meetings.push_back(static_cast<std::uint32_t>(meetings.size()));
+  std::vector<std::uint32_t> touching, first_touching;
+  touching.reserve(2 * std::size_t{map.lane_count()}), first_touching.reserve(map.station_count() + 1);
+  for (std::uint32_t station = 0; station < map.station_count(); ++station) {
+    first_touching.push_back(static_cast<std::uint32_t>(touching.size()));
+    for (const std::uint32_t lane : map.lanes_to(station)) touching.push_back(lane);
+    for (const std::uint32_t lane : map.lanes_from(station)) touching.push_back(lane);
+  }
+  first_touching.push_back(static_cast<std::uint32_t>(touching.size()));
   TableWriter tables;
-  tables.add(meetings), tables.add(first_meetings);
+  tables.add(meetings, touching, first_touching);
   return tables.bytes();
 }
 
 void LanePrices::read(std::span<const std::byte> tables) {
   TableReader reader(tables);
   meetings_ = reader.next<Meeting>();
-  first_meetings_ = reader.next<std::uint32_t>();
+  touching_ = reader.next<std::uint32_t>();
+  first_touching_ = reader.next<std::uint32_t>();
 }
 
 void LanePrices::begin(bool loaded) {
@@ -68,11 +82,28 @@ void LanePrices::begin(bool loaded) {
   loaded_ = loaded;
 }
 
-void LanePrices::price_meetings(const Path& other) {
-  for (const std::uint32_t lane : other.lanes()) {
-    for (std::uint32_t i = first_meetings_[lane]; i < first_meetings_[lane + 1]; ++i)
-      make_dearer(meetings_[i].lane_back, meetings_[i].extra_s);
+void LanePrices::price_station(std::uint32_t station, double extra_s) {
+  const auto lanes =
+      touching_.subspan(first_touching_[station], first_touching_[station + 1] - first_touching_[station]);
+  if (remembers_) {
+    for (const std::uint32_t lane : lanes) dearer_.push_back({lane, costs_s_[lane]});
   }
+  const std::span<double> costs_s = costs_s_;
+  for (const std::uint32_t lane : lanes) costs_s[lane] += extra_s;
+}
+
+void LanePrices::price_meetings(const Path& other) {
+  const auto for_each_meeting = [lanes = other.lanes(), meetings = meetings_](auto f) {
+    for (const std::uint32_t lane : lanes) {
+      std::uint32_t at = lane;
+      do {
+        f(meetings[at]);
+        at = meetings[at].next;
+      } while (at != 0);
+    }
+  };
+  if (remembers_) for_each_meeting([&](const Meeting& m) { dearer_.push_back({m.lane_back, costs_s_[m.lane_back]}); });
+  for_each_meeting([costs_s = std::span<double>(costs_s_)](const Meeting& m) { costs_s[m.lane_back] += m.extra_s; });
 }
 
 }  // namespace fleetproof::agents

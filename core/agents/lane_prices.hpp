@@ -23,17 +23,17 @@ class LanePrices {
   // Forgets all prices. `loaded`: the AGV carries a load, which may forbid lanes.
   void begin(bool loaded);
   bool loaded() const { return loaded_; }
-  void make_dearer(std::uint32_t lane, double extra_s) {
-    if (remembers_) dearer_.push_back({lane, costs_s_[lane]});
-    costs_s_[lane] += extra_s;
-  }
+  // For an AGV that stands at the station or will: all lanes that begin or end there get dearer.
+  void price_station(std::uint32_t station, double extra_s);
   // For an AGV that drives these lanes or announces them: meeting it there is dear.
   void price_meetings(const Path& other);
 
  private:
-  // On a lane, an AGV meets those on the lanes back, which begin where it ends and have the same segment.
+  // On a lane, an AGV meets those on the lanes back, which begin where it ends and have the same segment. Most lanes
+  // have one; a lane that has none makes itself no dearer.
   struct Meeting {
-    std::uint32_t lane_back = 0, unused = 0;  // no byte is left open: the table is copied as bytes
+    std::uint32_t lane_back = 0;
+    std::uint32_t next = 0;  // where the next one of the same lane stands; 0: there is none
     double extra_s = 0.0;
   };
   static std::vector<std::byte> work_out(const MapView& map);
@@ -43,8 +43,9 @@ class LanePrices {
   const DriveRules& rules_;
   std::span<const double> usual_s_;
   std::vector<std::byte> own_;                     // the tables, if they are not shared
-  std::span<const Meeting> meetings_;              // by the lane that is driven
-  std::span<const std::uint32_t> first_meetings_;  // by lane, and one more: where its meetings begin
+  std::span<const Meeting> meetings_;              // the first ones by the lane that is driven, then the others
+  std::span<const std::uint32_t> touching_;        // lanes, by the station at which they end or begin
+  std::span<const std::uint32_t> first_touching_;  // by station, and one more
   std::vector<double> costs_s_;
   struct Dearer {
     std::uint32_t lane;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kWidthsInALane = 4.0;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 constexpr std::uint32_t kMostBuckets = 4096;
-constexpr std::size_t kBucketsPerStation = 8;
+constexpr std::size_t kBucketsPerStation = 2;
 
 }  // namespace
 

@@ -100,15 +100,21 @@ std::uint32_t burden_of(const HullParts& parts, std::uint32_t station) {
 
 std::uint32_t PlaceJudge::burden(std::uint32_t station) {
   block_lanes(station);
+  const auto blocked = without_.blocked();
   const bool holds_up_followers_only = is_all_one_way(station);
-  if (holds_up_followers_only && without_.blocked().empty()) return 0;
+  const auto two_way = [&](std::uint32_t lane) { return map_.two_way(lane); };
+  // Then nothing depends on what is cut off.
+  if (holds_up_followers_only && std::ranges::none_of(blocked, two_way))
+    return misses_any(station, blocked, false) ? kFoulsLanes : 0;
   const std::uint32_t others = goals_.count - (goals_.is_goal[station] != 0 ? 1 : 0);
-  if (goals_.are_connected) sure_.take_away(station, without_.blocked());
+  if (goals_.are_connected) sure_.take_away(station, blocked);
   const bool only_pieces = goals_.are_connected && cuts_off_pieces_only(station, others);
   const std::uint32_t cut_off = only_pieces ? goals_in_pieces_ : others - find_largest_part(station, others);
-  const bool misses_lanes = std::ranges::any_of(
-      without_.blocked(), [&](std::uint32_t lane) { return is_missed(station, lane, only_pieces); });
-  return (holds_up_followers_only ? 0 : cut_off) + (misses_lanes ? kFoulsLanes : 0);
+  return (holds_up_followers_only ? 0 : cut_off) + (misses_any(station, blocked, only_pieces) ? kFoulsLanes : 0);
+}
+
+bool PlaceJudge::misses_any(std::uint32_t station, std::span<const std::uint32_t> lanes, bool only_pieces) {
+  return std::ranges::any_of(lanes, [&](std::uint32_t lane) { return is_missed(station, lane, only_pieces); });
 }
 
 // True if it is easily seen what the station cuts off: pieces that reach the roots of the sure ways no more, or are not

@@ -51,6 +51,7 @@ class PlaceJudge {
   void block_lanes(std::uint32_t station);
   bool cuts_off_pieces_only(std::uint32_t station, std::uint32_t others);
   void cut_off_around(std::uint32_t end);
+  bool misses_any(std::uint32_t station, std::span<const std::uint32_t> lanes, bool only_pieces);
   bool is_missed(std::uint32_t station, std::uint32_t lane, bool only_pieces);
   bool leads_against(std::uint32_t station, std::uint32_t lane) const;
   bool blocks_while_waiting(std::uint32_t station, std::uint32_t lane) const;

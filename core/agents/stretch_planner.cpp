@@ -299,15 +299,10 @@ void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, c
     const Status& status = n.status;
     const bool wall = status.out_of_order || (status.waiting && goes_first && goes_first(agv, n));
     const double extra_s = wall ? kNoWayCost_s : !status.waiting ? kArrivingCost_s : status.idle ? idle_s : waiting_s;
-    price_station(end_of(map_, status.held).station, extra_s);
+    prices_.price_station(end_of(map_, status.held).station, extra_s);
     prices_.price_meetings(status.held);
     prices_.price_meetings(status.ahead);
   });
-}
-
-void StretchPlanner::price_station(std::uint32_t station, double extra_s) {
-  for (const std::uint32_t lane : map_.lanes_to(station)) prices_.make_dearer(lane, extra_s);
-  for (const std::uint32_t lane : map_.lanes_from(station)) prices_.make_dearer(lane, extra_s);
 }
 
 // Afterwards, the way there may be asked for.

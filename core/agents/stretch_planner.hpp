@@ -121,7 +121,6 @@ class StretchPlanner {
   void search(const Path& from, std::uint32_t goal);
   std::uint32_t end_of_search(std::uint32_t goal) const;
   void price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first);
-  void price_station(std::uint32_t station, double extra_s);
   std::uint32_t best_place(const Path& standing, bool prefer_parking, double draw, const GoesFirst& goes_first);
   double price_of_staying(std::uint32_t station, double limit_s, const GoesFirst& goes_first);
   bool may_turn_back(std::uint32_t station) const;

@@ -28,6 +28,13 @@ class DrawnMap {
     return segments_++;
   }
 
+  // One more lane of the newest segment, as for driving backward.
+  void beside(std::uint32_t from, std::uint32_t to) {
+    --segments_;
+    lane(from, to, {straight(from, to)});
+    ++segments_;
+  }
+
   // One-way, along an arc that leaves `from` with this heading.
   std::uint32_t bend(std::uint32_t from, std::uint32_t to, double heading_x, double heading_y, double length_m,
                      double curvature_per_m) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tests/agents/drawn_map.hpp"
@@ -55,6 +56,35 @@ TEST(LanePrices, WhomAnAgvMeetsIsDearForEachMetreUpToAMinute) {
   EXPECT_EQ(now_s(prices), expected);
 }
 
+TEST(LanePrices, AStationIsDearForThoseThatArriveAndThoseThatLeave) {
+  Street street;
+  LanePrices prices(street.map, street.rules, street.usual_s, kManyAgvs);
+  prices.begin(false);
+  prices.price_station(3, 8.0);
+  std::vector<double> expected = street.usual_s;
+  for (const auto& [from, to] : {std::pair{2U, 3U}, {3U, 2U}, {3U, 1U}})
+    expected[street.drawn.lane_between(from, to)] += 8.0;
+  EXPECT_EQ(now_s(prices), expected);
+}
+
+// Forward and backward are two lanes of one segment and direction.
+TEST(LanePrices, WhomAnAgvMeetsIsDearOnAllLanesOfTheSegment) {
+  DrawnMap drawn;
+  drawn.station(0, 0), drawn.station(0, 1);
+  drawn.segment(0, 1);
+  drawn.beside(0, 1);
+  const MapView map(drawn.map());
+  const std::vector<double> usual_s{1, 2, 3};
+  const DriveRules rules(map, 0);
+  LanePrices prices(map, rules, usual_s, kManyAgvs);
+  prices.begin(false);
+  Path back;
+  back.station = 1;
+  back.append(drawn.lane_between(1, 0));
+  prices.price_meetings(back);
+  EXPECT_EQ(now_s(prices), (std::vector<double>{16, 2, 18}));
+}
+
 // To the bit: of sums in another order, some would differ.
 TEST(LanePrices, AreForgottenWhetherTheyAreRememberedOrNot) {
   Street street;
@@ -66,8 +96,13 @@ TEST(LanePrices, AreForgottenWhetherTheyAreRememberedOrNot) {
     for (LanePrices* const prices : {&anew, &remembering}) prices->begin(round % 3 == 0);
     ASSERT_EQ(now_s(remembering), street.usual_s);
     for (int i = 0; i < 20; ++i) {
-      const auto lane = static_cast<std::uint32_t>(bits() % street.map.lane_count());
-      for (LanePrices* const prices : {&anew, &remembering}) prices->make_dearer(lane, 0.1 * i);
+      const auto station = static_cast<std::uint32_t>(bits() % street.map.station_count());
+      const Path way = i % 2 == 0 ? street.drive({0, 1, 2, 3, 1, 2}) : street.drive({3, 2, 1});
+      const bool drives = bits() % 3 == 0;
+      for (LanePrices* const prices : {&anew, &remembering}) {
+        prices->price_station(station, 0.1 * i);
+        if (drives) prices->price_meetings(way);
+      }
     }
     ASSERT_EQ(now_s(remembering), now_s(anew));
   }
