@@ -1,6 +1,7 @@
 // hull-lock in a fleet that is divided into zones: who knows whom, and that nobody holds what conflicts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 #include <tuple>
@@ -19,6 +20,7 @@ using testing::DrawnMap;
 using testing::FakeRadio;
 using testing::FakeWarehouse;
 using testing::Junction;
+using testing::kTestAgv;
 using testing::Tally;
 using testing::TestFleet;
 using testing::watch_holds;
@@ -46,7 +48,7 @@ TEST(ZoneMap, HullsThatConflictHaveAZoneInCommon) {
   const MapView map(facts.shared());
   HullGeometry geometry(map, briefing);
   const ZoneMap zones(map, geometry, 2, 40.0);
-  EXPECT_EQ(zones.zone_count(), 8U) << "104 m by 8 m, in zones of a third of the longest claim";
+  EXPECT_EQ(zones.zone_count(), 28U) << "104 m by 8 m, in zones of a fifth of the longest claim";
   std::mt19937_64 draws(1);
   const auto walk = [&] {
     Path path;
@@ -73,6 +75,67 @@ TEST(ZoneMap, HullsThatConflictHaveAZoneInCommon) {
   }
   EXPECT_GT(conflicts, 2000U);
   EXPECT_GT(apart, 5000U);
+}
+
+// Ways that go on in all eight directions, so that none covers more zones for its length.
+struct Lattice {
+  static constexpr std::uint32_t kSide = 9;
+  explicit Lattice(double pitch_m) {
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i) drawn.station(pitch_m * (i % kSide), pitch_m * (i / kSide));
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+      const bool has_right = i % kSide + 1 < kSide, has_above = i / kSide + 1 < kSide;
+      if (has_right) drawn.segment(i, i + 1);
+      if (has_above) drawn.segment(i, i + kSide);
+      if (has_right && has_above) drawn.segment(i, i + kSide + 1), drawn.segment(i + 1, i + kSide);
+    }
+    drawn.map();
+  }
+  DrawnMap drawn;
+};
+
+TEST(ZoneMap, AClaimHasRoomInASetAndSoHasTheFloorAroundAStation) {
+  std::uint32_t most_on_a_way = 0, most_around = 0;
+  fp_agv long_agv = kTestAgv;
+  long_agv.length_m = long_agv.loaded_length_m = 5.0;
+  for (const fp_agv& agv : {kTestAgv, long_agv}) {
+    for (const double pitch_m : {1.0, 3.0, 8.0, 14.0, 20.0, 50.0}) {
+      Lattice lattice(pitch_m);
+      const TestFleet fleet(lattice.drawn.map(), 16, agv);
+      const fp_briefing briefing = fleet.briefing(0, 0);
+      const Facts facts(briefing);
+      const MapView map(facts.shared());
+      HullGeometry geometry(map, briefing);
+      const double claim_m = longest_claim_m(map);
+      const ZoneMap zones(map, geometry, 16, claim_m);
+      for (std::uint32_t station = 0; station < map.station_count(); ++station) {
+        ZoneSet around;
+        ASSERT_TRUE(zones.add_zones_around(0, station, around));
+        most_around = std::max(most_around, around.size());
+      }
+      std::mt19937_64 draws(3);
+      for (int i = 0; i < 3000; ++i) {
+        Path path;
+        path.station = static_cast<std::uint32_t>(draws() % map.station_count());
+        for (double length_m = 0.0; path.count < kPathLanesMax;) {
+          const auto next = map.lanes_from(end_of(map, path).station);
+          // Half of the ways go on as they came, so that they get far.
+          const bool straight = !path.empty() && i % 2 == 0;
+          const auto ahead = std::ranges::find_if(next, [&](std::uint32_t lane) {
+            return straight && same_heading(map.start_heading(lane), end_of(map, path).heading);
+          });
+          const std::uint32_t lane = ahead != next.end() ? *ahead : next[draws() % next.size()];
+          length_m += map.lane(lane).length_m;
+          if (length_m > claim_m) break;
+          path.append(lane);
+        }
+        ZoneSet of_way;
+        ASSERT_TRUE(zones.add_zones(0, path, of_way)) << "lanes of " << pitch_m << " m";
+        most_on_a_way = std::max(most_on_a_way, of_way.size());
+      }
+    }
+  }
+  EXPECT_GT(most_on_a_way, ZoneSet::kMax / 4) << "ways of claims that hardly cover a zone prove nothing";
+  EXPECT_GT(most_around, ZoneSet::kMax / 4);
 }
 
 TEST(ZoneSet, SetsMeetInAZoneOfBothHoweverLargeItsNumber) {
