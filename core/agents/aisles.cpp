@@ -2,24 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
+#include <utility>
 
 namespace fleetproof::agents {
-namespace {
-
-std::vector<double> lengths_m(const MapView& map) {
-  std::vector<double> of_lanes_m;
-  of_lanes_m.reserve(map.lane_count());
-  for (std::uint32_t id = 0; id < map.lane_count(); ++id) of_lanes_m.push_back(map.lane(id).length_m);
-  return of_lanes_m;
-}
-
-}  // namespace
 
 Aisles::Aisles(const MapView& map, std::uint32_t fleet_count)
-    : map_(map),
-      against_(map.lane_count(), false),
-      dead_end_(map.station_count(), false),
-      ways_m_(map, lengths_m(map), false) {
+    : map_(map), against_(map.lane_count(), false), dead_end_(map.station_count(), false) {
   double map_m = 0.0;
   for (std::uint32_t lane = 0; lane < map.lane_count(); ++lane)
     map_m += map.lane(lane).length_m / (map.two_way(lane) ? 2.0 : 1.0);
@@ -29,7 +19,7 @@ Aisles::Aisles(const MapView& map, std::uint32_t fleet_count)
     const double others_inside = (fleet_count - 1.0) * length_m(there) / map_m;
     if (is_ring || !has_goals(there) || there.size() < kFewestSegments || others_inside < kOthersInside) continue;
     const Way back = opposite(there);
-    const double there_m = way_round_m(there), back_m = way_round_m(back);
+    const double there_m = way_round_m(there, INFINITY), back_m = way_round_m(back, there_m);
     if (std::isinf(there_m) && std::isinf(back_m)) continue;
     set_against(there_m < back_m ? there : back, true);
   }
@@ -128,20 +118,34 @@ Aisles::Way Aisles::opposite(const Way& way) const {
   return back;
 }
 
-// From the beginning of this direction to its end, if it is closed. Infinite if there is no way.
-double Aisles::way_round_m(const Way& closed) {
+// From the beginning of this direction to its end, if it is closed. Infinite if there is no way. Of a way that is
+// longer than the limit, it only says that.
+double Aisles::way_round_m(const Way& closed, double limit_m) {
+  const std::uint32_t from = map_.lane(closed.front()).from, to = map_.lane(closed.back()).to;
   set_against(closed, true);
-  const double round_m = ways_m_.from(map_.lane(closed.front()).from)[map_.lane(closed.back()).to];
+  so_far_m_.assign(map_.station_count(), INFINITY);
+  so_far_m_[from] = 0.0;
+  using Open = std::pair<double, std::uint32_t>;
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  open.push({0.0, from});
+  while (!open.empty() && open.top().second != to && open.top().first <= limit_m) {
+    const auto [here_m, here] = open.top();
+    open.pop();
+    if (here_m > so_far_m_[here]) continue;
+    for (const std::uint32_t lane : map_.lanes_from(here)) {
+      const double there_m = here_m + map_.lane(lane).length_m;
+      if (against_[lane] || there_m >= so_far_m_[map_.lane(lane).to]) continue;
+      so_far_m_[map_.lane(lane).to] = there_m;
+      open.push({there_m, map_.lane(lane).to});
+    }
+  }
   set_against(closed, false);
-  return round_m;
+  return so_far_m_[to];
 }
 
 void Aisles::set_against(const Way& way, bool against) {
   for (const std::uint32_t lane : way) {
-    for (const std::uint32_t same : lanes_beside(lane)) {
-      against_[same] = against;
-      ways_m_.change(same, against ? INFINITY : map_.lane(same).length_m);
-    }
+    for (const std::uint32_t same : lanes_beside(lane)) against_[same] = against;
   }
 }
 

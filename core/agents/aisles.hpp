@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/agents/facts.hpp"
-#include "core/agents/least_costs.hpp"
 #include "core/agents/map_view.hpp"
 
 namespace fleetproof::agents {
@@ -42,14 +41,14 @@ class Aisles {
   std::uint32_t next_in_aisle(std::uint32_t lane) const;
   Way along(std::uint32_t first) const;
   Way opposite(const Way& way) const;
-  double way_round_m(const Way& closed);
+  double way_round_m(const Way& closed, double limit_m);
   std::vector<std::uint32_t> lanes_beside(std::uint32_t lane) const;
   void set_against(const Way& way, bool against);
 
   const MapView& map_;
-  std::vector<bool> against_;   // by lane
-  std::vector<bool> dead_end_;  // by station
-  LeastCosts ways_m_;           // without the lanes against the convention
+  std::vector<bool> against_;     // by lane
+  std::vector<bool> dead_end_;    // by station
+  std::vector<double> so_far_m_;  // by station
 };
 
 // By lane: whether it is against the convention, worked out once for all AGVs.

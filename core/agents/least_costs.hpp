@@ -23,7 +23,7 @@ class LeastCosts {
   LeastCosts(const LeastCosts&) = delete;
   LeastCosts& operator=(const LeastCosts&) = delete;
 
-  // Infinite: nobody must drive there now. Requires: it was made from a map, and the lane had a finite cost then.
+  // Requires: it was made from a map, and the lane had a finite cost, as it has now.
   void change(std::uint32_t lane, double cost) { own_steps_[step_of_lane_[lane]].cost = cost; }
   std::vector<std::byte> bytes() const;
   // By station; infinite where there is no way.
