@@ -69,7 +69,7 @@ class HullLock {
   void plan_making_way();
   void reconsider();
   // In a divided fleet, it waits longer: with many AGVs, the way round is long to work out.
-  bool is_time_to_reconsider() { return !neighbours_.audience().is_divided() || ++ticks_waited_ % 3 == 0; }
+  bool is_time_to_reconsider() { return !neighbours_.audience().is_divided() || ++ticks_waited_ % 9 == 0; }
   void request(Stretch stretch, Purpose purpose, std::int64_t demand_ns = -1);
   Stretch way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), goals_now()); }
   Stretch way_out(Yields to);
