@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kFewerMessages = 3;
 // In a fleet that is divided into zones, how long after the last message to an AGV another one follows: at the latest,
 // if it does not know the newest way, and if there is other news for it. Longer, with more AGVs around than a few.
-constexpr double kQuiet_ns = 3e9, kTellsAgain_ns = 2e9, kTellsNews_ns = 1e9;
+constexpr double kQuiet_ns = 5e9, kTellsAgain_ns = 3e9, kTellsNews_ns = 1e9;
 constexpr std::size_t kFewAround = 7;
 
 }  // namespace

@@ -12,7 +12,7 @@ constexpr double kLookAhead_m = 12.0;
 constexpr std::uint32_t kFewAround = 8;  // if it does not hear of all, it knows the ways of so many
 constexpr double kFar_m = 70.0;          // in a divided fleet, a search for a way ends there
 constexpr std::uint32_t kLookAheadLanes = 3;
-constexpr double kOnward_m = 40.0, kOnwardInZones_m = 25.0;  // what is announced beyond a stretch
+constexpr double kOnward_m = 40.0, kOnwardInZones_m = 18.0;  // what is announced beyond a stretch
 
 // The price of a place at which another AGV stands or arrives: roughly the time until that AGV has moved.
 constexpr double kArrivingCost_s = 8.0;
