@@ -123,7 +123,7 @@ void Actions::tell_done(AgvId agv, fp_result result) {
   fp_event done{};
   done.kind = FP_EVENT_ACTION_DONE;
   done.result = result;
-  ports_.agents.tell(agv, std::move(done));
+  ports_.agents.tell(agv, done);
 }
 
 // ---- from one activity to the next

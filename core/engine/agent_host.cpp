@@ -8,7 +8,6 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kActivationsMax = 10'000;  // of one agent without time advancing
 // Of one agent in a run: two million, and ten thousand more for every simulated second. No control software needs so
 // many. An agent that sets its timer a nanosecond ahead for ever meets this limit at the same event on every machine.
 constexpr std::uint64_t kActivationsPerRun = 2'000'000, kActivationsPerSecond = 10'000;
@@ -43,18 +42,19 @@ void AgentHost::close() {
 
 // ---- activations
 
-// An event costs little more than the calls on its way, so they are inlined.
-[[gnu::flatten, gnu::noinline]] void AgentHost::tell(AgvId agv, fp_event&& event) {
+void AgentHost::tell(AgvId agv, fp_event event) {
+  event.struct_size = sizeof(fp_event);
+  event.now_ns = ports_.timers.now_ns(agv);
   Slice& slice = slices_[agv.index()];
   if (slice.away > 0) return;
-  if (slice.controller->in_activation || run_.now < slice.free_at || !slice.waiting_events.empty()) [[unlikely]]
+  if (slice.controller->in_activation() || run_.now < slice.free_at || !slice.waiting_events.empty()) [[unlikely]]
     return keep(agv, slice, event);
   activate(agv, slice, event);
 }
 
 [[gnu::noinline]] void AgentHost::keep(AgvId agv, Slice& slice, const fp_event& event) {
   slice.waiting_events.push_back(event);
-  if (!slice.controller->in_activation) wake(agv, slice);
+  if (!slice.controller->in_activation()) wake(agv, slice);
 }
 
 [[gnu::noinline]] void AgentHost::wake(AgvId agv, Slice& slice) {
@@ -73,6 +73,7 @@ void AgentHost::becomes_free(AgvId agv) {
   fp_event event = slice.waiting_events.front();
   slice.waiting_events.pop_front();
   if (event.kind == FP_EVENT_ORDER && is_over(TransportId{event.order_id})) return wake(agv, slice);  // done meanwhile
+  event.now_ns = ports_.timers.now_ns(agv);
   activate(agv, slice, event);
 }
 
@@ -82,30 +83,27 @@ void AgentHost::freeze_until(AgvId agv, SimTime until) {
   slice.frozen_until = std::max(slice.frozen_until, until);
 }
 
-void AgentHost::activate(AgvId agv, Slice& slice, fp_event& event) {
-  if (const char* limit = broken_limit(slice)) return give_up(agv, true, limit);
+[[gnu::always_inline]] inline void AgentHost::activate(AgvId agv, Slice& slice, const fp_event& event) {
+  if (!slice.activations.admit(run_.now, activations_max_)) [[unlikely]]
+    return give_up(agv, true, slice.activations.broken_limit());
+  const bool starts = event.kind == FP_EVENT_START;
   ++run_.counters.activations;
-  event.struct_size = sizeof(fp_event);
-  event.now_ns = ports_.timers.now_ns(agv);
   ports_.controller.begin_activation(*slice.controller);
-  const AgentFailure* failure = event.kind == FP_EVENT_START
-                                    ? start_agent(agv, event)
-                                    : caller_.tell(agv, run_.now, event, slice.controller, slice.agent);
-  if (failure != nullptr) give_up(agv, failure->hang, failure->message);
-  const ActivationUse use = ports_.controller.end_activation(*slice.controller);
-  if (use.broken_limit != nullptr) give_up(agv, true, use.broken_limit);
-  if (use.cost > Duration::zero()) slice.free_at = std::max(slice.free_at, run_.now + use.cost);
-  if (event.kind == FP_EVENT_START && slice.boot > 0) tell_open_orders(agv);
-  if (!slice.waiting_events.empty()) wake(agv, slice);
+  const AgentFailure* failure =
+      starts ? start_agent(agv, event) : caller_.tell(agv, run_.now, event, slice.controller, slice.agent);
+  if (failure != nullptr) [[unlikely]]
+    give_up(agv, failure->hang, failure->message);
+  if (ports_.controller.end_activation(*slice.controller)) [[unlikely]]
+    settle(agv, slice);
+  if (starts && slice.boot > 0) tell_open_orders(agv);
+  if (!slice.waiting_events.empty()) [[unlikely]]
+    wake(agv, slice);
 }
 
-// Counts an activation. Null: the agent may have it.
-const char* AgentHost::broken_limit(Slice& slice) const {
-  slice.activations_at_instant = slice.last_activation == run_.now ? slice.activations_at_instant + 1 : 1;
-  slice.last_activation = run_.now;
-  if (slice.activations_at_instant > kActivationsMax) return "10 000 activations without time advancing";
-  if (++slice.activations > activations_max_) return "woke up more often than any control software needs";
-  return nullptr;
+// An activation has taken time or broken a limit.
+[[gnu::noinline]] void AgentHost::settle(AgvId agv, Slice& slice) {
+  if (const char* limit = slice.controller->broken_limit()) give_up(agv, true, limit);
+  slice.free_at = std::max(slice.free_at, run_.now + slice.controller->cost);
 }
 
 [[gnu::noinline]] const AgentFailure* AgentHost::start_agent(AgvId agv, const fp_event& event) {
@@ -151,7 +149,7 @@ void AgentHost::file_failures(Outcome& outcome) const {
 void AgentHost::start(AgvId agv) {
   fp_event event{};
   event.kind = FP_EVENT_START;
-  tell(agv, std::move(event));
+  tell(agv, event);
 }
 
 void AgentHost::order_released(AgvId agv, std::uint64_t own_number) {
@@ -170,7 +168,7 @@ void AgentHost::tell_order(AgvId agv, TransportId transport, StationId from, Sta
   event.order_id = transport.value;
   event.from = from.value;
   event.to = to.value;
-  tell(agv, std::move(event));
+  tell(agv, event);
 }
 
 // ---- restarts

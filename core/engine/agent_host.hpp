@@ -6,8 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/engine/activation_count.hpp"
 #include "core/engine/agent_caller.hpp"
 #include "core/engine/briefings.hpp"
+#include "core/engine/controller_handle.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
 #include "core/engine/run_watch.hpp"
@@ -32,7 +34,7 @@ class AgentHost {
 
   // Wakes the agent with this event, at once if it is free, else as soon as it is. An agent that is not up never sees
   // the event. Size and time of the event are filled in here.
-  void tell(AgvId agv, fp_event&& event);
+  void tell(AgvId agv, fp_event event);
   void start(AgvId agv);
   // `own_number`: of the transport among those of this AGV.
   void order_released(AgvId agv, std::uint64_t own_number);
@@ -63,15 +65,13 @@ class AgentHost {
     SimTime free_at = kStart;           // it is busy or frozen until then
     SimTime frozen_until = kStart;      // whichever agent runs there
     SimTime wakes_at = SimTime::max();  // the next event that wakes it; or never
-    SimTime last_activation = SimTime::min();
-    std::uint32_t activations_at_instant = 0;
-    std::uint64_t activations = 0;        // in this run
+    ActivationCount activations;
     std::deque<fp_event> waiting_events;  // arrived while the agent was busy
   };
   void keep(AgvId agv, Slice& slice, const fp_event& event);
   void wake(AgvId agv, Slice& slice);
-  void activate(AgvId agv, Slice& slice, fp_event& event);
-  const char* broken_limit(Slice& slice) const;
+  void activate(AgvId agv, Slice& slice, const fp_event& event);
+  void settle(AgvId agv, Slice& slice);
   const AgentFailure* start_agent(AgvId agv, const fp_event& event);
   void give_up(AgvId agv, bool hang, std::string_view message);
   bool file_failure(AgvId agv, bool hang, std::string_view message);

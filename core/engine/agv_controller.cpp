@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/random.hpp"
-#include "core/engine/call_limits.hpp"
 
 namespace fleetproof {
 namespace {
@@ -31,19 +30,17 @@ AgvController::AgvController(RunContext& run, const Ports& ports)
 // ---- activations
 
 void AgvController::begin_activation(fp_controller& handle) {
-  handle.in_activation = true;
+  handle.calls_max = kCallsMax;
   handle.calls = handle.services = 0;
   handle.cost = Duration::zero();
 }
 
-ActivationUse AgvController::end_activation(fp_controller& handle) {
-  if (run_.hears_notes()) ports_.declarations.end_activation(handle.agv);
-  handle.in_activation = false;
+bool AgvController::end_activation(fp_controller& handle) {
+  if (handle.hears_notes) [[unlikely]]
+    ports_.declarations.end_activation(handle.agv);
+  handle.calls_max = 0;
   run_.counters.agent_calls += handle.calls + handle.services;
-  const char* limit = handle.calls > kCallsMax         ? "10 000 controller calls in one activation"
-                      : handle.services > kServicesMax ? "ten million calls of random and now_ns in one activation"
-                                                       : nullptr;
-  return {.cost = handle.cost, .broken_limit = limit};
+  return handle.cost > Duration::zero() || handle.broken_limit() != nullptr;
 }
 
 void AgvController::forget(AgvId agv) {
@@ -62,13 +59,14 @@ void AgvController::forget(AgvId agv) {
 
 bool AgvController::admit(fp_controller& handle) {
   // A call from outside an activation (another thread, a stored pointer) has no instant at which it could act.
-  if (!handle.in_activation || ++handle.calls > kCallsMax) return false;
+  if (++handle.calls > handle.calls_max) [[unlikely]]
+    return false;
   handle.cost += call_cost_;
   return true;
 }
 
 bool AgvController::admit_service(fp_controller& handle) {
-  if (!handle.in_activation || ++handle.services > kServicesMax) return false;
+  if (!handle.in_activation() || ++handle.services > kServicesMax) return false;
   handle.cost += call_cost_;
   return true;
 }

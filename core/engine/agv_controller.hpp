@@ -5,24 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/engine/controller_handle.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
-
-namespace fleetproof {
-class AgvController;
-class CallTape;
-}  // namespace fleetproof
-
-// The handle that an agent holds: which AGV of which run, and what the activation under way has used so far.
-struct fp_controller {
-  fleetproof::AgvController* part = nullptr;
-  fleetproof::AgvId agv;
-  bool in_activation = false;
-  bool hears_notes = false;               // as RunContext::hears_notes
-  fleetproof::CallTape* tape = nullptr;   // takes the calls of the activation; null: nobody records them
-  fleetproof::Duration cost{};            // of its calls
-  std::uint64_t calls = 0, services = 0;  // so many
-};
 
 namespace fleetproof {
 
@@ -45,7 +30,8 @@ class AgvController {
   fp_controller* handle_of(AgvId agv) { return &slices_[agv.index()].handle; }
   // Calls are admitted between these two only.
   void begin_activation(fp_controller& handle);
-  ActivationUse end_activation(fp_controller& handle);
+  // Whether the activation has taken time or broken a limit.
+  bool end_activation(fp_controller& handle);
   // The AGV's computer goes down: pending calls, timers, inbox and declarations are lost.
   void forget(AgvId agv);
   // The event. Pending calls take effect in the order in which they were made.
@@ -58,7 +44,7 @@ class AgvController {
   bool admit_service(fp_controller& handle);
   // Likewise for notes, which do not count as calls. Requires: somebody hears them.
   bool admit_note(AgvId agv) {
-    return slices_[agv.index()].handle.in_activation && ports_.declarations.admits_note(agv);
+    return slices_[agv.index()].handle.in_activation() && ports_.declarations.admits_note(agv);
   }
   // So many calls of `admit_service`, and of `admit` when its limit is reached, in one.
   void admit_services(AgvId agv, std::uint64_t count);

@@ -35,7 +35,7 @@ std::int32_t send(fp_controller* controller, const void* bytes, std::uint32_t si
   });
 }
 
-std::int32_t send_broadcast(fp_controller* controller, const void* bytes, std::uint32_t size) {
+[[gnu::flatten]] std::int32_t send_broadcast(fp_controller* controller, const void* bytes, std::uint32_t size) {
   return send(controller, bytes, size, FP_NONE);
 }
 
@@ -100,7 +100,7 @@ std::int64_t now_ns(fp_controller* controller) {
   return controller->part->ports().timers.now_ns(controller->agv);
 }
 
-std::int32_t set_timer(fp_controller* controller, std::uint32_t timer, std::int64_t at) {
+[[gnu::flatten]] std::int32_t set_timer(fp_controller* controller, std::uint32_t timer, std::int64_t at) {
   return admitted(controller, [&](AgvController& part, AgvId agv) { return part.set_timer(agv, timer, at); });
 }
 

@@ -13,19 +13,26 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
                TraceSink* sink, const char* agent_config, const RunWatch& watch)
     : laws_(laws), abandon_(watch.abandon), run_(scenario, laws, sink), parts_(run_, agent, agent_config, watch) {}
 
-void Engine::run() {
+// Everything that each event passes through is inlined into this loop.
+[[gnu::flatten]] void Engine::run() {
   start();
   const SimTime end = kStart + run_.scenario.horizon;
   Event event;
   while (true) {
     if (run_.queue.arrival_comes_first()) {
-      const auto& [at, order, payload] = run_.queue.first_arrival();
-      if (at > end) break;
-      goes_on_until(at);
-      const AgvId receiver = run_.queue.first_arrival().receiver();
-      const std::uint32_t of_message = payload;
+      const EventQueue::Arrival& first = run_.queue.first_arrival();
+      if (first.at > end) break;
+      goes_on_until(first.at);
+      const AgvId receiver = first.receiver();
+      const std::uint32_t payload = first.payload;
       run_.queue.drop_arrival();
-      parts_.messenger.arrives(receiver, of_message);
+      parts_.messenger.arrives(receiver, payload);
+    } else if (run_.queue.timer_comes_first()) {
+      const EventQueue::Timer timer = run_.queue.first_timer();
+      if (timer.at > end) break;
+      goes_on_until(timer.at);
+      run_.queue.drop_timer();
+      parts_.timers.goes_off(timer.agv, timer.number, timer.stamp);
     } else {
       if (!run_.queue.pop_filed_until(end, event)) break;
       goes_on_until(event.at);
@@ -45,7 +52,7 @@ inline void Engine::goes_on_until(SimTime at) {
   run_.now = at;
 }
 
-void Engine::start() {
+[[gnu::noinline]] void Engine::start() {
   for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
     const AgvId agv{i};
     run_.queue.push(kStart, agv, Event::Kind::Start);
@@ -59,7 +66,7 @@ void Engine::start() {
   if (run_.scenario.operator_help.on) run_.queue.push(kStart, EntityId{}, Event::Kind::OperatorLooks);
 }
 
-void Engine::handle(const Event& event) {
+[[gnu::noinline]] void Engine::handle(const Event& event) {
   const EntityId id = event.entity;
   switch (event.kind) {
     case Event::Kind::Start:

@@ -9,79 +9,48 @@ namespace fleetproof {
 // ---- filed events
 
 void EventQueue::push(SimTime at, EntityId entity, Event::Kind kind, std::uint64_t payload, std::uint64_t stamp) {
-  const Filed filed{at, order_of(entity, sequence_++), stamp, payload << kKindBits | static_cast<std::uint64_t>(kind)};
-  const bool in_row = kind == Event::Kind::TimerGoesOff && (timers_.empty() || is_before(timers_.back(), filed));
-  if (in_row) {
-    *timers_.room_for(1) = filed;
-    timers_.added(1);
+  const FiledEvent event{at, {entity, sequence_++}, stamp, with_kind(payload, kind)};
+  if (kind == Event::Kind::TimerGoesOff) {
+    file<true>(event);
   } else {
-    push_on_heap(filed);
+    file<false>(event);
   }
-  if (at > filed_at_ || (at == filed_at_ && filed.order > filed_order_)) return;
-  filed_at_ = at;
-  filed_order_ = filed.order;
-  filed_in_row_ = in_row;
 }
 
-void EventQueue::push_on_heap(const Filed& filed) {
-  std::size_t place = heap_.size();
-  heap_.push_back(filed);
-  while (place > 0) {
-    const std::size_t above = (place - 1) / 2;
-    if (!is_before(filed, heap_[above])) break;
-    heap_[place] = heap_[above];
-    place = above;
-  }
-  heap_[place] = filed;
-}
-
-EventQueue::Filed EventQueue::take_from_heap() {
-  const Filed first = heap_.front(), last = heap_.back();
-  heap_.pop_back();
-  if (heap_.empty()) return first;
-  std::size_t place = 0;
-  for (std::size_t below = 1; below < heap_.size(); below = 2 * place + 1) {
-    if (below + 1 < heap_.size() && is_before(heap_[below + 1], heap_[below])) ++below;
-    if (!is_before(heap_[below], last)) break;
-    heap_[place] = heap_[below];
-    place = below;
-  }
-  heap_[place] = last;
-  return first;
-}
-
-void EventQueue::take_filed(Event& event) {
-  const Filed first = filed_in_row_ ? timers_.front() : take_from_heap();
-  if (filed_in_row_) timers_.drop_front();
+[[gnu::noinline]] void EventQueue::take_filed(Event& event) {
+  const FiledEvent first = first_filed_.in_row ? timers_.front() : heap_.take();
+  if (first_filed_.in_row) timers_.drop_front();
   find_first_filed();
-  const auto entity = static_cast<std::uint32_t>(first.order >> kSequenceBits);
   event.at = first.at;
-  event.entity = entity == kNoEntity ? EntityId{} : EntityId{entity};
-  event.kind = static_cast<Event::Kind>(first.payload_and_kind & ((1U << kKindBits) - 1));
-  event.sequence = sequence_in(first.order);
-  event.payload = first.payload_and_kind >> kKindBits;
+  event.entity = first.order.entity();
+  event.kind = static_cast<Event::Kind>(first.payload_and_kind & ((1U << FiledEvent::kKindBits) - 1));
+  event.sequence = first.order.sequence();
+  event.payload = first.payload();
   event.stamp = first.stamp;
 }
 
 void EventQueue::find_first_filed() {
-  filed_in_row_ = !timers_.empty() && (heap_.empty() || is_before(timers_.front(), heap_.front()));
-  const Filed* first = filed_in_row_ ? &timers_.front() : heap_.empty() ? nullptr : &heap_.front();
-  filed_at_ = first != nullptr ? first->at : kForever;
-  filed_order_ = first != nullptr ? first->order : kNothing;
+  if (timers_.empty() && heap_.empty()) {
+    first_filed_ = {};
+  } else if (heap_.empty() || (!timers_.empty() && is_before(timers_.front(), heap_.front()))) {
+    first_filed_ = {timers_.front().at, timers_.front().order, true};
+  } else {
+    first_filed_ = {heap_.front().at, heap_.front().order, false};
+  }
 }
 
 // ---- arrivals
 
-void EventQueue::push_arrivals(SimTime at, std::span<const EntityId> entities, std::uint32_t payload) {
-  Arrival* const room = room_in_lane(at, entities.size());
-  for (std::size_t i = 0; i < entities.size(); ++i) {
+void EventQueue::push_arrivals(SimTime at, std::span<const AgvId> receivers, std::uint32_t payload) {
+  Arrival* const room = room_in_lane(at, receivers.size());
+  for (std::size_t i = 0; i < receivers.size(); ++i) {
     if (room != nullptr) {
-      room[i] = arrival(at, entities[i], payload);
+      room[i] = arrival(at, receivers[i], payload);
     } else {
-      push(at, entities[i], Event::Kind::MessageArrives, payload);
+      push(at, receivers[i], Event::Kind::MessageArrives, payload);
     }
   }
-  if (room != nullptr) stand_in_lane(entities.size());
+  if (room != nullptr) stand_in_lane(receivers.size());
 }
 
 void EventQueue::open_instant() {
@@ -93,7 +62,7 @@ void EventQueue::open_instant() {
 }
 
 // They stand in order of sequence. Many of few receivers are counted by receiver instead of sorted.
-void EventQueue::put_in_order(std::span<Arrival> instant) {
+[[gnu::noinline]] void EventQueue::put_in_order(std::span<Arrival> instant) {
   constexpr std::size_t kFew = 24;
   std::uint32_t receivers = 0;
   for (const Arrival& arrival : instant) receivers = std::max(receivers, arrival.receiver().value + 1);
@@ -115,7 +84,7 @@ bool EventQueue::pop_until(SimTime end, Event& event) {
   const Arrival first = first_arrival();
   if (first.at > end) return false;
   drop_arrival();
-  event = {first.at, first.receiver(), Event::Kind::MessageArrives, sequence_in(first.order), first.payload, 0};
+  event = {first.at, first.receiver(), Event::Kind::MessageArrives, first.order.sequence(), first.payload, 0};
   return true;
 }
 

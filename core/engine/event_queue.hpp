@@ -1,12 +1,13 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/engine/event_heap.hpp"
+#include "core/engine/event_order.hpp"
 #include "core/engine/event_row.hpp"
 
 namespace fleetproof {
@@ -48,44 +49,51 @@ struct Event {
 // order, and the rest in a heap.
 class EventQueue {
  public:
-  // Requires of every entity: it is below kNoEntity, or invalid.
-  static constexpr std::uint32_t kNoEntity = 0xffffff;
   // An event of the kind MessageArrives in the lane.
   struct Arrival {
     SimTime at;
-    std::uint64_t order;
+    EventOrder order;
     std::uint32_t payload;
-    EntityId receiver() const { return EntityId{static_cast<std::uint32_t>(order >> kSequenceBits)}; }
+    AgvId receiver() const { return order.agv(); }
+  };
+  // An event of the kind TimerGoesOff in the row.
+  struct Timer {
+    SimTime at;
+    AgvId agv;
+    std::uint32_t number;
+    std::uint64_t stamp;
   };
 
-  EventQueue() { heap_.reserve(256); }
-
   void push(SimTime at, EntityId entity, Event::Kind kind, std::uint64_t payload = 0, std::uint64_t stamp = 0);
+  // The same for an event of the kind TimerGoesOff, with its number as payload.
+  void push_timer(SimTime at, AgvId agv, std::uint32_t number, std::uint64_t stamp) {
+    file<true>({at, EventOrder::of_agv(agv, sequence_++), stamp, with_kind(number, Event::Kind::TimerGoesOff)});
+  }
   // The same for an event of the kind MessageArrives at each of these, one after the other.
-  void push_arrivals(SimTime at, std::span<const EntityId> entities, std::uint32_t payload);
+  void push_arrivals(SimTime at, std::span<const AgvId> receivers, std::uint32_t payload);
   // The same for arrivals that are found one by one. Room for so many in the lane, or null if they must be pushed one
   // by one; each of them; and how many have been written there.
   Arrival* room_in_lane(SimTime at, std::size_t arrivals) {
     return goes_into_lane(at) ? lane_.room_for(arrivals) : nullptr;
   }
-  Arrival arrival(SimTime at, EntityId receiver, std::uint32_t payload) {
-    return {at, order_of(receiver, sequence_++), payload};
+  Arrival arrival(SimTime at, AgvId receiver, std::uint32_t payload) {
+    return {at, EventOrder::of_agv(receiver, sequence_++), payload};
   }
   void stand_in_lane(std::size_t arrivals) { lane_.added(arrivals); }
 
-  bool empty() const { return lane_.empty() && filed_order_ == kNothing; }
+  bool empty() const { return lane_.empty() && first_filed_.order == EventOrder{}; }
   // Takes the next event, if it is at or before `end`; else false.
   bool pop_until(SimTime end, Event& event);
   // Requires: there is an event.
   Event pop();
 
-  // The same in two steps. It costs less, because an arrival does not become an event.
+  // The same in two steps. It costs less, because an arrival or a timer does not become an event.
   // Whether the next event is an arrival in the lane. The arrivals of one instant are sorted when the run reaches that
   // instant. While some of them are left, no further one joins them.
   bool arrival_comes_first() {
-    if (lane_.empty() || filed_at_ < lane_.front().at) return false;
+    if (lane_.empty() || first_filed_.at < lane_.front().at) return false;
     if (opened_ == 0) open_instant();
-    return lane_.front().at < filed_at_ || lane_.front().order < filed_order_;
+    return is_before(lane_.front(), first_filed_);
   }
   // If an arrival comes first:
   const Arrival& first_arrival() const { return lane_.front(); }
@@ -93,36 +101,39 @@ class EventQueue {
     lane_.drop_front();
     --opened_;
   }
-  // If none comes first: as `pop_until`.
+  // If none comes first: whether the next event is a timer in the row.
+  bool timer_comes_first() const { return first_filed_.in_row; }
+  // If one comes first:
+  Timer first_timer() const {
+    const auto& [at, order, stamp, number_and_kind] = timers_.front();
+    return {at, order.agv(), static_cast<std::uint32_t>(timers_.front().payload()), stamp};
+  }
+  void drop_timer() {
+    timers_.drop_front();
+    find_first_filed();
+  }
+  // If no arrival comes first: as `pop_until`.
   bool pop_filed_until(SimTime end, Event& event) {
-    if (filed_at_ > end || filed_order_ == kNothing) return false;
+    if (first_filed_.at > end || first_filed_.order == EventOrder{}) return false;
     take_filed(event);
     return true;
   }
 
  private:
-  // Entity and sequence in one number, which compares as they do.
-  static constexpr unsigned kSequenceBits = 40, kKindBits = 8;
-  static constexpr std::uint64_t kNothing = ~std::uint64_t{0};  // the order of no event
-  static constexpr std::uint64_t order_of(EntityId entity, std::uint64_t sequence) {
-    return std::uint64_t{std::min(entity.value, kNoEntity)} << kSequenceBits | sequence;
+  static constexpr std::uint64_t with_kind(std::uint64_t payload, Event::Kind kind) {
+    return payload << FiledEvent::kKindBits | static_cast<std::uint64_t>(kind);
   }
-  static constexpr std::uint64_t sequence_in(std::uint64_t order) {
-    return order & ((std::uint64_t{1} << kSequenceBits) - 1);
+  template <bool kIsTimer>
+  void file(const FiledEvent& event) {
+    const bool in_row = kIsTimer && (timers_.empty() || is_before(timers_.back(), event));
+    if (in_row) {
+      *timers_.room_for(1) = event;
+      timers_.added(1);
+    } else {
+      heap_.push(FiledEvent(event));  // a copy, so that a timer in the row is written there only
+    }
+    if (is_before(event, first_filed_)) first_filed_ = {event.at, event.order, in_row};
   }
-  struct Filed {
-    SimTime at;
-    std::uint64_t order = 0;
-    std::uint64_t stamp = 0;
-    std::uint64_t payload_and_kind = 0;
-  };
-  template <class One, class Other>
-  static bool is_before(const One& one, const Other& other) {
-    return one.at != other.at ? one.at < other.at : one.order < other.order;
-  }
-
-  void push_on_heap(const Filed& filed);
-  Filed take_from_heap();
   void take_filed(Event& event);
   void find_first_filed();
   void open_instant();
@@ -131,14 +142,16 @@ class EventQueue {
     return lane_.empty() || at > lane_.back().at || (at == lane_.back().at && opened_ < lane_.size());
   }
 
-  EventRow<Arrival> lane_;   // in order of time
-  std::size_t opened_ = 0;   // so many arrivals at its front are in order; those at one instant are opened together
-  EventRow<Filed> timers_;   // in order
-  std::vector<Filed> heap_;  // the next event is at the front
-  // The first filed event, and whether it is a timer in the row.
-  SimTime filed_at_ = kForever;
-  std::uint64_t filed_order_ = kNothing;
-  bool filed_in_row_ = false;
+  EventRow<Arrival> lane_;       // in order of time
+  std::size_t opened_ = 0;       // so many arrivals at its front are in order; those at one instant are opened together
+  EventRow<FiledEvent> timers_;  // in order
+  EventHeap heap_;               // all other events
+  // Of timers and heap.
+  struct First {
+    SimTime at = kForever;
+    EventOrder order;
+    bool in_row = false;
+  } first_filed_;
   std::uint64_t sequence_ = 0;
   // Only while an instant is put in order.
   std::vector<std::uint32_t> places_;

@@ -115,10 +115,10 @@ void DeclarationsPort::forget(AgvId agv) const { part_->forget(agv); }
 
 fp_controller* AgvControllerPort::handle_of(AgvId agv) const { return part_->handle_of(agv); }
 void AgvControllerPort::begin_activation(fp_controller& handle) const { part_->begin_activation(handle); }
-ActivationUse AgvControllerPort::end_activation(fp_controller& handle) const { return part_->end_activation(handle); }
+bool AgvControllerPort::end_activation(fp_controller& handle) const { return part_->end_activation(handle); }
 void AgvControllerPort::forget(AgvId agv) const { part_->forget(agv); }
 
-void AgentHostPort::tell(AgvId agv, fp_event&& event) const { part_->tell(agv, std::move(event)); }
+void AgentHostPort::tell(AgvId agv, const fp_event& event) const { part_->tell(agv, event); }
 bool AgentHostPort::is_up(AgvId agv) const { return part_->is_up(agv); }
 bool AgentHostPort::has_events_waiting(AgvId agv) const { return part_->has_events_waiting(agv); }
 void AgentHostPort::freeze_until(AgvId agv, SimTime until) const { part_->freeze_until(agv, until); }

@@ -219,18 +219,12 @@ class DeclarationsPort {
   Declarations* part_;
 };
 
-// What an activation has used up.
-struct ActivationUse {
-  Duration cost{};
-  const char* broken_limit = nullptr;  // which limit the agent has exceeded, in words; null: none
-};
-
 class AgvControllerPort {
  public:
   explicit AgvControllerPort(AgvController& part) : part_(&part) {}
   fp_controller* handle_of(AgvId agv) const;
   void begin_activation(fp_controller& handle) const;
-  ActivationUse end_activation(fp_controller& handle) const;
+  bool end_activation(fp_controller& handle) const;
   void forget(AgvId agv) const;
 
  private:
@@ -240,7 +234,7 @@ class AgvControllerPort {
 class AgentHostPort {
  public:
   explicit AgentHostPort(AgentHost& part) : part_(&part) {}
-  void tell(AgvId agv, fp_event&& event) const;
+  void tell(AgvId agv, const fp_event& event) const;
   bool is_up(AgvId agv) const;
   bool has_events_waiting(AgvId agv) const;
   void freeze_until(AgvId agv, SimTime until) const;

@@ -30,6 +30,8 @@ class Timers {
     std::vector<Timer> timers;
     std::uint64_t last_stamp = 0;
   };
+  static Timer* find(Slice& slice, std::uint32_t number);  // null: there is none
+  static Timer* add(Slice& slice, std::uint32_t number);
 
   RunContext& run_;
   AgentHostPort agents_;

@@ -174,9 +174,10 @@ class TraceDigest {
   TraceDigest& operator=(const TraceDigest&) = delete;
 
   void append(const TraceRecord& record) {
-    block_->write(next_, record);
-    next_ += TraceBlock::kRecordBytes;
-    if (next_ == pause_) [[unlikely]]
+    unsigned char* const to = next_;
+    next_ = to + TraceBlock::kRecordBytes;
+    block_->write(to, record);
+    if (to + TraceBlock::kRecordBytes == pause_) [[unlikely]]
       pause();
   }
   // The next record says that a second copy was received. That is not part of the digest.

@@ -1,7 +1,5 @@
 #include "core/radio/radio.hpp"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -156,29 +154,6 @@ std::optional<Duration> Radio::copy_of(const MessageKey& message) const {
   const Block block = draw_for(message, keys_.copies);
   if (unit_interval(word64(block, 0)) >= setup_.duplicates) return std::nullopt;
   return delay_.at(unit_interval(word64(block, 1)));
-}
-
-void MessageBytes::make_room(std::size_t bytes) {
-  room_ = static_cast<std::uint32_t>(std::max<std::size_t>(bytes, 2 * room_));
-  bytes_ = std::make_unique_for_overwrite<char[]>(room_);
-}
-
-std::uint32_t MessagePool::add(AgvId sender, std::string_view bytes, std::uint32_t copies) {
-  std::uint32_t slot = free_;
-  if (slot == kNone) {
-    slot = static_cast<std::uint32_t>(messages_.size());
-    messages_.emplace_back();
-  } else {
-    free_ = messages_[slot].next_free;
-  }
-  Message& message = messages_[slot];
-  message.sender = sender;
-  message.bytes.assign(bytes);
-  message.hash = XXH3_64bits(bytes.data(), bytes.size());
-  message.copies = copies;
-  message.spared = false;
-  message.destroyed_at.clear();
-  return slot;
 }
 
 }  // namespace fleetproof

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "core/base/random.hpp"
@@ -83,19 +81,23 @@ class Radio {
   // Requires: three more hearers may be read.
   template <class Decide>
   void decide_losses(AgvId sender, SimTime sent, std::span<const Hearer> hearers, Decide decide) const {
+    decide_losses(
+        sender, sent, hearers.size(), [&](std::size_t i) { return hearers.data()[i]; }, decide);
+  }
+  // Likewise, of so many hearers, each of which is `hearer_at` its place.
+  template <class HearerAt, class Decide>
+  void decide_losses(AgvId sender, SimTime sent, std::size_t hearers, HearerAt hearer_at, Decide decide) const {
     static constexpr std::size_t kAtOnce = 4;
     const Block first = counter_of({sender, AgvId{0U}, sent, 0});
     std::array<std::uint64_t, kAtOnce> rest;
-    for (; !hearers.empty(); hearers = hearers.subspan(std::min(kAtOnce, hearers.size()))) {
+    for (std::size_t begin = 0; begin < hearers; begin += kAtOnce) {
       for (std::size_t k = 0; k < kAtOnce; ++k) {
-        const auto& [receiver, ordinal] = hearers.data()[k];
+        const auto [receiver, ordinal] = hearer_at(begin + k);
         rest[k] = std::uint64_t{ordinal} << 32 | receiver.value;
       }
       std::uint32_t lost = philox_of_four_below(keys_.draws, word64(first, 0), first[2], rest.data(), loss_limit_);
-      for (const Hearer& hearer : hearers.first(std::min(kAtOnce, hearers.size()))) {
-        decide(hearer.receiver, (lost & 1) != 0);
-        lost >>= 1;
-      }
+      for (std::size_t i = begin; i < std::min(begin + kAtOnce, hearers); ++i, lost >>= 1)
+        decide(hearer_at(i).receiver, (lost & 1) != 0);
     }
   }
   bool loses(const Block& draws) const { return unit_interval(word64(draws, 0)) < setup_.loss; }
@@ -134,68 +136,6 @@ class Radio {
   std::uint64_t loss_limit_;  // a message is lost if the 53 bits of its draw, as a whole number, are below
   std::vector<std::vector<std::optional<OutageProcess>>>
       links_;  // by sender and receiver; by the smaller and the larger id where both directions share a process
-};
-
-// The bytes of a message. They stay where they are in memory when the object is moved, which short strings do not: an
-// agent reads the bytes of a message while it sends others, and the pool of messages grows.
-class MessageBytes {
- public:
-  std::size_t size() const { return size_; }
-  const char* data() const { return bytes_.get(); }
-  operator std::string_view() const { return {data(), size()}; }
-  // Reuses its memory, so that nothing is allocated in the long run.
-  void assign(std::string_view bytes) {
-    if (bytes.size() >= room_) make_room(bytes.size() + 1);  // of no bytes, too: their address is never null
-    bytes.copy(bytes_.get(), bytes.size());
-    size_ = static_cast<std::uint32_t>(bytes.size());
-  }
-
- private:
-  void make_room(std::size_t bytes);
-
-  std::unique_ptr<char[]> bytes_;
-  std::uint32_t size_ = 0, room_ = 0;
-};
-
-// A message in the air or in inboxes.
-struct Message {
-  AgvId sender;
-  MessageBytes bytes;
-  std::uint64_t hash = 0;
-  std::uint32_t number = 0;     // in its run, from 1 on; 0: not sent yet
-  std::uint32_t copies = 0;     // receptions that are under way or unread
-  std::uint32_t next_free = 0;  // of a free slot: the slot that became free before it
-  bool spared = false;          // see Radio::fate
-  // With interference: the receivers at which the message was destroyed.
-  AirInterval on_air;
-  std::vector<AgvId> destroyed_at;
-  bool is_destroyed_at(AgvId receiver) const {
-    return !destroyed_at.empty() && std::ranges::find(destroyed_at, receiver) != destroyed_at.end();
-  }
-};
-
-// The messages, by slot. A slot becomes free when the last copy of its message has been read or lost.
-class MessagePool {
- public:
-  std::uint32_t add(AgvId sender, std::string_view bytes, std::uint32_t copies);
-  const Message& operator[](std::uint32_t slot) const { return messages_[slot]; }
-  void hold(std::uint32_t slot, std::uint32_t copies = 1) { messages_[slot].copies += copies; }
-  void set_number(std::uint32_t slot, std::uint32_t number) { messages_[slot].number = number; }
-  void spare(std::uint32_t slot) { messages_[slot].spared = true; }
-  void goes_out(std::uint32_t slot, const AirInterval& on_air) { messages_[slot].on_air = on_air; }
-  void destroy_at(std::uint32_t slot, AgvId receiver) { messages_[slot].destroyed_at.push_back(receiver); }
-  void release(std::uint32_t slot) {
-    Message& message = messages_[slot];
-    if (--message.copies > 0) return;
-    message.next_free = free_;
-    free_ = slot;
-  }
-
- private:
-  static constexpr std::uint32_t kNone = 0xffffffff;
-
-  std::vector<Message> messages_;
-  std::uint32_t free_ = kNone;  // the slot that became free last
 };
 
 }  // namespace fleetproof

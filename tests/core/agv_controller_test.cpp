@@ -23,7 +23,7 @@ TEST(AgvControllerPart, AdmitsCallsInAnActivationOnly) {
   controller.begin_activation(*world.parts.controller.handle_of(kFirst));
   EXPECT_TRUE(controller.admit(*world.parts.controller.handle_of(kFirst)));
   EXPECT_FALSE(controller.admit(*world.parts.controller.handle_of(kSecond))) << "the other one's agent is not awake";
-  EXPECT_EQ(controller.end_activation(*world.parts.controller.handle_of(kFirst)).broken_limit, nullptr);
+  EXPECT_FALSE(controller.end_activation(*world.parts.controller.handle_of(kFirst))) << "nothing to settle";
   EXPECT_FALSE(controller.admit(*world.parts.controller.handle_of(kFirst)));
 }
 
@@ -37,7 +37,9 @@ TEST(AgvControllerPart, ACallTakesEffectAfterTheCostsSoFar) {
   EXPECT_EQ(controller.declare_cost(kFirst, -1), FP_INVALID);
   ASSERT_TRUE(controller.admit(*world.parts.controller.handle_of(kFirst)));
   EXPECT_EQ(controller.act(kFirst, FP_CALL_MOVE, 0), FP_OK);
-  EXPECT_DOUBLE_EQ(to_seconds(controller.end_activation(*world.parts.controller.handle_of(kFirst)).cost), 1.1);
+  EXPECT_TRUE(controller.end_activation(*world.parts.controller.handle_of(kFirst)));
+  EXPECT_DOUBLE_EQ(to_seconds(controller.handle_of(kFirst)->cost), 1.1);
+  EXPECT_EQ(controller.handle_of(kFirst)->broken_limit(), nullptr);
   EXPECT_FALSE(world.run.status(kFirst).activity);
   EXPECT_DOUBLE_EQ(to_seconds(world.next(Event::Kind::CallTakesEffect).at), 1.1);
   controller.call_takes_effect(kFirst);

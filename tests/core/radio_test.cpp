@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "core/radio/message_pool.hpp"
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
