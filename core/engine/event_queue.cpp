@@ -30,13 +30,15 @@ void EventQueue::push(SimTime at, EntityId entity, Event::Kind kind, std::uint64
 }
 
 void EventQueue::find_first_filed() {
-  if (timers_.empty() && heap_.empty()) {
+  const bool in_row = !timers_.empty() && (heap_.empty() || is_before(timers_.front(), heap_.front()));
+  if (!in_row && heap_.empty()) {
     first_filed_ = {};
-  } else if (heap_.empty() || (!timers_.empty() && is_before(timers_.front(), heap_.front()))) {
-    first_filed_ = {timers_.front().at, timers_.front().order, true};
-  } else {
-    first_filed_ = {heap_.front().at, heap_.front().order, false};
+    return;
   }
+  const FiledEvent& first = in_row ? timers_.front() : heap_.front();
+  first_filed_.at = first.at;
+  first_filed_.order = first.order;
+  first_filed_.in_row = in_row;
 }
 
 // ---- arrivals

@@ -30,6 +30,7 @@ Messenger::Messenger(RunContext& run, AgentHostPort agents)
       needs_places_(!hearers_.are_everybody() || radio_.depends_on_place()),
       draws_decide_(radio_.is_plain() && !contended_ && !run.writer.has_sink()),
       losses_decide_(draws_decide_ && radio_.only_loses()),
+      others_(run.agvs.size() - 1),
       slices_(run.agvs.size()),
       draws_(run.agvs.size() + 3) {}
 
@@ -55,8 +56,8 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   hearers_.begin(sender, ordinal);
   if (losses_decide_ && receiver == FP_NONE && hearers_.hear_alike(sender) && !message.spared) {
     const std::uint32_t number = hearers_.next_number(sender);
-    deliver_together(slot, slices_.size() - 1, [&](std::size_t i) {
-      return Hearer{AgvId{i < sender.index() ? i : i + 1}, number};
+    deliver_together(slot, others_, [&](std::size_t i) {
+      return Hearer{AgvId{i + (i >= sender.index() ? 1 : 0)}, number};
     });
   } else {
     deliver_one_by_one(slot, receiver);

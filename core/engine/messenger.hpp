@@ -94,6 +94,7 @@ class Messenger {
   // Of a message that is not spared: nothing but its draws decides its fate, and nobody notes it; and they only decide
   // whether it is lost.
   bool draws_decide_, losses_decide_;
+  std::size_t others_;         // so many AGVs but the sender
   std::vector<Slice> slices_;  // by AGV
   std::vector<Block> draws_;   // of those who hear the message being sent
 };
