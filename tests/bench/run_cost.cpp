@@ -1,9 +1,10 @@
 // What runs cost at one size of fleet, in counts that no other job on the machine disturbs, and in time.
 //
-//   run_cost AGENT FLEET HORIZON_S WORLDS [RANGE_M] [none]
+//   run_cost AGENT FLEET HORIZON_S WORLDS [RANGE_M [KIND]] [none]
 //
 // AGENT: hull-lock, reckless, or null, which only sends and listens. Worlds have one AGV per 15 stations, 40 % loss and
-// 2 s delay. Five AGVs also get the families of small layouts. RANGE_M is the radio's; `none`: no law watches.
+// 2 s delay. Five AGVs also get the families of small layouts. RANGE_M is the radio's, 0 means that it has no bound.
+// KIND: only floors of this kind, such as `plant`. `none`: no law watches.
 // tests/bench/cost_table counts instructions of the functions `cost_of_...`.
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -28,11 +29,14 @@ namespace {
 
 constexpr std::uint32_t kStationsPerAgv = 15;
 
-std::vector<std::string> layouts(std::uint32_t fleet) {
+// `only`: a kind of floor; empty: all.
+std::vector<std::string> layouts(std::uint32_t fleet, std::string_view only) {
   std::vector<std::string> names;
-  for (const char* kind : {"plant", "plant/tight-gap", "plant/four-way", "plant/overhang-pass", "plant/bottleneck"})
-    names.push_back(fmt::format("{}/{}", kind, std::max(20U, kStationsPerAgv * fleet)));
-  if (fleet > 5) return names;
+  for (const char* kind : {"plant", "plant/tight-gap", "plant/four-way", "plant/overhang-pass", "plant/bottleneck"}) {
+    if (only.empty() || only == kind)
+      names.push_back(fmt::format("{}/{}", kind, std::max(20U, kStationsPerAgv * fleet)));
+  }
+  if (fleet > 5 || !only.empty()) return names;
   for (const char* family :
        {"aisle-grid", "corridor-sidings", "loop-spurs", "random-planar", "fishbone", "dense-crossing"}) {
     for (const char* range : {"", "/stress"}) names.push_back(fmt::format("{}{}", family, range));
@@ -40,8 +44,8 @@ std::vector<std::string> layouts(std::uint32_t fleet) {
   return names;
 }
 
-std::deque<Scenario> draw_worlds(std::uint32_t fleet, double horizon_s, std::uint64_t worlds, double range_m) {
-  const std::vector<std::string> names = layouts(fleet);
+std::deque<Scenario> draw_worlds(const std::vector<std::string>& names, std::uint32_t fleet, double horizon_s,
+                                 std::uint64_t worlds, double range_m) {
   std::deque<Scenario> drawn;
   RejectionCounts counts;
   for (std::uint64_t seed = 0; seed < worlds; ++seed) {
@@ -90,16 +94,20 @@ extern "C" __attribute__((noinline)) Counters cost_of_runs(const std::deque<Scen
 
 int main(int argc, char** argv) {
   using namespace fleetproof;
-  if (argc < 5) return fmt::print("run_cost AGENT FLEET HORIZON_S WORLDS [RANGE_M] [none]\n"), 2;
+  if (argc < 5) return fmt::print("run_cost AGENT FLEET HORIZON_S WORLDS [RANGE_M [KIND]] [none]\n"), 2;
   const fp_agent_type* const agent = agent_named(argv[1]);
   if (agent == nullptr) return fmt::print("there is no agent {}\n", argv[1]), 2;
   const auto fleet = static_cast<std::uint32_t>(std::atoi(argv[2]));
   const double horizon_s = std::atof(argv[3]);
-  const auto worlds = draw_worlds(fleet, horizon_s, static_cast<std::uint64_t>(std::atoll(argv[4])),
-                                  argc > 5 ? std::atof(argv[5]) : 0.0);
+  const bool watched = std::string_view(argv[argc - 1]) != "none";
+  const int said = watched ? argc : argc - 1;
+  const auto names = layouts(fleet, said > 6 ? argv[6] : "");
+  if (names.empty()) return fmt::print("there is no kind of floor {}\n", argv[6]), 2;
+  const auto worlds = draw_worlds(names, fleet, horizon_s, static_cast<std::uint64_t>(std::atoll(argv[4])),
+                                  said > 5 ? std::atof(argv[5]) : 0.0);
   const std::uint64_t allocated_before = allocations();
   const double begun_s = seconds_of_this_thread();
-  const Counters sum = cost_of_runs(worlds, *agent, std::string_view(argv[argc - 1]) != "none");
+  const Counters sum = cost_of_runs(worlds, *agent, watched);
   const double spent_s = seconds_of_this_thread() - begun_s;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
