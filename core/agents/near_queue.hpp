@@ -37,15 +37,12 @@ class NearQueue {
     used_ = std::max(used_, bucket + 1);
   }
 
-  // False: there is none. The next place is at least so far.
+  // False: there is none.
   bool find_next() {
     while (current_ < used_ && newest_[current_] == kNone) ++current_;
     return current_ < used_ || !far_.empty();
   }
   // Requires: find_next() was true after the last change.
-  double next_distance() const {
-    return current_ < used_ ? nearest_ + static_cast<double>(current_) * width_ : far_.front().distance;
-  }
   std::uint32_t pop() {
     if (current_ == used_) return pop_far();
     const auto [place, before] = entries_[newest_[current_]];

@@ -10,7 +10,7 @@ namespace fleetproof {
 namespace {
 
 // Sizes of the cells: for drives of one segment, for long drives, for ways across a hall.
-constexpr std::array kCell_m = {12.0, 48.0, 192.0};
+constexpr std::array kCell_m = {24.0, 96.0, 384.0};
 // Half a cell, less what rounding can do to the middle of a box.
 constexpr double kHalf = 0.49, kRounding = 0.01;
 // A question over more cells is answered by a scan.

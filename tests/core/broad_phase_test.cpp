@@ -20,7 +20,7 @@ class Floor {
   std::size_t below(std::size_t n) { return random_() % n; }
   // Bodies, drives, now and then a wall across the floor, and one far out.
   Box box() {
-    const double longest_m = one_in(20) ? 300.0 : one_in(3) ? 20.0 : 3.0;
+    const double longest_m = one_in(20) ? 700.0 : one_in(3) ? 20.0 : 3.0;
     const Vec2 low = one_in(50) ? Vec2(within(-1e15, 1e15), 0.0) : Vec2(within(-60.0, 60.0), within(-60.0, 60.0));
     // On the grid's own lines too.
     const Vec2 at = one_in(5) ? Vec2(8.0 * std::round(low.x() / 8.0), 8.0 * std::round(low.y() / 8.0)) : low;
