@@ -53,7 +53,7 @@ std::vector<std::byte> MapView::work_out() const {
   std::vector<std::uint32_t> arriving(lane_count()), next = arriving_begin;
   for (std::uint32_t id = 0; id < lane_count(); ++id) arriving[next[lane(id).to]++] = id;
   TableWriter tables;
-  tables.add(start_headings, end_headings, two_way, arriving, arriving_begin, short_names(*this));
+  tables.add(start_headings, end_headings, two_way, arriving, arriving_begin);
   return tables.bytes();
 }
 
@@ -64,7 +64,17 @@ void MapView::read(std::span<const std::byte> tables) {
   two_way_ = reader.next<std::uint8_t>();
   arriving_ = reader.next<std::uint32_t>();
   arriving_begin_ = reader.next<std::uint32_t>();
-  short_names_ = reader.next<ShortName>();
+}
+
+void MapView::find_short_names() const {
+  if (facts_ == nullptr) {
+    own_short_names_ = short_names(*this);
+    short_names_ = own_short_names_;
+    return;
+  }
+  short_names_ = ask<ShortName>(
+      *facts_,
+      [](const fp_facts* from, std::uint64_t, fp_answer* to) { answer(*from, to, short_names(MapView(*from))); }, 0);
 }
 
 std::string_view station_name(const MapView& map, std::uint32_t station_id) {

@@ -45,7 +45,10 @@ class MapView {
   const fp_arc& arc(const fp_lane& lane, std::uint32_t i) const { return *fp_arc_at(&map_, &lane, i); }
 
   bool has_chargers() const;
-  const ShortName& short_name(std::uint32_t station_id) const { return short_names_[station_id]; }
+  const ShortName& short_name(std::uint32_t station_id) const {
+    if (short_names_.empty()) find_short_names();
+    return short_names_[station_id];
+  }
   Vec position_m(std::uint32_t station_id) const { return {station(station_id).x_m, station(station_id).y_m}; }
   std::span<const std::uint32_t> lanes_from(std::uint32_t station_id) const {
     return {station(station_id).lanes, station(station_id).lane_count};
@@ -74,6 +77,7 @@ class MapView {
  private:
   std::vector<std::byte> work_out() const;
   void read(std::span<const std::byte> tables);
+  void find_short_names() const;
 
   const fp_map& map_;
   const fp_facts* facts_ = nullptr;
@@ -82,7 +86,8 @@ class MapView {
   std::span<const Vec> start_headings_, end_headings_;        // by lane
   std::span<const std::uint8_t> two_way_;                     // by segment
   std::span<const std::uint32_t> arriving_, arriving_begin_;  // lanes, ordered by the station at which they end
-  std::span<const ShortName> short_names_;                    // by station
+  mutable std::vector<ShortName> own_short_names_;            // likewise
+  mutable std::span<const ShortName> short_names_;            // by station; empty until somebody asks
 };
 
 std::string_view station_name(const MapView& map, std::uint32_t station_id);

@@ -57,14 +57,13 @@ struct QuickestWay::Desk {
   struct Reached {
     double cost_s = INFINITY;
     std::uint32_t arrival = FP_NONE;
-    std::uint32_t search = 0;
+    std::uint64_t search = 0;
   };
   std::vector<Rest> rest;        // by station
   std::vector<Reached> reached;  // by station
   std::vector<std::uint32_t> climb;
   std::vector<Open> open;  // heap, least first, of the search forward
-  std::uint64_t plans = 0;
-  std::uint32_t searches = 0;
+  std::uint64_t plans = 0, searches = 0;
 
   static Desk& of_this_thread(std::uint32_t station_count) {
     thread_local Desk desk;
