@@ -96,6 +96,47 @@ TEST(EventQueue, ArrivalsComeInTheSameOrderAsASortedList) {
   }
 }
 
+// The two steps of a run's loop, against events taken whole: arrivals, timers and others at few instants.
+TEST(EventQueue, ArrivalsAndTimersComeByTheirOwnWaysInTheSameOrder) {
+  using Taken = std::tuple<Event::Kind, std::int64_t, std::uint32_t, std::uint64_t, std::uint64_t>;
+  std::mt19937 random(11);
+  EventQueue whole, parted;
+  std::int64_t now = 0;
+  std::size_t in_row = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    const SimTime at = at_ns(now + static_cast<std::int64_t>(random() % 6));
+    const AgvId agv{static_cast<std::uint32_t>(random() % 4)};
+    const auto what = random() % 3;
+    const auto number = static_cast<std::uint32_t>(round);
+    for (EventQueue* queue : {&whole, &parted}) {
+      if (what == 0) queue->push_arrivals(at, {&agv, 1}, number);
+      if (what == 1) queue->push_timer(at, agv, number, 2 * number);
+      if (what == 2) queue->push(at, agv, Event::Kind::Contact, number, 5);
+    }
+    if (random() % 8 == 0) continue;
+    const Event event = whole.pop();
+    const Taken expected{event.kind, to_ns(event.at), event.entity.value, event.payload, event.stamp};
+    now = to_ns(event.at);
+    if (parted.arrival_comes_first()) {
+      const EventQueue::Arrival first = parted.first_arrival();
+      ASSERT_EQ(Taken(Event::Kind::MessageArrives, to_ns(first.at), first.receiver().value, first.payload, 0),
+                expected);
+      parted.drop_arrival();
+    } else if (parted.timer_comes_first()) {
+      const EventQueue::Timer first = parted.first_timer();
+      ASSERT_EQ(Taken(Event::Kind::TimerGoesOff, to_ns(first.at), first.agv.value, first.number, first.stamp),
+                expected);
+      parted.drop_timer();
+      ++in_row;
+    } else {
+      Event other;
+      ASSERT_TRUE(parted.pop_filed_until(event.at, other));
+      ASSERT_EQ(Taken(other.kind, to_ns(other.at), other.entity.value, other.payload, other.stamp), expected);
+    }
+  }
+  EXPECT_GT(in_row, 100U);
+}
+
 // Broadcasts to a large fleet that arrive together, few or many at a time.
 TEST(EventQueue, ManyArrivalsOfOneInstantComeInOrder) {
   std::mt19937 random(7);

@@ -162,5 +162,19 @@ TEST(MessagePool, ReusesSlots) {
   EXPECT_EQ(std::string_view(pool[first].bytes), "three");
 }
 
+TEST(MessagePool, AMessageThatWasDestroyedLeavesNoTraceInItsSlot) {
+  MessagePool pool;
+  const auto first = pool.add(kA, "one", 2), second = pool.add(kA, "two", 1);
+  pool.destroy_at(first, kB);
+  pool.destroy_at(second, kC);
+  EXPECT_TRUE(pool.is_destroyed_at(first, kB));
+  EXPECT_FALSE(pool.is_destroyed_at(first, kC));
+  pool.release(first);
+  pool.release(first);
+  ASSERT_EQ(pool.add(kB, "three", 1), first);
+  EXPECT_FALSE(pool.is_destroyed_at(first, kB));
+  EXPECT_TRUE(pool.is_destroyed_at(second, kC));
+}
+
 }  // namespace
 }  // namespace fleetproof
