@@ -67,7 +67,7 @@ struct Status : Condition {
 struct WayBytes {
   // Station, heading, the numbers of lanes and zones, and these.
   static constexpr std::size_t kMax = 9 + 2 * std::size_t{kPathLanesMax} + 2 * std::size_t{ZoneSet::kMax};
-  static_assert(kMax == 233);
+  static_assert(kMax == 217);
   bool tell_zones = false;
   std::size_t size = 0;  // 0: none are known
   std::array<std::byte, kMax> bytes;

@@ -9,7 +9,7 @@
 namespace fleetproof::agents {
 namespace {
 
-constexpr double kZonesOfClaim = 5.0;  // along the longest claim
+constexpr double kZonesOfClaim = 3.0;  // along the longest claim
 // Hulls that others work out from a message differ by this: headings are rounded on the way.
 constexpr double kRounding_m = 0.05;
 // Every AGV tells each registrar once that it exists; a registrar that is down holds up a part of the floor.

@@ -10,7 +10,7 @@ namespace fleetproof::agents {
 // Zones by ascending number, each once.
 class ZoneSet {
  public:
-  static constexpr std::uint32_t kMax = 48;
+  static constexpr std::uint32_t kMax = 40;
 
   bool empty() const { return count_ == 0; }
   std::uint32_t size() const { return count_; }

@@ -48,7 +48,7 @@ TEST(ZoneMap, HullsThatConflictHaveAZoneInCommon) {
   const MapView map(facts.shared());
   HullGeometry geometry(map, briefing);
   const ZoneMap zones(map, geometry, 2, 40.0);
-  EXPECT_EQ(zones.zone_count(), 28U) << "104 m by 8 m, in zones of a fifth of the longest claim";
+  EXPECT_EQ(zones.zone_count(), 8U) << "104 m by 8 m, in zones of a third of the longest claim";
   std::mt19937_64 draws(1);
   const auto walk = [&] {
     Path path;
