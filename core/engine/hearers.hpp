@@ -11,8 +11,8 @@
 
 namespace fleetproof {
 
-// Who hears a message, and under which number: the how manieth it is of those that its sender sends to the same
-// receiver at one instant.
+// Who hears a message, and under which number: the messages that one AGV sends to the same receiver at one instant are
+// counted from 0 on.
 class Hearers {
  public:
   explicit Hearers(RunContext& run);
@@ -42,8 +42,8 @@ class Hearers {
   std::span<const Hearer> of(AgvId sender, std::uint32_t receiver, const Vec2& from_m);
 
  private:
-  // The messages of one AGV at the last instant at which it sent: how many reached all; how many more reached each
-  // receiver, and those whom they reached.
+  // What one AGV sent at the last instant at which it sent anything: the number of its messages to all, the number of
+  // further ones by receiver, and these receivers.
   struct SentTo {
     std::uint32_t to_all = 0;
     std::vector<std::uint32_t> counts;  // empty until the first of them
