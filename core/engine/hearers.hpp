@@ -30,20 +30,22 @@ class Hearers {
   }
 
   // A message is sent. `ordinal`: its number among all that its sender sends at this instant, from 0 on. Then ask one
-  // of the two questions below.
+  // of the two questions below. Who is in range stays so during an instant.
   void begin(AgvId sender, std::uint32_t ordinal) {
     if (ordinal == 0) sent_to_[sender.index()].clear();
   }
-  // Of a message to all: whether everybody hears it under one number; and this number, which is then taken.
-  bool hear_alike(AgvId sender) const { return are_everybody() && sent_to_[sender.index()].receivers.empty(); }
+  // Of a message to all: whether all who hear it do so under one number; this number, which is then taken; and who they
+  // are, if not everybody, in ascending order. Three more may be read.
+  bool hear_alike(AgvId sender) const { return sent_to_[sender.index()].receivers.empty(); }
   std::uint32_t next_number(AgvId sender) { return sent_to_[sender.index()].to_all++; }
+  std::span<const std::uint32_t> in_range(AgvId sender, const Vec2& from_m);
   // Those who hear it, in ascending order. Three more may be read. `receiver`: FP_NONE, or the only one for whom it is;
   // `from_m` matters only if not everybody hears it.
   std::span<const Hearer> of(AgvId sender, std::uint32_t receiver, const Vec2& from_m);
 
  private:
-  // What one AGV sent at the last instant at which it sent anything: the number of its messages to all, the number of
-  // further ones by receiver, and these receivers.
+  // What one AGV sent at the last instant at which it sent anything: the number of its messages to all, which count for
+  // those who heard them, the number of further ones by receiver, and these receivers.
   struct SentTo {
     std::uint32_t to_all = 0;
     std::vector<std::uint32_t> counts;  // empty until the first of them
@@ -54,16 +56,15 @@ class Hearers {
       receivers.clear();
     }
   };
-  void add_everybody(AgvId sender, SentTo& sent);
-  void add(AgvId receiver, SentTo& sent) {
-    std::uint32_t& count = sent.counts[receiver.index()];
-    if (count == 0) sent.receivers.push_back(receiver);
-    found_[count_++] = {receiver, sent.to_all + count++};
+  void add_one(AgvId receiver, SentTo& sent);
+  void add(AgvId receiver, const SentTo& sent) {
+    found_[count_++] = {receiver, sent.to_all + sent.counts[receiver.index()]};
   }
 
   RunContext& run_;
   std::optional<RadioReach> reach_;  // if the range is limited
   std::vector<SentTo> sent_to_;      // by sender
+  std::vector<std::uint32_t> near_;  // those in range, if some of them drive, and three zeros
   std::vector<Hearer> found_;        // of the message being sent, in the first `count_` places
   std::size_t count_ = 0;
 };

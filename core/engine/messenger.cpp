@@ -56,16 +56,26 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   hearers_.begin(sender, ordinal);
   if (losses_decide_ && receiver == FP_NONE && hearers_.hear_alike(sender) && !message.spared) {
     const std::uint32_t number = hearers_.next_number(sender);
-    deliver_together(slot, others_, [&](std::size_t i) {
-      return Hearer{AgvId{i + (i >= sender.index() ? 1 : 0)}, number};
-    });
+    if (!hearers_.are_everybody()) {
+      deliver_in_range(slot, number);
+    } else {
+      deliver_together(slot, others_, [&](std::size_t i) {
+        return Hearer{AgvId{i + (i >= sender.index() ? 1 : 0)}, number};
+      });
+    }
   } else {
     deliver_one_by_one(slot, receiver);
   }
   pool_.release(slot);
 }
 
-// Not so simple a message: to some AGVs, or with fates of many kinds.
+[[gnu::noinline]] void Messenger::deliver_in_range(std::uint32_t slot, std::uint32_t number) {
+  const AgvId sender = pool_[slot].sender;
+  const auto heard_by = hearers_.in_range(sender, run_.pose_now(sender).position_m);
+  deliver_together(slot, heard_by.size(), [&](std::size_t i) { return Hearer{AgvId{heard_by.data()[i]}, number}; });
+}
+
+// Not so simple a message: to one AGV, or with fates of many kinds.
 [[gnu::noinline]] void Messenger::deliver_one_by_one(std::uint32_t slot, std::uint32_t to) {
   const AgvId sender = pool_[slot].sender;
   const bool spared = pool_[slot].spared;

@@ -66,6 +66,7 @@ class Messenger {
   };
   Slice& slice_of(AgvId agv) { return slices_[agv.index()]; }
   void put_down(Slice& slice);
+  void deliver_in_range(std::uint32_t slot, std::uint32_t number);
   void deliver_one_by_one(std::uint32_t slot, std::uint32_t to);
   template <class HearerAt>
   void deliver_together(std::uint32_t slot, std::size_t hearing, HearerAt hearer_at);

@@ -32,7 +32,7 @@ RadioReach::RadioReach(std::size_t agvs, double range_m, const Box& floor)
 // A point of a way is not farther from the middle between its ends than half the length of the way.
 RadioReach::Circle RadioReach::circle_of(const Piece& piece) {
   const Vec2 begin_m = piece.pose_at(piece.begin).position_m;
-  if (piece.manner != Manner::Drive) return {begin_m, kSlack_m};
+  if (piece.manner != Manner::Drive) return {begin_m, 0.0};
   const Vec2 end_m = piece.pose_at(piece.end).position_m;
   return {0.5 * (begin_m + end_m), (0.5 + kSlackOfWay) * piece.profile.distance() + kSlack_m};
 }
@@ -49,6 +49,7 @@ void RadioReach::forget(AgvId agv) { file(agv.value, cells_.size() - 1); }
 
 void RadioReach::file(std::uint32_t agv, std::size_t cell) {
   std::size_t& in = filed_in_[agv];
+  ++changes_anywhere_;
   ++changes_[in];
   if (in == cell) return;
   ++changes_[cell];
@@ -57,16 +58,18 @@ void RadioReach::file(std::uint32_t agv, std::size_t cell) {
   in = cell;
 }
 
-std::span<const std::uint32_t> RadioReach::near(AgvId asker, const Vec2& place_m) {
+RadioReach::Near RadioReach::near(AgvId asker, const Vec2& place_m) {
   Answer& answer = answers_[asker.index()];
-  const Block block = block_around(place_m);
-  const std::uint64_t changes = changes_in(block);
-  if (answer.changes == changes && answer.place_m == place_m) return answer.agvs;
+  const bool is_of_here = answer.changes != 0 && answer.place_m == place_m;
+  if (is_of_here && answer.changes == changes_anywhere_) return answer.near();
+  if (!is_of_here) answer.block = block_around(place_m);
+  const std::uint64_t changes_there = changes_in(answer.block);
+  answer.changes = changes_anywhere_;
+  if (is_of_here && answer.changes_there == changes_there) return answer.near();
   answer.place_m = place_m;
-  answer.changes = changes;
-  find(place_m, block, answer.agvs);
-  std::ranges::sort(answer.agvs);
-  return answer.agvs;
+  answer.changes_there = changes_there;
+  find(asker, answer);
+  return answer.near();
 }
 
 RadioReach::Block RadioReach::block_around(const Vec2& place_m) const {
@@ -86,17 +89,23 @@ std::uint64_t RadioReach::changes_in(const Block& block) const {
   return sum;
 }
 
-void RadioReach::find(const Vec2& place_m, const Block& block, std::vector<std::uint32_t>& near) const {
-  near = cells_.back();
+void RadioReach::find(AgvId asker, Answer& answer) const {
+  const Block& block = answer.block;
+  answer.agvs = cells_.back();
+  std::erase(answer.agvs, asker.value);
+  answer.is_exact = answer.agvs.empty();
   for (std::size_t y = block.low; y <= block.high; ++y) {
     for (std::size_t x = block.left; x <= block.right; ++x) {
       for (const std::uint32_t agv : cells_[y * columns_ + x]) {
-        const Circle& circle = circles_[agv];
-        const double reach_m = range_m_ + circle.radius_m;
-        if ((circle.centre_m - place_m).squaredNorm() <= reach_m * reach_m) near.push_back(agv);
+        const auto& [centre_m, radius_m] = circles_[agv];
+        if (agv == asker.value || (centre_m - answer.place_m).norm() > range_m_ + radius_m) continue;
+        answer.agvs.push_back(agv);
+        answer.is_exact = answer.is_exact && radius_m == 0.0;
       }
     }
   }
+  std::ranges::sort(answer.agvs);
+  answer.agvs.resize(answer.agvs.size() + kMoreToRead);
 }
 
 std::size_t RadioReach::cell(double from_m, double side_m, std::size_t count) {

@@ -21,14 +21,20 @@ class RadioReach {
   // From now until its next piece the AGV may be anywhere.
   void forget(AgvId agv);
 
-  // Every AGV whose reference point may be within the range of this place, in ascending order. `asker`: who asks; while
-  // it asks from the same place and nothing changes around, it gets the same answer.
-  std::span<const std::uint32_t> near(AgvId asker, const Vec2& place_m);
+  // Every other AGV whose reference point may be within the range of this place, in ascending order. `is_exact`: they
+  // all stand, and are in range. Three more may be read.
+  struct Near {
+    std::span<const std::uint32_t> agvs;
+    bool is_exact;
+  };
+  // `asker`: who asks; while it asks from the same place and nothing changes around, it gets the same answer.
+  Near near(AgvId asker, const Vec2& place_m);
 
  private:
+  static constexpr std::size_t kMoreToRead = 3;
   struct Circle {
     Vec2 centre_m = Vec2::Zero();
-    double radius_m = 0.0;
+    double radius_m = 0.0;  // 0: it stands, or turns on the spot
   };
   static Circle circle_of(const Piece& piece);
 
@@ -38,8 +44,11 @@ class RadioReach {
   };
   struct Answer {
     Vec2 place_m = Vec2::Zero();
-    std::uint64_t changes = 0;  // around it, when it was found; 0: not found yet
-    std::vector<std::uint32_t> agvs;
+    Block block{};                                 // around it
+    std::uint64_t changes = 0, changes_there = 0;  // anywhere and in the block, when it was found; 0: not found yet
+    std::vector<std::uint32_t> agvs;               // and three zeros
+    bool is_exact = false;
+    Near near() const { return {std::span(agvs).first(agvs.size() - kMoreToRead), is_exact}; }
   };
 
   // What lies beside the floor belongs to the cells at its rim.
@@ -48,7 +57,7 @@ class RadioReach {
   std::size_t row(double y_m) const { return cell(y_m - corner_m_.y(), side_m_, rows_); }
   Block block_around(const Vec2& place_m) const;
   std::uint64_t changes_in(const Block& block) const;
-  void find(const Vec2& place_m, const Block& block, std::vector<std::uint32_t>& near) const;
+  void find(AgvId asker, Answer& answer) const;
   void file(std::uint32_t agv, std::size_t cell);
 
   double range_m_, side_m_;
@@ -56,9 +65,10 @@ class RadioReach {
   std::size_t columns_, rows_;
   std::vector<std::vector<std::uint32_t>> cells_;  // the AGVs by cell; the last one: those that may be anywhere
   std::vector<std::uint64_t> changes_;             // by cell: how often its AGVs or their circles have changed
-  std::vector<Circle> circles_;                    // by AGV
-  std::vector<std::size_t> filed_in_;              // likewise: the cell
-  std::vector<Answer> answers_;                    // by AGV that asked
+  std::uint64_t changes_anywhere_ = 1;
+  std::vector<Circle> circles_;        // by AGV
+  std::vector<std::size_t> filed_in_;  // likewise: the cell
+  std::vector<Answer> answers_;        // by AGV that asked
 };
 
 }  // namespace fleetproof

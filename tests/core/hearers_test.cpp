@@ -59,9 +59,24 @@ TEST(Hearers, OnlyThoseInRangeHear) {
   SmallWorld world(three_with_range(15.0));
   Hearers hearers(world.run);
   EXPECT_FALSE(hearers.are_everybody());
-  EXPECT_FALSE(hearers.hear_alike(kSecond));
   EXPECT_EQ(heard_of(hearers, 0), (Heard{{0, 0}})) << "from the place of the first";
   EXPECT_EQ(heard_of(hearers, 1, kThird.value), Heard{});
+  EXPECT_EQ(world.run.counters.out_of_range, 2U);
+  EXPECT_EQ(heard_of(hearers, 2, kFirst.value), (Heard{{0, 1}})) << "after the message to all";
+  EXPECT_EQ(heard_of(hearers, 3), (Heard{{0, 2}}));
+}
+
+TEST(Hearers, WhoDrivesIsInRangeWhereItIsNow) {
+  SmallWorld world(three_with_range(15.0));
+  Hearers hearers(world.run);
+  hearers.forget_path(kThird);
+  const auto heard_at = [&](const Vec2& from_m) {
+    const auto heard = hearers.in_range(kSecond, from_m);
+    return std::vector<std::uint32_t>(heard.begin(), heard.end());
+  };
+  EXPECT_EQ(heard_at({0.0, 0.0}), (std::vector{0U}));
+  EXPECT_EQ(heard_at({10.0, 0.0}), (std::vector{0U, 2U}));
+  EXPECT_EQ(heard_at({20.0, 0.0}), (std::vector{2U}));
   EXPECT_EQ(world.run.counters.out_of_range, 2U);
 }
 

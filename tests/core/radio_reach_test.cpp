@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/rotation.hpp"
@@ -70,20 +71,53 @@ TEST(RadioReach, FindsAllThatAreInRange) {
       rounds % 50 == 0 ? fleet.carry(fleet.any_agv()) : fleet.begin(fleet.any_agv());
       const std::uint32_t asker = fleet.any_agv();
       if (asker % 3 == 0) places[asker] = rounds % 2 == 0 ? fleet.place() : fleet.position_m(asker);
-      const auto near = fleet.reach.near(AgvId{asker}, places[asker]);
+      const auto [near, is_exact] = fleet.reach.near(AgvId{asker}, places[asker]);
       EXPECT_TRUE(std::ranges::is_sorted(near, std::ranges::less_equal())) << "or one of them is there twice";
       looked_at += near.size();
+      std::size_t in_range_now = 0;
       for (std::uint32_t agv = 0; agv < kAgvs; ++agv) {
-        if ((fleet.position_m(agv) - places[asker]).norm() > range_m) continue;
-        ++in_range;
+        if (agv == asker || (fleet.position_m(agv) - places[asker]).norm() > range_m) continue;
+        ++in_range_now;
         ASSERT_TRUE(std::ranges::binary_search(near, agv)) << range_m << " " << rounds;
       }
+      if (is_exact) {
+        ASSERT_EQ(near.size(), in_range_now) << range_m << " " << rounds;
+      }
+      in_range += in_range_now;
     }
     EXPECT_GT(in_range, 0U);
     if (range_m < 10.0) {
       EXPECT_LT(looked_at, rounds * kAgvs / 3) << range_m;
     }
   }
+}
+
+TEST(RadioReach, IsExactAmongThoseWhoStand) {
+  const Curve way = Curve::straight({12.0, 0.0}, {17.0, 0.0});
+  RadioReach reach(4, 10.0, {Vec2(0.0, 0.0), Vec2(80.0, 50.0)});
+  const auto rests_at = [&](std::uint32_t agv, double x_m) {
+    reach.piece_begins(rest_piece(AgvId{agv}, {}, {{x_m, 0.0}, Vec2::UnitX()}, kStart));
+  };
+  const auto asked = [&] {
+    const auto [near, is_exact] = reach.near(AgvId{0U}, {0.0, 0.0});
+    return std::pair(std::vector(near.begin(), near.end()), is_exact);
+  };
+  rests_at(0, 0.0), rests_at(1, 10.0), rests_at(2, 10.5), rests_at(3, 60.0);
+  const std::pair alone(std::vector{1U}, true);
+  EXPECT_EQ(asked(), alone) << "10 m are in range";
+  Piece drive = rest_piece(AgvId{2U}, {}, {{12.0, 0.0}, Vec2::UnitX()}, kStart);
+  drive.manner = Manner::Drive;
+  drive.curve = &way;
+  drive.profile = MotionProfile(way.length_m(), {});
+  drive.end = drive.begin + drive.profile.duration();
+  reach.piece_begins(drive);
+  EXPECT_EQ(asked(), alone) << "it drives farther out";
+  reach.forget(AgvId{3U});
+  EXPECT_EQ(asked(), std::pair(std::vector({1U, 3U}), false)) << "it may be anywhere";
+  rests_at(3, 60.0), rests_at(2, -9.0);
+  EXPECT_EQ(asked(), std::pair(std::vector({1U, 2U}), true));
+  rests_at(1, 11.0);
+  EXPECT_EQ(asked(), std::pair(std::vector{2U}, true));
 }
 
 }  // namespace
