@@ -39,10 +39,10 @@ class CoverageLaw final : public Law {
   // The nearness of a pair under way, or the last one.
   struct Near {
     SimTime until = kStart;
-    double clearance_m = 0.0;
+    bool is_miss = true;  // they have kept the safety distance
   };
   void look_closer(const Piece& a, const Piece& b, Interval within);
-  void close(const Near& near) { near_misses_ += near.clearance_m >= margin_m_; }
+  void close(const Near& near) { near_misses_ += near.is_miss; }
 
   double margin_m_;
   std::size_t agv_count_;
@@ -71,18 +71,16 @@ void CoverageLaw::had_company(const Piece& piece, std::span<const Piece* const> 
 }
 
 void CoverageLaw::look_closer(const Piece& a, const Piece& b, Interval within) {
-  if (surely_apart(a, b, within, kNearMiss_m)) return;
-  const auto approach = closest_approach(a, b, within, kNearMiss_m, evaluations_);
-  if (!approach) return;
-  const auto [at, is_new] = near_.try_emplace({a.entity, b.entity}, Near{within.end, approach->clearance_m});
-  if (is_new) return;
-  Near& near = at->second;
+  const auto part = near_part(a, b, within, kNearMiss_m);
+  const auto from = part ? comes_below(a, b, *part, kNearMiss_m, evaluations_) : std::nullopt;
+  if (!from) return;
+  Near& near = near_.try_emplace({a.entity, b.entity}, Near{within.end}).first->second;
   if (within.begin - near.until > kSameNearMiss) {
     close(near);
-    near = {within.end, approach->clearance_m};
-  } else {
-    near = {std::max(near.until, within.end), std::min(near.clearance_m, approach->clearance_m)};
+    near = {};
   }
+  near.until = std::max(near.until, within.end);
+  near.is_miss = near.is_miss && !comes_below(a, b, {*from, part->end}, margin_m_, evaluations_);
 }
 
 void CoverageLaw::finish(SimTime) {

@@ -121,8 +121,9 @@ class DrivenWays::Judge {
     if (!may_meet(earlier, later)) return;
     if (earlier.curve->is_straight() && later.curve->is_straight()) return add_straight(pair, earlier, later);
     const Track &a = track_of(pair.earlier), &b = track_of(pair.later);
-    add_encounter(earlier, later, encounter_of(a, b, ways_.margin_m_), pair.times);
-    add_passing(a, b, pair.times);
+    const Encounter encounter = encounter_of(a, b, ways_.margin_m_);
+    add_encounter(earlier, later, encounter.kind, pair.times);
+    if (!encounter.bands_overlap) add_passing(a, b, pair.times);
   }
   const Meetings& sum() const { return sum_; }
 
@@ -143,10 +144,10 @@ class DrivenWays::Judge {
     const double widths_m = 0.5 * (earlier.footprint.width_m + later.footprint.width_m);
     if (MiddleLine::are_apart(a, b, widths_m + std::max(ways_.margin_m_, kTightGap_m) + kRounding_m)) return;
     const bool follows = surely_following(a, b, widths_m + ways_.margin_m_);
-    const auto kind = follows ? EncounterKind::Following
-                              : encounter_of(track_of(pair.earlier), track_of(pair.later), ways_.margin_m_);
-    add_encounter(earlier, later, kind, pair.times);
-    if (surely_not_side_by_side(a, b, widths_m)) return;
+    const Encounter encounter = follows ? Encounter{EncounterKind::Following}
+                                        : encounter_of(track_of(pair.earlier), track_of(pair.later), ways_.margin_m_);
+    add_encounter(earlier, later, encounter.kind, pair.times);
+    if (encounter.bands_overlap || surely_not_side_by_side(a, b, widths_m)) return;
     add_passing(track_of(pair.earlier), track_of(pair.later), pair.times);
   }
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kStep_m = 0.4;   // between points of a track: well below any width
 constexpr double kSameWay = 0.5;  // cosine of 60 degrees
-constexpr double kRounding_m = 1e-6;
+constexpr double kRounding_m = 1e-6, kSurely_m = 1e-3;
 constexpr double kBoxRounding_m = 1e-3;  // lengths and poses of curves are more accurate than that
 
 struct Closest {
@@ -46,6 +46,20 @@ std::optional<Closest> closest_points(const Track& a, const Track& b, double rea
 bool at_start(const Track& track, double s_m) { return s_m <= track.centre_m + 0.5 * track.footprint.length_m; }
 bool at_end(const Track& track, double s_m) {
   return s_m >= track.length_m + track.centre_m - 0.5 * track.footprint.length_m;
+}
+
+std::optional<EncounterKind> kind_of(const Track& a, const Track& b, const Closest& closest) {
+  const double cosine = closest.a->heading.dot(closest.b->heading);
+  const bool from_start = at_start(a, closest.a->s_m) || at_start(b, closest.b->s_m);
+  const bool both_from_start = at_start(a, closest.a->s_m) && at_start(b, closest.b->s_m);
+  if (cosine >= kSameWay) {
+    const bool from_different_sides = !at_start(a, closest.first_a_m) && !at_start(b, closest.first_b_m);
+    return from_different_sides ? EncounterKind::Merging : EncounterKind::Following;
+  }
+  if (both_from_start) return std::nullopt;
+  if (cosine <= -kSameWay) return EncounterKind::HeadOn;
+  if (from_start) return EncounterKind::Following;
+  return at_end(a, closest.a->s_m) && at_end(b, closest.b->s_m) ? EncounterKind::Merging : EncounterKind::Crossing;
 }
 
 // Where the centre of the body is when its reference point is at the start of the track, along the travel.
@@ -109,22 +123,12 @@ bool surely_following(const MiddleLine& a, const MiddleLine& b, double reach_m) 
   return b.square_distance_m2(a.begin_m) < square_m2 || a.square_distance_m2(b.begin_m) < square_m2;
 }
 
-std::optional<EncounterKind> encounter_of(const Track& a, const Track& b, double margin_m) {
-  const double reach_m = 0.5 * (a.footprint.width_m + b.footprint.width_m) + margin_m;
-  if (!a.box.grown(reach_m).overlaps(b.box)) return std::nullopt;
+Encounter encounter_of(const Track& a, const Track& b, double margin_m) {
+  const double widths_m = 0.5 * (a.footprint.width_m + b.footprint.width_m), reach_m = widths_m + margin_m;
+  if (!a.box.grown(reach_m).overlaps(b.box)) return {};
   const auto closest = closest_points(a, b, reach_m);
-  if (!closest) return std::nullopt;
-  const double cosine = closest->a->heading.dot(closest->b->heading);
-  const bool from_start = at_start(a, closest->a->s_m) || at_start(b, closest->b->s_m);
-  const bool both_from_start = at_start(a, closest->a->s_m) && at_start(b, closest->b->s_m);
-  if (cosine >= kSameWay) {
-    const bool from_different_sides = !at_start(a, closest->first_a_m) && !at_start(b, closest->first_b_m);
-    return from_different_sides ? EncounterKind::Merging : EncounterKind::Following;
-  }
-  if (both_from_start) return std::nullopt;
-  if (cosine <= -kSameWay) return EncounterKind::HeadOn;
-  if (from_start) return EncounterKind::Following;
-  return at_end(a, closest->a->s_m) && at_end(b, closest->b->s_m) ? EncounterKind::Merging : EncounterKind::Crossing;
+  if (!closest) return {};
+  return {kind_of(a, b, *closest), closest->distance_m < widths_m - kSurely_m};
 }
 
 }  // namespace fleetproof

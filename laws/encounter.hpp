@@ -40,14 +40,18 @@ struct Track {
   }
 };
 
-// How two drives meet, judged where their tracks come closest. None if the tracks stay `margin_m` and half their widths
-// apart, or if the tracks only separate.
+// How two drives meet, judged where their tracks come closest. No kind if the tracks stay `margin_m` and half their
+// widths apart, or if the tracks only separate.
 //   head-on:   the tracks run against each other there (more than 120 degrees apart);
 //   following: the tracks run in the same direction (less than 60 degrees apart), or one AGV enters the place that the
 //              other leaves;
 //   merging:   the tracks come from different sides and continue in the same direction, or end at the same place;
 //   crossing:  any other case.
-std::optional<EncounterKind> encounter_of(const Track& a, const Track& b, double margin_m);
+struct Encounter {
+  std::optional<EncounterKind> kind;
+  bool bands_overlap = false;  // true only if tracks as wide as the bodies do: they need the same floor
+};
+Encounter encounter_of(const Track& a, const Track& b, double margin_m);
 // True only if encounter_of() says `following` of two straight tracks: one begins beside the other, in its direction.
 // `reach_m`: `margin_m` and half their widths.
 bool surely_following(const MiddleLine& a, const MiddleLine& b, double reach_m);

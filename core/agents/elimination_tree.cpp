@@ -10,7 +10,7 @@ namespace fleetproof::agents {
 namespace {
 
 // More neighbours are allowed as soon as a round takes out no more than one station in so many.
-constexpr std::size_t kFew = 32;
+constexpr std::size_t kFew = 16;
 constexpr std::size_t kLinksOfALane = 3;  // mostly enough
 
 }  // namespace

@@ -59,15 +59,16 @@ struct QuickestWay::Desk {
     std::uint32_t arrival = FP_NONE;
     std::uint64_t search = 0;
   };
-  std::vector<Rest> rest;        // by station
-  std::vector<Reached> reached;  // by station
-  std::vector<std::uint32_t> climb;
-  std::vector<Open> open;  // heap, least first, of the search forward
+  std::vector<Rest> rest;            // by station
+  std::vector<Reached> reached;      // by station
+  std::vector<std::uint32_t> climb;  // has room for all stations
+  std::vector<Open> open;            // heap, least first, of the search forward
   std::uint64_t plans = 0, searches = 0;
 
   static Desk& of_this_thread(std::uint32_t station_count) {
     thread_local Desk desk;
-    if (desk.rest.size() < station_count) desk.rest.resize(station_count), desk.reached.resize(station_count);
+    if (desk.rest.size() >= station_count) return desk;
+    desk.rest.resize(station_count), desk.reached.resize(station_count), desk.climb.resize(station_count);
     return desk;
   }
   bool is_settled(std::uint32_t station) const { return rest[station].known == 2 * plans + 1; }
@@ -104,10 +105,11 @@ void QuickestWay::climb_from(Desk& desk, std::uint32_t goal) const {
 
 // Infinite if there is no way. Ways that climb first go on as the quickest way of an ancestor.
 double QuickestWay::remains_s(Desk& desk, std::uint32_t station) const {
+  std::size_t climbed = 0;
   for (std::uint32_t at = station; at != FP_NONE && !desk.is_settled(at); at = tree_.parent(at))
-    desk.climb.push_back(at);
-  for (; !desk.climb.empty(); desk.climb.pop_back()) {
-    const std::uint32_t at = desk.climb.back();
+    desk.climb[climbed++] = at;
+  while (climbed > 0) {
+    const std::uint32_t at = desk.climb[--climbed];
     double least_s = desk.rest[at].known == 2 * desk.plans ? desk.rest[at].remains_s : INFINITY;
     for (const EliminationTree::Arc& arc : tree_.arcs(at))
       least_s = std::min(least_s, arc.there_s + desk.rest[arc.to].remains_s);
@@ -129,6 +131,7 @@ std::uint32_t QuickestWay::next_lane(std::uint32_t from, std::uint32_t to) {
 
 void QuickestWay::plan(std::uint32_t from, std::uint32_t to) {
   way_.clear();
+  way_.reserve(kStretch);
   Desk& desk = Desk::of_this_thread(map_.station_count());
   climb_from(desk, to);
   if (remains_s(desk, from) == INFINITY) return;

@@ -31,9 +31,10 @@ std::optional<SimTime> last_below(const Piece& a, const Piece& b, Interval withi
   return instant_of(advance(a, b, within.end, within.begin, level_m, count));
 }
 
-bool comes_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count) {
-  return within.begin <= within.end &&
-         advance(a, b, within.begin, within.end, level_m, count, Dating::Rough).has_value();
+std::optional<SimTime> comes_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                   EvaluationCount& count) {
+  if (within.end < within.begin) return std::nullopt;
+  return instant_of(advance(a, b, within.begin, within.end, level_m, count, Dating::Rough));
 }
 
 std::optional<ClosestApproach> closest_approach(const Piece& a, const Piece& b, Interval within, double below_m,

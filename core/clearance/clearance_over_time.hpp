@@ -35,8 +35,10 @@ std::optional<SimTime> first_below(const Piece& a, const Piece& b, Interval with
 std::optional<SimTime> last_below(const Piece& a, const Piece& b, Interval within, double level_m,
                                   EvaluationCount& count);
 
-// Whether the clearance is ever below `level_m`: first_below without the cost of the last nanoseconds.
-bool comes_below(const Piece& a, const Piece& b, Interval within, double level_m, EvaluationCount& count);
+// An instant at which the clearance is below `level_m`, on the first dip below: first_below without the cost of the
+// last nanoseconds.
+std::optional<SimTime> comes_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                   EvaluationCount& count);
 
 // Smallest clearance over the interval, to `tolerance_m`, with an instant at which it is met; nothing if it stays at or
 // above `below_m`. If the bodies touch, the first instant at which they do, with the clearance (zero or less) of that

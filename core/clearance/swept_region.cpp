@@ -7,6 +7,7 @@ namespace fleetproof {
 namespace {
 
 constexpr double kRounding_m = 1e-6;
+constexpr int kHalvings = 2;
 
 // All points that are at most so far from a rectangle.
 struct Region {
@@ -38,12 +39,31 @@ Region swept(const Piece& piece, Interval within) {
   return {body};
 }
 
-}  // namespace
-
+// What the bodies cover meets nowhere.
 bool surely_apart(const Piece& a, const Piece& b, Interval within, double distance_m) {
   const Region first = swept(a, within), second = swept(b, within);
   const double beyond_m = first.beyond_m + second.beyond_m + distance_m + kRounding_m;
   return clearance_m(first.rectangle, second.rectangle) > beyond_m;
+}
+
+}  // namespace
+
+// The shorter the interval, the better the regions say where the bodies are.
+std::optional<Interval> near_part(const Piece& a, const Piece& b, Interval within, double distance_m) {
+  if (surely_apart(a, b, within, distance_m)) return std::nullopt;
+  for (int halved = 0; halved < kHalvings; ++halved) {
+    const SimTime middle = within.begin + (within.end - within.begin) / 2;
+    const Interval early{within.begin, middle}, late{middle, within.end};
+    if (surely_apart(a, b, early, distance_m)) {
+      if (surely_apart(a, b, late, distance_m)) return std::nullopt;
+      within = late;
+    } else if (surely_apart(a, b, late, distance_m)) {
+      within = early;
+    } else {
+      return within;
+    }
+  }
+  return within;
 }
 
 }  // namespace fleetproof

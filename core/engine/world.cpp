@@ -112,7 +112,7 @@ void World::predict_touches(EntityId id, std::vector<TouchPrediction>& out) {
     if (!reach.overlaps(other.piece.planned_box) || have_touched(id, other_id)) continue;
     const Interval common{std::max(mine.piece.begin, other.piece.begin),
                           std::min({mine.piece.end, other.piece.end, kStart + scenario_.horizon})};
-    if (common.begin > common.end || surely_apart(mine.piece, other.piece, common, kTouch_m)) continue;
+    if (common.begin > common.end || !near_part(mine.piece, other.piece, common, kTouch_m)) continue;
     if (const auto at = first_below(mine.piece, other.piece, common, kTouch_m, evaluations_)) {
       out.push_back({*at, id, other_id, mine.piece.number, other.piece.number});
     }

@@ -44,6 +44,7 @@ void add_crossings(const std::array<Vec2, 4>& first, const std::array<Vec2, 4>& 
 std::vector<PointPair> nearest_points(const OrientedRectangle& first, const OrientedRectangle& second) {
   const auto of_first = corners(first), of_second = corners(second);
   std::vector<PointPair> pairs;
+  pairs.reserve(of_first.size() + of_second.size() + of_first.size() * of_second.size());
   double least_m = std::numeric_limits<double>::infinity();
   const auto offer = [&](const PointPair& pair) {
     pairs.push_back(pair);

@@ -30,7 +30,7 @@ void add(const Piece& earlier, const Piece& later, StationId to, bool one_place,
          DrivenWays::Meetings& sum) {
   const Track a = Track::of(*earlier.curve, earlier.footprint), b = Track::of(*later.curve, later.footprint);
   const auto scene = [&](SceneKind met, bool holds) { sum.scenes[static_cast<std::size_t>(met)] += holds ? 1 : 0; };
-  const auto kind = encounter_of(a, b, kMargin_m);
+  const auto kind = encounter_of(a, b, kMargin_m).kind;
   if (kind) ++sum.encounters[static_cast<std::size_t>(*kind)];
   scene(SceneKind::BackIn, kind && (a.tail_first || b.tail_first));
   const SideBySide passing = side_by_side(a, b, kMargin_m);
