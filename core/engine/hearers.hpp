@@ -11,8 +11,7 @@
 
 namespace fleetproof {
 
-// Who hears a message, and under which number: the messages that one AGV sends to the same receiver at one instant are
-// counted from 0 on.
+// Who hears a message, and under which number (the ordinal of MessageKey).
 class Hearers {
  public:
   explicit Hearers(RunContext& run);
@@ -29,23 +28,24 @@ class Hearers {
     if (reach_) reach_->forget(agv);
   }
 
-  // A message is sent. `ordinal`: its number among all that its sender sends at this instant, from 0 on. Then ask one
-  // of the two questions below. Who is in range stays so during an instant.
+  // A message is sent. `ordinal`: its number among all that its sender sends at this instant, from 0 on. Then ask for
+  // the number, or for the hearers.
   void begin(AgvId sender, std::uint32_t ordinal) {
     if (ordinal == 0) sent_to_[sender.index()].clear();
   }
-  // Of a message to all: whether all who hear it do so under one number; this number, which is then taken; and who they
-  // are, if not everybody, in ascending order. Three more may be read.
+  // Of a message to all: whether all who hear it do so under one number.
   bool hear_alike(AgvId sender) const { return sent_to_[sender.index()].receivers.empty(); }
+  // If so: this number, which is then taken.
   std::uint32_t next_number(AgvId sender) { return sent_to_[sender.index()].to_all++; }
+  // Those who hear it, if not everybody, in ascending order. Three more may be read.
   std::span<const std::uint32_t> in_range(AgvId sender, const Vec2& from_m);
   // Those who hear it, in ascending order. Three more may be read. `receiver`: FP_NONE, or the only one for whom it is;
   // `from_m` matters only if not everybody hears it.
   std::span<const Hearer> of(AgvId sender, std::uint32_t receiver, const Vec2& from_m);
 
  private:
-  // What one AGV sent at the last instant at which it sent anything: the number of its messages to all, which count for
-  // those who heard them, the number of further ones by receiver, and these receivers.
+  // What one AGV sent at the last instant at which it sent anything: the number of its messages to all, the number of
+  // further ones by receiver, and these receivers.
   struct SentTo {
     std::uint32_t to_all = 0;
     std::vector<std::uint32_t> counts;  // empty until the first of them
@@ -64,7 +64,7 @@ class Hearers {
   RunContext& run_;
   std::optional<RadioReach> reach_;  // if the range is limited
   std::vector<SentTo> sent_to_;      // by sender
-  std::vector<std::uint32_t> near_;  // those in range, if some of them drive, and three zeros
+  std::vector<std::uint32_t> near_;  // those in range, if not all near AGVs stand; three more may be read
   std::vector<Hearer> found_;        // of the message being sent, in the first `count_` places
   std::size_t count_ = 0;
 };

@@ -12,7 +12,9 @@ namespace fleetproof {
 struct MessageKey {
   AgvId sender, receiver;
   SimTime sent{};
-  std::uint32_t ordinal = 0;  // among the messages from this sender to this receiver at that instant, from 0 on
+  // How many messages this sender has sent before at that instant: those to all, and those that only this receiver
+  // heard.
+  std::uint32_t ordinal = 0;
 };
 
 inline Block counter_of(const MessageKey& message) {

@@ -66,7 +66,7 @@ TEST(Hearers, OnlyThoseInRangeHear) {
   EXPECT_EQ(heard_of(hearers, 3), (Heard{{0, 2}}));
 }
 
-TEST(Hearers, WhoDrivesIsInRangeWhereItIsNow) {
+TEST(Hearers, WhoMayBeAnywhereIsInRangeWhereItIsNow) {
   SmallWorld world(three_with_range(15.0));
   Hearers hearers(world.run);
   hearers.forget_path(kThird);

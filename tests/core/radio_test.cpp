@@ -152,6 +152,31 @@ TEST(Radio, BeyondTheRangeNothingArrives) {
   EXPECT_EQ(outcome.counters.out_of_range, 1U);
 }
 
+// An observer wants to know each fate, and the radio then decides them one by one.
+TEST(Radio, MessagesFareTheSameWhetherAnybodyWatchesOrNot) {
+  for (const double range_m : {8.0, 17.0, 1000.0}) {
+    Scenario scenario = test::row_scenario(16, {0, 2, 4, 5, 7, 9, 10, 12, 15}, 40.0);
+    scenario.radio.range_m = range_m;
+    scenario.radio.loss = 0.3;
+    const test::Handler handler = [](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+      if (e.kind != FP_EVENT_START && e.kind != FP_EVENT_ACTION_DONE) return;
+      host.send_broadcast(c, "a", 1);
+      host.send_broadcast(c, "b", 1);
+      if (b.self % 2 == 0) host.send_unicast(c, "c", 1, (b.self + 1) % 9);
+      host.send_broadcast(c, "d", 1);
+      host.move(c, b.self);
+    };
+    const Outcome unwatched = test::simulate_with(scenario, handler);
+    test::Recorder recorder;
+    const Outcome watched = test::simulate_with(scenario, handler, &recorder);
+    EXPECT_EQ(unwatched.digest, watched.digest) << range_m;
+    EXPECT_EQ(unwatched.counters.receptions_lost, watched.counters.receptions_lost);
+    EXPECT_EQ(unwatched.counters.out_of_range, watched.counters.out_of_range);
+    EXPECT_GT(unwatched.counters.receptions_lost, 10U);
+    EXPECT_EQ(unwatched.counters.out_of_range > 0, range_m < 100.0);
+  }
+}
+
 TEST(MessagePool, ReusesSlots) {
   MessagePool pool;
   const auto first = pool.add(kA, "one", 2);

@@ -161,6 +161,16 @@ TEST(NearMisses, SeamsDoNotCountTwiceButComingBackDoes) {
   EXPECT_EQ(met(scene)["near-miss"], 2U);
 }
 
+TEST(NearMisses, AViolationStaysOneUntilTheyHavePartedForASecond) {
+  Scene scene(60.0);
+  scene.agv(facing(5.0, 1.05, 1.0, 0.0));
+  Timeline& other = scene.agv(facing(0.0, 0.0, 1.0, 0.0));
+  other.drive(6.8).drive(3.2);  // the second drive begins 0.2 m ahead of the body that it has passed at 0.05 m
+  EXPECT_EQ(met(scene)["near-miss"], 0U);
+  other.wait_until(20.0).turn(-kPi / 2).drive(0.15).turn(-kPi / 2).drive(10.0);
+  EXPECT_EQ(met(scene)["near-miss"], 1U) << "back at 0.2 m";
+}
+
 TEST(Faults, AreCountedByKind) {
   const Scenario scenario = row_scenario(2, {0, 1});
   Told told(scenario, "coverage");
