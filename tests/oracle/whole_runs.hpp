@@ -55,6 +55,15 @@ class GlobalClock final : public Law {
   double apart_m(EntityId a, EntityId b, SimTime t) const {
     return distance_m(place(piece_at(a, t), t).corners, place(piece_at(b, t), t).corners);
   }
+  // A body on a curve may come 10 micrometres nearer.
+  double allowance_m(EntityId a, EntityId b, SimTime t) const {
+    constexpr double kOnACurve_m = 1e-5;
+    const auto of = [&](EntityId body) {
+      const Piece& piece = piece_at(body, t);
+      return piece.manner == fleetproof::Manner::Drive && !piece.curve->is_straight() ? kOnACurve_m : 0.0;
+    };
+    return of(a) + of(b);
+  }
 
  private:
   struct Placed {
@@ -138,12 +147,11 @@ inline void expect_measured(const std::string& which, const Scenario& scenario, 
   for (const SimTime edge : {v.first, v.last}) {
     EXPECT_LE(clock.apart_m(v.a, v.b, edge), level_m + kTolerance_m) << which << " at " << to_seconds(edge) << " s";
   }
-  if (v.first > kStart) {
-    EXPECT_GE(clock.apart_m(v.a, v.b, v.first - kBeside), level_m - kTolerance_m) << which;
-  }
-  if (v.last < kStart + scenario.horizon) {
-    EXPECT_GE(clock.apart_m(v.a, v.b, v.last + kBeside), level_m - kTolerance_m) << which;
-  }
+  const auto is_kept_at = [&](SimTime t) {
+    EXPECT_GE(clock.apart_m(v.a, v.b, t), level_m - clock.allowance_m(v.a, v.b, t) - kTolerance_m) << which;
+  };
+  if (v.first > kStart) is_kept_at(v.first - kBeside);
+  if (v.last < kStart + scenario.horizon) is_kept_at(v.last + kBeside);
 }
 
 // What the clock saw lies in the stretches of the law, and is no closer than these.
