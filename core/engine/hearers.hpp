@@ -37,7 +37,7 @@ class Hearers {
   bool hear_alike(AgvId sender) const { return sent_to_[sender.index()].receivers.empty(); }
   // If so: this number, which is then taken.
   std::uint32_t next_number(AgvId sender) { return sent_to_[sender.index()].to_all++; }
-  // Those who hear it, if not everybody, in ascending order. Three more may be read.
+  // Those who hear it, if not everybody, in ascending order; counts the others. Three more may be read.
   std::span<const std::uint32_t> in_range(AgvId sender, const Vec2& from_m);
   // Those who hear it, in ascending order. Three more may be read. `receiver`: FP_NONE, or the only one for whom it is;
   // `from_m` matters only if not everybody hears it.

@@ -7,8 +7,8 @@
 
 namespace fleetproof {
 
-// The boxes of many bodies on a grid without bounds. Each box is filed in every cell that it touches, and one that
-// touches many cells in a list beside the grid. Boxes that overlap touch a common cell, however they are rounded.
+// Finds the boxes of many bodies that overlap a given one, by a grid over the whole plane. A box is filed in each cell
+// that it touches, or in a list of its own if these are many. Two boxes that overlap always touch a common cell.
 class BoxGrid {
  public:
   explicit BoxGrid(std::size_t bodies);

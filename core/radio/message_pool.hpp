@@ -12,8 +12,8 @@
 
 namespace fleetproof {
 
-// The bytes of a message. Moving the object does not move them, as it would move those of a short std::string: an agent
-// reads the bytes of a message while it sends others, and the pool of messages grows.
+// The bytes of a message, which stay where they are when the object is moved; those of a short std::string do not. An
+// agent may read a message while it sends others and the pool of messages grows.
 class MessageBytes {
  public:
   std::size_t size() const { return size_; }
