@@ -14,6 +14,7 @@
 #include "storage/canonical_file.hpp"
 #include "storage/checksum.hpp"
 #include "storage/durable_file.hpp"
+#include "storage/insert.hpp"
 #include "storage/live_file.hpp"
 #include "storage/plan_rows.hpp"
 #include "storage/row_store.hpp"
@@ -74,18 +75,16 @@ void ArchiveWriter::Impl::insert_plan(const CampaignRecord& campaign, const std:
                                       const std::vector<GateRecord>& gates) {
   auto insert_campaign = insert_into(*db, "campaign", kCampaignColumns);
   bind_campaign(insert_campaign, campaign, plan_checksum(campaign, cell_records, gates));
-  insert_campaign.exec();
+  insert_campaign.run();
   auto insert_cell = insert_into(*db, "cells", cell_columns());
   for (const auto& cell : cell_records) {
-    insert_cell.reset();
     bind_cell(insert_cell, cell);
-    insert_cell.exec();
+    insert_cell.run();
   }
   auto insert_gate = insert_into(*db, "gates", gate_columns());
   for (const auto& gate : gates) {
-    insert_gate.reset();
     bind_gate(insert_gate, gate);
-    insert_gate.exec();
+    insert_gate.run();
   }
 }
 
@@ -97,7 +96,7 @@ void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vect
   make_live_file(begun);
   try {
     db = std::make_unique<SQLite::Database>(begun, SQLite::OPEN_READWRITE);
-    db->exec(fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}", kPageSize,
+    db->exec(fmt::format("PRAGMA page_size={}; PRAGMA application_id={}; PRAGMA user_version={}", kLivePageSize,
                          kApplicationId, kSchemaVersion));
     // Without a log until it is whole: closing a file that has one can fail silently.
     db->exec("BEGIN");

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "storage/checksum.hpp"
+#include "storage/insert.hpp"
 #include "storage/opened_file.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
@@ -79,11 +80,10 @@ std::uint64_t checksums_digest(SQLite::Database& db, const char* checksums) {
 }
 
 void insert_chunks(SQLite::Database& db, const std::vector<ChunkRecord>& chunks) {
-  SQLite::Statement insert(db, fmt::format("INSERT INTO main.chunks ({}) VALUES (?, ?, ?)", kChunkColumns));
+  Insert insert = insert_into(db, "main.chunks", kChunkColumns);
   for (const ChunkRecord& chunk : chunks) {
-    insert.reset();
     bind_chunk(insert, chunk);
-    insert.exec();
+    insert.run();
   }
 }
 

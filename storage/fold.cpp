@@ -2,7 +2,6 @@
 
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -14,6 +13,7 @@
 #include "storage/archive_reader.hpp"
 #include "storage/checksum.hpp"
 #include "storage/folded_cell.hpp"
+#include "storage/insert.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
 
@@ -46,9 +46,8 @@ class Folder {
       : may_fold_(may_fold),
         cells_(cells),
         more_(runs_with_more(db)),
-        insert_folded_(
-            db, fmt::format("INSERT INTO main.folded ({}) VALUES ({})", kFoldedColumns, placeholders(kFoldedColumns))),
-        insert_kept_(db, "INSERT INTO temp.kept (run_index) VALUES (?)"),
+        insert_folded_(insert_into(db, "main.folded", kFoldedColumns)),
+        insert_kept_(insert_into(db, "temp.kept", "run_index")),
         block_(cells.size()) {}
 
   void add(const RunRecord& run) {
@@ -57,9 +56,8 @@ class Folder {
       cell.fold(run, row_checksum(run));
     } else {
       cell.keep();
-      insert_kept_.reset();
       insert_kept_.bind(1, std::bit_cast<std::int64_t>(run.run_index));
-      insert_kept_.exec();
+      insert_kept_.run();
     }
     const bool ends_replicate = run.cell + 1 == cells_.size();
     if (ends_replicate && (run.replicate + 1) % kReplicatesPerFold == 0) end_block();
@@ -70,9 +68,8 @@ class Folder {
       if (block_[cell].runs() == 0) continue;
       const FoldedRow row =
           row_of(block_[cell], block_number_ * block_.size() + cell, static_cast<std::uint32_t>(cell));
-      insert_folded_.reset();
       bind_folded(insert_folded_, row, folded_checksum(row));
-      insert_folded_.exec();
+      insert_folded_.run();
     }
     ++block_number_;
     block_.assign(cells_.size(), FoldedCell());
@@ -98,7 +95,7 @@ class Folder {
   std::set<std::uint64_t> more_;
   std::set<std::tuple<std::string, ProbeSource, std::string>> met_;
   std::set<std::string> in_safe_mode_;
-  SQLite::Statement insert_folded_, insert_kept_;
+  Insert insert_folded_, insert_kept_;
   std::uint64_t block_number_ = 0;
   std::vector<FoldedCell> block_;  // by cell
 };

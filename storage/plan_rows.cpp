@@ -1,7 +1,5 @@
 #include "storage/plan_rows.hpp"
 
-#include <SQLiteCpp/Column.h>
-#include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
 #include <bit>
@@ -54,7 +52,7 @@ Enum word_to(const std::string& word) {
 
 }  // namespace
 
-void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum) {
+void bind_campaign(Insert& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum) {
   Binder(insert) << std::uint32_t{1} << campaign.name << campaign.kind << campaign.seed << campaign.replicates
                  << campaign.plan_json << campaign.plan_hash << campaign.engine.version
                  << campaign.engine.program_sha256 << campaign.engine.compiler << campaign.engine.flags
@@ -64,11 +62,11 @@ void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, st
                  << plan_checksum << campaign.chunk_runs << name_of(campaign.keep);
 }
 
-void bind_cell(SQLite::Statement& insert, const CellRecord& cell) {
+void bind_cell(Insert& insert, const CellRecord& cell) {
   Binder(insert) << cell.index << cell.agent << cell.layout << cell.fleet_size << cell.lowest << cell.highest;
 }
 
-void bind_gate(SQLite::Statement& insert, const GateRecord& gate) {
+void bind_gate(Insert& insert, const GateRecord& gate) {
   Binder(insert) << gate.index << gate.name << gate.agent << name_of(gate.kind) << name_of(gate.end_point)
                  << name_of(gate.region) << gate.limit << gate.confidence << gate.min_transports_per_agv_hour
                  << gate.requirement << gate.where.layout << name_of(gate.unit) << name_of(gate.method) << gate.decides

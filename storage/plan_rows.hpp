@@ -4,19 +4,16 @@
 
 #include "storage/records.hpp"
 
-namespace SQLite {
-class Statement;
-}
-
 namespace fleetproof {
 
+class Insert;
 class Query;
 class Row;
 
 // As rows.hpp, for the rows of the plan.
-void bind_campaign(SQLite::Statement& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum);
-void bind_cell(SQLite::Statement& insert, const CellRecord& cell);
-void bind_gate(SQLite::Statement& insert, const GateRecord& gate);
+void bind_campaign(Insert& insert, const CampaignRecord& campaign, std::uint64_t plan_checksum);
+void bind_cell(Insert& insert, const CellRecord& cell);
+void bind_gate(Insert& insert, const GateRecord& gate);
 
 CampaignRecord read_campaign(const Row& row);
 std::uint64_t read_plan_checksum(const Query& row);

@@ -1,12 +1,10 @@
 #include "storage/row_fields.hpp"
 
-#include <SQLiteCpp/Statement.h>
-
 #include <bit>
 #include <cstring>
-#include <utility>
 
 #include "core/base/error.hpp"
+#include "storage/insert.hpp"
 #include "storage/row_source.hpp"
 
 namespace fleetproof {
@@ -19,31 +17,28 @@ std::uint32_t in_range(std::int64_t value) {
 
 }  // namespace
 
-Binder& Binder::operator<<(std::int64_t value) { return statement_.bind(next_++, value), *this; }
+Binder& Binder::operator<<(std::int64_t value) { return insert_.bind(next_++, value), *this; }
 Binder& Binder::operator<<(std::uint64_t value) { return *this << std::bit_cast<std::int64_t>(value); }
-Binder& Binder::operator<<(double value) { return statement_.bind(next_++, value), *this; }
-Binder& Binder::operator<<(const std::string& value) { return statement_.bindNoCopy(next_++, value), *this; }
-Binder& Binder::operator<<(std::string&& value) { return statement_.bind(next_++, std::move(value)), *this; }
-Binder& Binder::operator<<(const char* value) { return statement_.bindNoCopy(next_++, value), *this; }
-Binder& Binder::null() { return statement_.bind(next_++), *this; }
-
-void Binder::bytes(const std::string& value) {
-  statement_.bindNoCopy(next_++, static_cast<const void*>(value.data()), static_cast<int>(value.size()));
+Binder& Binder::operator<<(double value) { return insert_.bind(next_++, value), *this; }
+Binder& Binder::operator<<(const std::string& value) { return insert_.bind_text(next_++, value), *this; }
+Binder& Binder::operator<<(std::string&& value) {
+  return insert_.bind_text(next_++, value, Insert::Kept::AsCopy), *this;
 }
+Binder& Binder::operator<<(const char* value) { return insert_.bind_text(next_++, value), *this; }
+Binder& Binder::null() { return insert_.bind_null(next_++), *this; }
+
+void Binder::bytes(const std::string& value) { insert_.bind_bytes(next_++, value); }
 
 Binder& Binder::operator<<(const std::vector<std::uint64_t>& digests) {
   if constexpr (std::endian::native == std::endian::little) {  // the memory holds what is stored
-    if (!digests.empty()) {
-      statement_.bindNoCopy(next_++, static_cast<const void*>(digests.data()),
-                            static_cast<int>(digests.size() * sizeof(std::uint64_t)));
-      return *this;
-    }
+    insert_.bind_bytes(next_++, {reinterpret_cast<const char*>(digests.data()), digests.size() * sizeof(digests[0])});
+    return *this;
   }
   std::string bytes;
   for (const auto digest : digests) {
     for (int i = 0; i < 8; ++i) bytes.push_back(static_cast<char>(static_cast<std::uint8_t>(digest >> (8 * i))));
   }
-  statement_.bind(next_++, static_cast<const void*>(bytes.data()), static_cast<int>(bytes.size()));
+  insert_.bind_bytes(next_++, bytes, Insert::Kept::AsCopy);
   return *this;
 }
 

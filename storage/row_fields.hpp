@@ -9,20 +9,17 @@
 #include "core/base/strong_id.hpp"
 #include "storage/factors.hpp"
 
-namespace SQLite {
-class Statement;
-}
-
 // The values of a row, for the files that turn records into rows and back.
 namespace fleetproof {
 
+class Insert;
 class Row;
 
-// Fills the parameters of a statement from left to right. Requires: texts and digests live until the statement has run,
+// Fills the parameters of an INSERT from left to right. Requires: texts and digests live until the statement has run,
 // but for temporary texts, which are copied.
 class Binder {
  public:
-  explicit Binder(SQLite::Statement& statement, int first = 1) : statement_(statement), next_(first) {}
+  explicit Binder(Insert& insert, int first = 1) : insert_(insert), next_(first) {}
 
   Binder& operator<<(std::int64_t value);
   Binder& operator<<(std::uint64_t value);  // SQLite has only signed 64-bit integers; the bits stay the same
@@ -47,7 +44,7 @@ class Binder {
  private:
   Binder& null();
 
-  SQLite::Statement& statement_;
+  Insert& insert_;
   int next_;
 };
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "storage/checksum.hpp"
+#include "storage/insert.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
 
@@ -28,39 +29,42 @@ constexpr std::int64_t kRecordingBytesMax = std::int64_t{1} << 30;
 template <class Part>
 class PartsInsert {
  public:
-  using Bind = void (*)(SQLite::Statement&, int first, std::uint64_t run_index, std::size_t ordinal, const Part&);
+  using Bind = void (*)(Insert&, int first, const Part&);
 
+  // The first two columns are the run index and the ordinal.
   PartsInsert(SQLite::Database& db, std::string table, std::string columns, Bind bind)
       : db_(db), table_(std::move(table)), columns_(std::move(columns)), bind_(bind) {}
 
   void insert(std::uint64_t run_index, const std::vector<Part>& parts) {
     for (std::size_t done = 0; done < parts.size();) {
-      const std::size_t rows = std::min(parts.size() - done, statements_.size());
-      SQLite::Statement& statement = statement_of(rows);
-      statement.reset();
+      const std::size_t rows = std::min(parts.size() - done, inserts_.size());
+      Insert& insert = insert_of(rows);
+      insert.bind(1, std::bit_cast<std::int64_t>(run_index));
+      insert.bind(2, static_cast<std::int64_t>(done));
       for (std::size_t row = 0; row < rows; ++row, ++done)
-        bind_(statement, 1 + static_cast<int>(row) * count_, run_index, done, parts[done]);
-      statement.exec();
+        bind_(insert, 3 + static_cast<int>(row) * own_columns_, parts[done]);
+      insert.run();
     }
   }
 
  private:
-  SQLite::Statement& statement_of(std::size_t rows) {
-    auto& statement = statements_[rows - 1];
-    if (!statement) {
-      std::string values = fmt::format("({})", placeholders(columns_));
-      const std::string row = ", " + values;
-      for (std::size_t i = 1; i < rows; ++i) values += row;
-      statement.emplace(db_, fmt::format("INSERT OR FAIL INTO {} ({}) VALUES {}", table_, columns_, values));
+  Insert& insert_of(std::size_t rows) {
+    auto& insert = inserts_[rows - 1];
+    if (!insert) {
+      std::string values, own;
+      for (int i = 0; i < own_columns_; ++i) own += ", ?";
+      for (std::size_t row = 0; row < rows; ++row)
+        values += fmt::format("{}(?1, ?2 + {}{})", row == 0 ? "" : ", ", row, own);
+      insert.emplace(db_, fmt::format("INSERT OR FAIL INTO {} ({}) VALUES {}", table_, columns_, values));
     }
-    return *statement;
+    return *insert;
   }
 
   SQLite::Database& db_;
   const std::string table_, columns_;
   const Bind bind_;
-  const int count_ = 1 + static_cast<int>(std::ranges::count(columns_, ','));
-  std::array<std::optional<SQLite::Statement>, 8> statements_;  // by their number of rows
+  const int own_columns_ = static_cast<int>(std::ranges::count(columns_, ',')) - 1;
+  std::array<std::optional<Insert>, 16> inserts_;  // by their number of rows
 };
 
 std::string insert_new_run() {
@@ -71,12 +75,9 @@ std::string insert_new_run() {
 
 }  // namespace
 
-SQLite::Statement insert_into(SQLite::Database& db, const std::string& table, const std::string& columns) {
-  return {db, fmt::format("INSERT INTO {} ({}) VALUES ({})", table, columns, placeholders(columns))};
-}
-
 struct RowStore::Statements {
-  SQLite::Statement insert_run, stored_checksum, insert_recording, insert_audit;
+  Insert insert_run, insert_recording, insert_audit;
+  SQLite::Statement stored_checksum;
   PartsInsert<Violation> violations;
   PartsInsert<Incident> incidents;
   PartsInsert<ProbeCount> probes;
@@ -84,9 +85,9 @@ struct RowStore::Statements {
 
   explicit Statements(SQLite::Database& db)
       : insert_run(db, insert_new_run()),
-        stored_checksum(db, "SELECT checksum FROM runs WHERE run_index = ?"),
         insert_recording(insert_into(db, "recordings", kRecordingColumns)),
         insert_audit(insert_into(db, "audits", kAuditColumns)),
+        stored_checksum(db, "SELECT checksum FROM runs WHERE run_index = ?"),
         violations(db, "violations", violation_columns(), bind_violation),
         incidents(db, "incidents", kIncidentColumns, bind_incident),
         probes(db, "probes", kProbeColumns, bind_probe),
@@ -105,9 +106,8 @@ struct RowStore::Statements {
     const auto size = static_cast<std::int64_t>(run.recording.size());
     if (size == 0 || recording_bytes + size > kRecordingBytesMax) return;
     recording_bytes += size;
-    insert_recording.reset();
     bind_recording(insert_recording, run.run_index, run.recording, recording_checksum(run.recording));
-    insert_recording.exec();
+    insert_recording.run();
   }
 };
 
@@ -117,9 +117,8 @@ RowStore::~RowStore() = default;
 bool RowStore::add(const RunRecord& run) {
   Statements& to = *statements_;
   const auto checksum = row_checksum(run);
-  to.insert_run.reset();
   bind_run(to.insert_run, run, checksum);
-  if (to.insert_run.exec() != 1) return to.is_stored(run, checksum);
+  if (to.insert_run.run() != 1) return to.is_stored(run, checksum);
   to.violations.insert(run.run_index, run.outcome.violations);
   to.incidents.insert(run.run_index, run.outcome.incidents);
   to.probes.insert(run.run_index, run.outcome.probes);
@@ -128,9 +127,8 @@ bool RowStore::add(const RunRecord& run) {
 }
 
 void RowStore::add(const AuditRecord& audit) {
-  statements_->insert_audit.reset();
   bind_audit(statements_->insert_audit, audit);
-  statements_->insert_audit.exec();
+  statements_->insert_audit.run();
 }
 
 }  // namespace fleetproof

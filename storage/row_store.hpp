@@ -2,19 +2,14 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "storage/records.hpp"
 
 namespace SQLite {
 class Database;
-class Statement;
-}  // namespace SQLite
+}
 
 namespace fleetproof {
-
-// INSERT INTO `table`, one row. `columns`: names with commas between.
-SQLite::Statement insert_into(SQLite::Database& db, const std::string& table, const std::string& columns);
 
 // Stores runs with all their parts, and audits, in an open live file. Its statements are prepared once. Throws
 // SQLite::Exception. Threads: one.

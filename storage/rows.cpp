@@ -23,15 +23,14 @@ std::uint64_t unsigned_of(const SQLite::Statement& row, int column) {
   return std::bit_cast<std::uint64_t>(row.getColumn(column).getInt64());
 }
 
-void bind_recording(SQLite::Statement& insert, std::uint64_t run_index, const std::string& calls,
-                    std::uint64_t checksum) {
+void bind_recording(Insert& insert, std::uint64_t run_index, const std::string& calls, std::uint64_t checksum) {
   Binder to(insert);
   to << run_index;
   to.bytes(calls);
   to << checksum;
 }
 
-void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum) {
+void bind_run(Insert& insert, const RunRecord& run, std::uint64_t checksum) {
   const auto& o = run.outcome;
   Binder to(insert);
   to << run.run_index << run.cell << run.replicate << run.scenario_digest << run.factors;
@@ -42,36 +41,31 @@ void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t che
   to << checksum;
 }
 
-void bind_violation(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
-                    const Violation& v) {
-  Binder(insert, first) << run_index << std::uint64_t{ordinal} << v.a.value << v.b.value << to_ns(v.first)
-                        << to_ns(v.last) << to_ns(v.closest_at) << v.min_clearance_um << v.relative_speed_um_s
-                        << v.normal_speed_um_s << v.x_um << v.y_um << v.contact;
+void bind_violation(Insert& insert, int first, const Violation& v) {
+  Binder(insert, first) << v.a.value << v.b.value << to_ns(v.first) << to_ns(v.last) << to_ns(v.closest_at)
+                        << v.min_clearance_um << v.relative_speed_um_s << v.normal_speed_um_s << v.x_um << v.y_um
+                        << v.contact;
 }
 
-void bind_incident(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
-                   const Incident& i) {
-  Binder(insert, first) << run_index << std::uint64_t{ordinal} << static_cast<std::uint32_t>(i.kind) << maybe(i.a)
-                        << maybe(i.b) << to_ns(i.first) << to_ns(i.last) << i.value;
+void bind_incident(Insert& insert, int first, const Incident& i) {
+  Binder(insert, first) << static_cast<std::uint32_t>(i.kind) << maybe(i.a) << maybe(i.b) << to_ns(i.first)
+                        << to_ns(i.last) << i.value;
 }
 
-void bind_probe(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
-                const ProbeCount& probe) {
+void bind_probe(Insert& insert, int first, const ProbeCount& probe) {
   Binder to(insert, first);
-  to << run_index << std::uint64_t{ordinal} << static_cast<std::uint32_t>(probe.source);
+  to << static_cast<std::uint32_t>(probe.source);
   to.bytes(probe.name);
   to << probe.count;
 }
 
-void bind_audit(SQLite::Statement& insert, const AuditRecord& audit) {
-  Binder(insert) << audit.run_index << audit.checksum;
-}
+void bind_audit(Insert& insert, const AuditRecord& audit) { Binder(insert) << audit.run_index << audit.checksum; }
 
-void bind_chunk(SQLite::Statement& insert, const ChunkRecord& chunk) {
+void bind_chunk(Insert& insert, const ChunkRecord& chunk) {
   Binder(insert) << chunk.chunk << chunk.run_count << chunk.digest;
 }
 
-void bind_folded(SQLite::Statement& insert, const FoldedRow& row, std::uint64_t checksum) {
+void bind_folded(Insert& insert, const FoldedRow& row, std::uint64_t checksum) {
   Binder to(insert);
   to << row.place << row.cell << row.runs << row.transports_done << row.simulated_ns << row.agv_count
      << row.min_clearance_um;

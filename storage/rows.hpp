@@ -16,6 +16,7 @@ class Statement;
 
 namespace fleetproof {
 
+class Insert;
 class Row;
 
 // 64 bits of a signed column.
@@ -23,20 +24,17 @@ std::uint64_t unsigned_of(const SQLite::Statement& row, int column = 0);
 
 // Conversion between records and rows. Binds a record to an INSERT, and reads a record from a SELECT. Both use the
 // column lists of schema.hpp. What is bound is not copied: the record must live until the statement has run.
-void bind_run(SQLite::Statement& insert, const RunRecord& run, std::uint64_t checksum);
-// `first`: the parameter to begin with. One statement may take several of them.
-void bind_incident(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
-                   const Incident& incident);
-void bind_probe(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
-                const ProbeCount& probe);
-void bind_violation(SQLite::Statement& insert, int first, std::uint64_t run_index, std::size_t ordinal,
-                    const Violation& violation);
-void bind_recording(SQLite::Statement& insert, std::uint64_t run_index, const std::string& calls,
-                    std::uint64_t checksum);
+void bind_run(Insert& insert, const RunRecord& run, std::uint64_t checksum);
+// The columns after run index and ordinal. `first`: the parameter to begin with; one statement may take several of
+// them.
+void bind_incident(Insert& insert, int first, const Incident& incident);
+void bind_probe(Insert& insert, int first, const ProbeCount& probe);
+void bind_violation(Insert& insert, int first, const Violation& violation);
+void bind_recording(Insert& insert, std::uint64_t run_index, const std::string& calls, std::uint64_t checksum);
 
-void bind_audit(SQLite::Statement& insert, const AuditRecord& audit);
-void bind_chunk(SQLite::Statement& insert, const ChunkRecord& chunk);
-void bind_folded(SQLite::Statement& insert, const FoldedRow& row, std::uint64_t checksum);
+void bind_audit(Insert& insert, const AuditRecord& audit);
+void bind_chunk(Insert& insert, const ChunkRecord& chunk);
+void bind_folded(Insert& insert, const FoldedRow& row, std::uint64_t checksum);
 
 // A row as stored. The violations, incidents and probes of its outcome are rows of their own.
 struct StoredRun {

@@ -310,11 +310,19 @@ std::string ddl_with(std::string_view runs_order) {
                      fmt::arg("incident_units", incident_words(&IncidentKindInfo::unit)));
 }
 
+// Checking each value costs as much as writing it.
+std::string without_constraints(std::string ddl) {
+  for (const std::string_view constraint : {" NOT NULL", " STRICT,", " STRICT"}) {
+    for (std::size_t at = 0; (at = ddl.find(constraint, at)) != std::string::npos;) ddl.erase(at, constraint.size());
+  }
+  return ddl;
+}
+
 }  // namespace
 
 std::string schema_ddl() { return ddl_with(", WITHOUT ROWID"); }
 
-std::string live_schema_ddl() { return ddl_with(""); }
+std::string live_schema_ddl() { return without_constraints(ddl_with("")); }
 
 std::string run_columns() { return run_list(factor_names(&FactorInfo::key)); }
 

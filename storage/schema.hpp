@@ -19,11 +19,14 @@ inline constexpr std::int32_t kFirstWithNormalSpeed = 9;  // 0 in violations of 
 inline constexpr std::int32_t kFirstOfOneCell = 10;       // gates of an earlier schema name no fleet and no factor
 inline constexpr std::int32_t kFirstFolded = 11;
 inline constexpr std::int32_t kPageSize = 4096;
+// A live file is written from end to end: few large pages need fewer system calls.
+inline constexpr std::int32_t kLivePageSize = 32768;
 
 // The tables and the public views of the canonical file, as one script. Each counter of an outcome
 // (core/outcome/counters.hpp) is a column of `runs`, and each factor (factors.hpp) one of `runs` and two of `cells`.
 std::string schema_ddl();
-// The same for the live file, but `runs` has rowids: a wide row is stored with less work. It reads the same.
+// The same for the live file, which reads the same: `runs` has rowids, since a wide row is stored with less work then,
+// and no value is checked. Every row has a checksum, and publishing checks its values.
 std::string live_schema_ddl();
 
 // Column lists, separated by commas, in the order in which rows.hpp binds and reads them.
