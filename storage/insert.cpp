@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <cmath>
+
+#include "core/base/error.hpp"
 #include "storage/schema.hpp"
 
 namespace fleetproof {
@@ -32,7 +35,10 @@ Insert::Insert(SQLite::Database& db, const std::string& sql) : db_(&db) {
 void Insert::bind(int parameter, std::int64_t value) {
   require(sqlite3_bind_int64(statement_.get(), parameter, value));
 }
-void Insert::bind(int parameter, double value) { require(sqlite3_bind_double(statement_.get(), parameter, value)); }
+void Insert::bind(int parameter, double value) {
+  ensure(!std::isnan(value), "a stored value is a number: SQLite would store NULL");
+  require(sqlite3_bind_double(statement_.get(), parameter, value));
+}
 void Insert::bind_null(int parameter) { require(sqlite3_bind_null(statement_.get(), parameter)); }
 
 void Insert::bind_text(int parameter, std::string_view text, Kept kept) {

@@ -13,8 +13,8 @@ class Database;
 
 namespace fleetproof {
 
-// An INSERT, prepared once and run for many rows. Parameters count from 1. Its functions throw
-// SQLite::Exception. Requires: the database outlives the object.
+// An INSERT, prepared once and run for many rows. Parameters count from 1. Its functions throw SQLite::Exception.
+// Requires: the database outlives the object.
 class Insert {
  public:
   // Whose memory holds a text until `run`: the caller's, or a copy.
@@ -23,7 +23,7 @@ class Insert {
   Insert(SQLite::Database& db, const std::string& sql);
 
   void bind(int parameter, std::int64_t value);
-  void bind(int parameter, double value);
+  void bind(int parameter, double value);  // requires: not NaN
   void bind_text(int parameter, std::string_view text, Kept kept = Kept::ByCaller);
   void bind_bytes(int parameter, std::string_view bytes, Kept kept = Kept::ByCaller);
   void bind_null(int parameter);
