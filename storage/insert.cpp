@@ -1,7 +1,6 @@
 #include "storage/insert.hpp"
 
 #include <SQLiteCpp/Database.h>
-#include <SQLiteCpp/Exception.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -19,42 +18,33 @@ sqlite3_destructor_type holder(Insert::Kept kept) {
 
 }  // namespace
 
-void Insert::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-
-void Insert::require(int code) const {
-  if (code != SQLITE_OK) throw SQLite::Exception(db_->getHandle(), code);
-}
-
-Insert::Insert(SQLite::Database& db, const std::string& sql) : db_(&db) {
-  sqlite3_stmt* statement = nullptr;
-  require(sqlite3_prepare_v3(db.getHandle(), sql.c_str(), static_cast<int>(sql.size()) + 1, SQLITE_PREPARE_PERSISTENT,
-                             &statement, nullptr));
-  statement_.reset(statement);
-}
+Insert::Insert(SQLite::Database& db, const std::string& sql) : statement_(db, sql) {}
 
 void Insert::bind(int parameter, std::int64_t value) {
-  require(sqlite3_bind_int64(statement_.get(), parameter, value));
+  statement_.require(sqlite3_bind_int64(statement_.get(), parameter, value));
 }
 void Insert::bind(int parameter, double value) {
   ensure(!std::isnan(value), "a stored value is a number: SQLite would store NULL");
-  require(sqlite3_bind_double(statement_.get(), parameter, value));
+  statement_.require(sqlite3_bind_double(statement_.get(), parameter, value));
 }
-void Insert::bind_null(int parameter) { require(sqlite3_bind_null(statement_.get(), parameter)); }
+void Insert::bind_null(int parameter) { statement_.require(sqlite3_bind_null(statement_.get(), parameter)); }
 
 void Insert::bind_text(int parameter, std::string_view text, Kept kept) {
-  require(sqlite3_bind_text(statement_.get(), parameter, text.data(), static_cast<int>(text.size()), holder(kept)));
+  statement_.require(
+      sqlite3_bind_text(statement_.get(), parameter, text.data(), static_cast<int>(text.size()), holder(kept)));
 }
 
 void Insert::bind_bytes(int parameter, std::string_view bytes, Kept kept) {
   const char* data = bytes.data() != nullptr ? bytes.data() : "";  // a null address would be stored as NULL
-  require(sqlite3_bind_blob(statement_.get(), parameter, data, static_cast<int>(bytes.size()), holder(kept)));
+  statement_.require(
+      sqlite3_bind_blob(statement_.get(), parameter, data, static_cast<int>(bytes.size()), holder(kept)));
 }
 
 int Insert::run() {
   const int code = sqlite3_step(statement_.get());
   sqlite3_reset(statement_.get());  // ends the statement, so that the values of the next row can be bound
-  if (code != SQLITE_DONE) require(code);
-  return sqlite3_changes(db_->getHandle());
+  if (code != SQLITE_DONE) statement_.require(code);
+  return sqlite3_changes(statement_.database().getHandle());
 }
 
 Insert insert_into(SQLite::Database& db, const std::string& table, const std::string& columns) {

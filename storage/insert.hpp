@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 
-struct sqlite3_stmt;
+#include "storage/prepared.hpp"
 
 namespace SQLite {
 class Database;
@@ -31,13 +30,7 @@ class Insert {
   int run();
 
  private:
-  struct Finalize {
-    void operator()(sqlite3_stmt* statement) const;
-  };
-  void require(int code) const;
-
-  SQLite::Database* db_;
-  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  Prepared statement_;
 };
 
 // Into `table`, one row. `columns`: names with commas between.

@@ -1,34 +1,26 @@
 #include "storage/query.hpp"
 
 #include <SQLiteCpp/Database.h>
-#include <SQLiteCpp/Exception.h>
 #include <sqlite3.h>
 
 #include "core/base/error.hpp"
 
 namespace fleetproof {
 
-void Query::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+Query::Query(SQLite::Database& db, const std::string& select) : statement_(db, select) {}
 
-void Query::require(int code) const {
-  if (code != SQLITE_OK) throw SQLite::Exception(db_->getHandle(), code);
+void Query::bind(int parameter, std::int64_t value) {
+  statement_.require(sqlite3_bind_int64(statement_.get(), parameter, value));
 }
-
-Query::Query(SQLite::Database& db, const std::string& select) : db_(&db) {
-  sqlite3_stmt* statement = nullptr;
-  require(sqlite3_prepare_v2(db.getHandle(), select.c_str(), static_cast<int>(select.size()) + 1, &statement, nullptr));
-  statement_.reset(statement);
-}
-
-void Query::bind(int parameter, std::int64_t value) { require(sqlite3_bind_int64(statement_.get(), parameter, value)); }
 
 void Query::bind(int parameter, const std::string& text) {
-  require(sqlite3_bind_text(statement_.get(), parameter, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
+  statement_.require(
+      sqlite3_bind_text(statement_.get(), parameter, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
 }
 
 bool Query::step() {
   const int code = sqlite3_step(statement_.get());
-  if (code != SQLITE_ROW && code != SQLITE_DONE) require(code);
+  if (code != SQLITE_ROW && code != SQLITE_DONE) statement_.require(code);
   return code == SQLITE_ROW;
 }
 

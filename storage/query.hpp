@@ -1,13 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 
+#include "storage/prepared.hpp"
 #include "storage/row_source.hpp"
-
-struct sqlite3_stmt;
 
 namespace SQLite {
 class Database;
@@ -31,13 +29,7 @@ class Query final : public RowSource {
   int column_of(const char* name) const;
 
  private:
-  struct Finalize {
-    void operator()(sqlite3_stmt* statement) const;
-  };
-  void require(int code) const;
-
-  SQLite::Database* db_;
-  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  Prepared statement_;
 };
 
 }  // namespace fleetproof

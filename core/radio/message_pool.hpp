@@ -12,7 +12,7 @@
 
 namespace fleetproof {
 
-// The bytes of a message, which stay where they are when the object is moved; those of a short std::string do not. An
+// The bytes of a message. They stay where they are when the object is moved, unlike those of a short std::string: an
 // agent may read a message while it sends others and the pool of messages grows.
 class MessageBytes {
  public:
