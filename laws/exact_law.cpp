@@ -34,7 +34,7 @@ class ExactLaw final : public Law {
   void settle(const Piece& a, const Piece& b, Interval within);
   void settle_standing(const Piece& a, const Piece& b, Interval within);
   void settle_moving(const Piece& a, const Piece& b, Interval within);
-  void collect_stretches(const Piece& a, const Piece& b, const Approach& approach, SimTime last);
+  void collect_stretches(const Piece& a, const Piece& b, const ApproachBelow& approach, SimTime last);
   void collect(const Piece& a, const Piece& b, SimTime first, SimTime last);
   double threshold_m(const Piece& a, const Piece& b) const { return threshold_m_ - allowance_on_curves_m(a, b); }
   double clearance_at(const Piece& a, const Piece& b, SimTime t);
@@ -119,7 +119,7 @@ void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
 
 // Every rise of kRiseNoticed or longer contains a probe. Exit and return are then found exactly, before and after the
 // probe.
-void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const Approach& approach, SimTime last) {
+void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const ApproachBelow& approach, SimTime last) {
   const double level_m = threshold_m(a, b);
   SimTime first = approach.first;
   for (SimTime probe = first + kRiseNoticed; probe < last; probe += kRiseNoticed) {

@@ -141,35 +141,35 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   for (auto& weak : weak_headlines(input)) page.headlines.push_back(std::move(weak));
   for (auto& verdict : verdicts(input)) page.headlines.push_back(std::move(verdict));
   for (auto& note : foreign_body_notes(input)) page.headlines.push_back(std::move(note));
-  const auto add = [&](Topic topic, Section section) {
+  const auto add = [&](SectionTopic topic, Section section) {
     section.topic = topic;
     page.sections.push_back(std::move(section));
   };
   const auto add_conditions = [&](const std::string& title, bool (*wanted)(const Condition&)) {
-    add(Topic::Conditions, condition_section(input, title, wanted, most_rows));
+    add(SectionTopic::Conditions, condition_section(input, title, wanted, most_rows));
   };
-  add(Topic::Gates, gate_section(input));
-  add(Topic::Plan, plan_section(input));
-  add(Topic::Groups, layout_section(input, most_rows));
-  add(Topic::Groups, fleet_section(input, most_rows));
+  add(SectionTopic::Gates, gate_section(input));
+  add(SectionTopic::Plan, plan_section(input));
+  add(SectionTopic::Groups, layout_section(input, most_rows));
+  add(SectionTopic::Groups, fleet_section(input, most_rows));
   const std::string loss = percent(kContractLoss), delay = fmt::format("{:g} s", kContractDelay_s);
-  add(Topic::Conditions, table_legend(input));
+  add(SectionTopic::Conditions, table_legend(input));
   add_conditions(fmt::format("Worst case of the contract: {} loss, {} delay", loss, delay),
                  [](const Condition& c) { return c.is_worst_case; });
   add_conditions(fmt::format("Contract region: loss <= {}, delay <= {}", loss, delay),
                  [](const Condition& c) { return c.in_contract; });
   add_conditions("Outside the contract", [](const Condition& c) { return !c.in_contract; });
-  if (!input.baseline.empty()) add(Topic::Comparison, comparison_section(input));
-  add(Topic::Coverage, coverage_section(input, most_rows));
-  add(Topic::Coverage, incident_section(input, most_rows));
-  add(Topic::Sensitivity, sensitivity_section(input));
-  add(Topic::Audit, audit_section(input));
-  add(Topic::WeakPoints, weak_point_section(input));
-  add(Topic::Failures, failure_section(input, std::min(most_rows, kMostGroups)));
-  add(Topic::Failures, findings_section(input));
-  add(Topic::Attempts, attempt_section(input));
-  add(Topic::Provenance, provenance_section(input));
-  add(Topic::Method, method_section(input));
+  if (!input.baseline.empty()) add(SectionTopic::Comparison, comparison_section(input));
+  add(SectionTopic::Coverage, coverage_section(input, most_rows));
+  add(SectionTopic::Coverage, incident_section(input, most_rows));
+  add(SectionTopic::Sensitivity, sensitivity_section(input));
+  add(SectionTopic::Audit, audit_section(input));
+  add(SectionTopic::WeakPoints, weak_point_section(input));
+  add(SectionTopic::Failures, failure_section(input, std::min(most_rows, kMostGroups)));
+  add(SectionTopic::Failures, findings_section(input));
+  add(SectionTopic::Attempts, attempt_section(input));
+  add(SectionTopic::Provenance, provenance_section(input));
+  add(SectionTopic::Method, method_section(input));
   return page;
 }
 

@@ -34,7 +34,7 @@ struct Table {
 };
 
 // What a section is about, for formats with an order of their own.
-enum class Topic : std::uint8_t {
+enum class SectionTopic : std::uint8_t {
   Gates,
   Plan,
   Groups,
@@ -55,7 +55,7 @@ struct Section {
   std::string title;
   Table table;
   std::vector<Remark> remarks;
-  Topic topic = Topic::Gates;
+  SectionTopic topic = SectionTopic::Gates;
 };
 
 struct Page {

@@ -114,7 +114,7 @@ std::string faults_text(const Json& faults) {
   return words.empty() ? "none injected" : joined(words);
 }
 
-std::string recording_text(const RecordedRadio& recorded) {
+std::string recording_text(const RecordingFacts& recorded) {
   return fmt::format(
       "recorded for {} of sender and receiver ({}, {} lost), whose messages the loss and delay of the plan do not "
       "concern; for all others: ",
@@ -123,7 +123,7 @@ std::string recording_text(const RecordedRadio& recorded) {
 }
 
 // The model of outages says nothing where no outage is planned.
-std::string radio_text(const Json& radio, bool has_outages, const std::optional<RecordedRadio>& recorded) {
+std::string radio_text(const Json& radio, bool has_outages, const std::optional<RecordingFacts>& recorded) {
   const std::string losses = has_outages
                                  ? fmt::format("losses in outages ({}, by {})", word(part(radio, "outage_model")),
                                                word(part(radio, "outage_scope")))

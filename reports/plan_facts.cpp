@@ -13,11 +13,11 @@ std::optional<double> safety_distance_m(const std::string& plan_json) {
   return plan.at(place).get<double>();
 }
 
-std::optional<RecordedRadio> recorded_radio(const std::string& plan_json) {
+std::optional<RecordingFacts> recorded_radio(const std::string& plan_json) {
   const auto plan = nlohmann::json::parse(plan_json, nullptr, false);
   const nlohmann::json::json_pointer place("/radio/trace");
   if (plan.is_discarded() || !plan.contains(place) || !plan.at(place).is_array()) return std::nullopt;
-  RecordedRadio radio;
+  RecordingFacts radio;
   std::set<std::pair<nlohmann::json, nlohmann::json>> pairs;
   for (const auto& message : plan.at(place)) {  // [sender, receiver, sent_ns, delay_ns]; lost: without the delay
     if (!message.is_array() || message.size() < 3) continue;

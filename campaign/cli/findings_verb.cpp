@@ -219,7 +219,7 @@ class FindingsDesk {
   AgentPrograms programs_;
   FindingsFile file_;
   std::string out_;
-  FailingRuns runs_;
+  SurveyedRuns runs_;
   Survey survey_;
   std::vector<Finding> findings_;
   std::size_t new_ = 0, added_ = 0;  // of the findings: not in the findings file, and added to it

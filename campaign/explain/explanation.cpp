@@ -23,11 +23,11 @@ FailingCase with_more_time(CaseHost& host, const FailingCase& small, const Faili
 }
 
 // Of the AGVs of the failure that were on no drive then.
-std::vector<Departure> past_drives(const Explanation& of, const Whereabouts& whereabouts) {
+std::vector<Departure> past_drives(const Explanation& of, const Itinerary& itinerary) {
   std::vector<Departure> found;
   for (const EntityId body : {of.small.failure.a, of.small.failure.b}) {
     if (!body.valid() || std::ranges::count(of.set_offs, body, &SetOff::agv) > 0) continue;
-    const Departure* last = last_departure(whereabouts.departures, body, of.small.failure.at);
+    const Departure* last = last_departure(itinerary.departures, body, of.small.failure.at);
     if (last != nullptr) found.push_back(*last);
   }
   return found;
@@ -46,7 +46,7 @@ Explanation explain(CaseHost& host, const FailingCase& original, const FailingCa
   found.stops = last_stops(host, found.small, pattern);
   found.set_offs = set_offs(host, found.small, pattern);
   CaseRun run = host(found.small.scenario, Fates::Kept);
-  found.past_drives = past_drives(found, run.whereabouts);
+  found.past_drives = past_drives(found, run.itinerary);
   found.notes = std::move(run.notes);
   found.doing = std::move(run.doing);
   found.ended = std::move(run.outcome.message);

@@ -155,7 +155,7 @@ void add_bends(CaseHost& host, const FailingCase& failing, std::vector<Without>&
   std::set<std::size_t> driven;
   for (const EntityId body : {failing.failure.a, failing.failure.b}) {
     const Departure* last = nullptr;
-    for (const Departure& departure : run.whereabouts.departures) {
+    for (const Departure& departure : run.itinerary.departures) {
       if (departure.agv == body && departure.at <= failing.failure.at) last = &departure;
     }
     if (last == nullptr || last->arrives < failing.failure.at) continue;

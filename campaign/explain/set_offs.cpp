@@ -44,7 +44,7 @@ class Inquiry {
         failing_(failing),
         pattern_(pattern),
         all_(run.fates),
-        departures_(run.whereabouts.departures),
+        departures_(run.itinerary.departures),
         drive_(drive) {
     heard_ = those(all_, [&](const MessageFate& m) { return reaches_it(m); });
     std::ranges::stable_sort(heard_, std::ranges::greater(), &MessageFate::arrives);
@@ -181,7 +181,7 @@ class Inquiry {
 }  // namespace
 
 bool sets_off_then(const CaseRun& run, const Departure& drive) {
-  const auto& begun = drive.from == drive.to ? run.whereabouts.turns : run.whereabouts.departures;
+  const auto& begun = drive.from == drive.to ? run.itinerary.turns : run.itinerary.departures;
   return std::ranges::any_of(begun, [&](const Departure& other) {
     return other.agv == drive.agv && other.from == drive.from && other.to == drive.to && other.at <= drive.at + kThen &&
            other.at + kThen >= drive.at;
@@ -199,8 +199,8 @@ const Departure* last_departure(std::span<const Departure> departures, EntityId 
 std::vector<Departure> failed_drives(const CaseRun& run, const Failure& failure) {
   std::vector<Departure> found;
   for (const EntityId body : {failure.a, failure.b}) {
-    const Departure* last = last_departure(run.whereabouts.departures, body, failure.at);
-    const Departure* turn = last_departure(run.whereabouts.turns, body, failure.at);
+    const Departure* last = last_departure(run.itinerary.departures, body, failure.at);
+    const Departure* turn = last_departure(run.itinerary.turns, body, failure.at);
     if (turn != nullptr && (last == nullptr || turn->at >= last->at)) last = turn;
     if (last != nullptr && last->arrives >= failure.at) found.push_back(*last);
   }

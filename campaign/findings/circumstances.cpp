@@ -15,9 +15,9 @@ constexpr std::size_t kFewest = 8;
 constexpr double kNearlyAlways = 0.95, kAlike = 0.25;
 
 // The drive or turn that an AGV began last. Null: none.
-const Departure* last_begun(const Whereabouts& whereabouts, EntityId agv, SimTime until) {
-  const Departure* const drive = last_departure(whereabouts.departures, agv, until);
-  const Departure* const turn = last_departure(whereabouts.turns, agv, until);
+const Departure* last_begun(const Itinerary& itinerary, EntityId agv, SimTime until) {
+  const Departure* const drive = last_departure(itinerary.departures, agv, until);
+  const Departure* const turn = last_departure(itinerary.turns, agv, until);
   return drive == nullptr || (turn != nullptr && turn->at > drive->at) ? turn : drive;
 }
 
@@ -28,7 +28,7 @@ class Observer {
   }
 
   void look_at(EntityId agv, EntityId other, const std::string& who) {
-    const Departure* const begun = last_begun(run_.whereabouts, agv, at_);
+    const Departure* const begun = last_begun(run_.itinerary, agv, at_);
     const SimTime rests_since = begun != nullptr ? begun->arrives : kStart;
     found_[who + ": stood (s)"] = std::max(0.0, to_seconds(at_ - rests_since));
     found_[who + ": set off (s before)"] = begun != nullptr ? to_seconds(at_ - begun->at) : kNever_s;
@@ -52,7 +52,7 @@ class Observer {
 
   std::size_t count_drives(EntityId agv) const {
     return static_cast<std::size_t>(std::ranges::count_if(
-        run_.whereabouts.departures, [&](const Departure& one) { return one.agv == agv && one.at <= at_; }));
+        run_.itinerary.departures, [&](const Departure& one) { return one.agv == agv && one.at <= at_; }));
   }
 
   void look_at_messages(EntityId agv, EntityId other, SimTime until, const std::string& who) {
@@ -92,7 +92,7 @@ std::map<std::string, double> circumstances_of(const CaseRun& run, const Scenari
   if (!failure || !is_agv(failure->a) || !is_agv(failure->b)) return {};
   EntityId later = failure->a, other = failure->b;
   const auto begun_at = [&](EntityId agv) {
-    const Departure* const begun = last_begun(run.whereabouts, agv, failure->at);
+    const Departure* const begun = last_begun(run.itinerary, agv, failure->at);
     return begun != nullptr ? begun->at : SimTime::min();
   };
   if (begun_at(other) > begun_at(later)) std::swap(later, other);

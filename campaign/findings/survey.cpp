@@ -10,8 +10,8 @@
 
 namespace fleetproof {
 
-FailingRuns failing_runs(const ArchiveReader& archive, const CampaignPlan& plan, std::size_t most) {
-  FailingRuns found;
+SurveyedRuns failing_runs(const ArchiveReader& archive, const CampaignPlan& plan, std::size_t most) {
+  SurveyedRuns found;
   std::map<std::string, std::vector<std::uint64_t>> by_agent;
   archive.for_each_run([&](const RunRecord& run) {
     if (!first_cause(run.outcome)) return;
@@ -27,10 +27,10 @@ FailingRuns failing_runs(const ArchiveReader& archive, const CampaignPlan& plan,
   return found;
 }
 
-AgentHosts::AgentHosts(const CampaignPlan& plan, const AgentPrograms& programs, std::span<const FailingRun> runs,
+AgentHosts::AgentHosts(const CampaignPlan& plan, const AgentPrograms& programs, std::span<const SurveyedRun> runs,
                        int workers)
     : workers_(workers) {
-  for (const FailingRun& run : runs) {
+  for (const SurveyedRun& run : runs) {
     if (hosts_.contains(run.agent)) continue;
     const AgentFactor& agent = plan.agent_of_cell(run.run);
     const CaseAgent played{agent.program, plan.config_of(agent), plan.laws_left_out, plan.limits};
@@ -39,7 +39,7 @@ AgentHosts::AgentHosts(const CampaignPlan& plan, const AgentPrograms& programs, 
 }
 
 // Each task writes to its own place.
-Survey survey(const CampaignPlan& plan, std::span<const FailingRun> runs, AgentHosts& hosts,
+Survey survey(const CampaignPlan& plan, std::span<const SurveyedRun> runs, AgentHosts& hosts,
               const std::function<bool(std::size_t done)>& go_on) {
   std::vector<std::optional<FailureNeeds>> needs(runs.size());
   std::vector<bool> is_done(runs.size());

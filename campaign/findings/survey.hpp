@@ -17,22 +17,22 @@
 
 namespace fleetproof {
 
-struct FailingRun {
+struct SurveyedRun {
   std::uint64_t run = 0;
   std::string agent;
 };
 
-struct FailingRuns {
-  std::vector<FailingRun> looked_at;  // in order of run index
+struct SurveyedRuns {
+  std::vector<SurveyedRun> looked_at;  // in order of run index
   std::size_t all = 0;
 };
 // Of each agent, at most `most` of the runs that failed, spread evenly over the campaign.
-FailingRuns failing_runs(const ArchiveReader& archive, const CampaignPlan& plan, std::size_t most);
+SurveyedRuns failing_runs(const ArchiveReader& archive, const CampaignPlan& plan, std::size_t most);
 
 // One host for each agent of a campaign that has failing runs. Make it before threads are started.
 class AgentHosts {
  public:
-  AgentHosts(const CampaignPlan& plan, const AgentPrograms& programs, std::span<const FailingRun> runs, int workers);
+  AgentHosts(const CampaignPlan& plan, const AgentPrograms& programs, std::span<const SurveyedRun> runs, int workers);
   CaseHost& of(const std::string& agent) { return *hosts_.at(agent); }
   int workers() const { return workers_; }
 
@@ -48,7 +48,7 @@ struct Survey {
 };
 // What each of the runs needs. The result is the same for any number of workers. `go_on` hears how many are done, at
 // least every 50 ms; once it says no, the runs under way are finished, and no other is begun.
-Survey survey(const CampaignPlan& plan, std::span<const FailingRun> runs, AgentHosts& hosts,
+Survey survey(const CampaignPlan& plan, std::span<const SurveyedRun> runs, AgentHosts& hosts,
               const std::function<bool(std::size_t done)>& go_on);
 
 }  // namespace fleetproof

@@ -113,24 +113,24 @@ class Doings {
 class CaseSink final : public TraceSink {
  public:
   CaseSink(const Scenario& scenario, Fates wanted)
-      : doings(*scenario.map), fates(scenario), whereabouts(scenario), wanted_(wanted) {}
+      : doings(*scenario.map), fates(scenario), itinerary(scenario), wanted_(wanted) {}
   void record(const TraceRecord& record, std::string_view text) override {
     declared.record(record, text);
     doings.record(record);
     if (wanted_ != Fates::Kept) return;
     fates.record(record, text);
     notes.record(record, text);
-    whereabouts.record(record, text);
+    itinerary.record(record, text);
   }
   void piece_started(const Piece& piece) override {
-    if (wanted_ == Fates::Kept) whereabouts.piece_started(piece);
+    if (wanted_ == Fates::Kept) itinerary.piece_started(piece);
   }
 
   Declarations declared;
   Doings doings;
   FateKeeper fates;
   NoteKeeper notes;
-  WhereaboutsKeeper whereabouts;
+  ItineraryKeeper itinerary;
 
  private:
   Fates wanted_;
@@ -157,7 +157,7 @@ CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std
   run.outcome = simulate(scenario, agent, laws, &sink, agent_config.c_str(), watch);
   if (fates == Fates::Kept) {
     run.fates = sink.fates.fates();
-    run.whereabouts = sink.whereabouts.take();
+    run.itinerary = sink.itinerary.take();
   }
   run.all_words = sink.declared.words({}, kForever);
   run.first_said = sink.declared.first();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "campaign/run/case_notes.hpp"
-#include "campaign/run/departures.hpp"
+#include "campaign/run/itinerary.hpp"
 #include "campaign/run/message_fates.hpp"
 #include "core/engine/run_watch.hpp"
 #include "core/outcome/outcome.hpp"
@@ -32,7 +32,7 @@ struct CaseRun {
   std::vector<Declared> first_said;  // by each AGV, in the whole run: the first time that it declared each word
   std::vector<MessageFate> fates;    // of all messages, if they were asked for
   CaseNotes notes;                   // until the failure, likewise
-  Whereabouts whereabouts;           // of the whole run, likewise
+  Itinerary itinerary;               // of the whole run, likewise
 };
 enum class Fates : bool { Ignored, Kept };
 

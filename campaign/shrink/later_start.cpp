@@ -14,8 +14,8 @@ void start_at(AgvSetup& agv, StationId station, const Vec2& heading) {
 }
 
 // An AGV that has arrived looks where it sets out to next: it need not turn first.
-void place(AgvSetup& setup, AgvId agv, const Whereabouts& whereabouts, SimTime t, Between between) {
-  for (const Departure& departure : whereabouts.departures) {
+void place(AgvSetup& setup, AgvId agv, const Itinerary& itinerary, SimTime t, Between between) {
+  for (const Departure& departure : itinerary.departures) {
     if (departure.agv != agv) continue;
     if (departure.at > t) {
       if (setup.start == departure.from) setup.heading = departure.heading;
@@ -26,10 +26,10 @@ void place(AgvSetup& setup, AgvId agv, const Whereabouts& whereabouts, SimTime t
   }
 }
 
-Scenario without_delivered(const Scenario& scenario, const Whereabouts& whereabouts, SimTime t) {
+Scenario without_delivered(const Scenario& scenario, const Itinerary& itinerary, SimTime t) {
   const auto transports = transports_of(scenario);
   return with_transports(scenario, [&](std::size_t i) {
-    return std::ranges::none_of(whereabouts.deliveries, [&](const Delivery& delivery) {
+    return std::ranges::none_of(itinerary.deliveries, [&](const Delivery& delivery) {
       return delivery.at <= t && delivery.agv.index() == transports[i].agv &&
              delivery.transport == transports[i].number;
     });
@@ -47,10 +47,10 @@ void shorten_faults(Scenario& scenario, Duration from) {
 
 }  // namespace
 
-Scenario with_later_start(const Scenario& scenario, const Whereabouts& whereabouts, Duration from, Between between) {
+Scenario with_later_start(const Scenario& scenario, const Itinerary& itinerary, Duration from, Between between) {
   const SimTime t = kStart + from;
-  Scenario later = without_delivered(scenario, whereabouts, t);
-  for (std::size_t i = 0; i < later.agvs.size(); ++i) place(later.agvs[i], AgvId{i}, whereabouts, t, between);
+  Scenario later = without_delivered(scenario, itinerary, t);
+  for (std::size_t i = 0; i < later.agvs.size(); ++i) place(later.agvs[i], AgvId{i}, itinerary, t, between);
   shorten_faults(later, from);
   std::erase_if(later.obstacles, [from](const ObstacleSetup& obstacle) { return obstacle.leaves <= from; });
   std::erase_if(later.fates, [from](const GivenFate& fate) { return fate.sent < from; });

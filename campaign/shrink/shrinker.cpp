@@ -65,12 +65,12 @@ bool Shrinker::start_later(Duration lead_up) {
     if (10 * with_slack(seen - at + before) < 9 * shortest_) starts.push_back(at - before);
   }
   if (starts.empty()) return false;
-  const Whereabouts whereabouts = trials_.host()(best_.scenario, Fates::Kept).whereabouts;
+  const Itinerary itinerary = trials_.host()(best_.scenario, Fates::Kept).itinerary;
   const std::size_t tries = attempts() == 1 ? 1 : kCoursesOfTheFew, count = starts.size() * 2 * tries;
   const auto make = [&](std::size_t rank) {
     const Duration from = starts[rank % count / tries / 2];
     const Between between = rank / tries % 2 == 0 ? Between::Behind : Between::Ahead;
-    Scenario later = with_later_start(best_.scenario, whereabouts, from, between);
+    Scenario later = with_later_start(best_.scenario, itinerary, from, between);
     later.horizon = with_slack(seen - from);
     if (rank < count) later = with_agvs(later, [&](std::size_t agv) { return is_involved(agv); });
     return if_fair(on_course(std::move(later), rank % tries));

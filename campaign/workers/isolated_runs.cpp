@@ -54,7 +54,7 @@ CaseRun IsolatedRuns::of_case(const Scenario& scenario, Fates fates) {
   RunAnswer answer = answer_of(order);
   return {std::move(answer.outcome), std::move(answer.states),    std::move(answer.doing),
           std::move(answer.words),   std::move(answer.all_words), std::move(answer.first_said),
-          std::move(answer.fates),   std::move(answer.notes),     std::move(answer.whereabouts)};
+          std::move(answer.fates),   std::move(answer.notes),     std::move(answer.itinerary)};
 }
 
 std::optional<std::vector<KnownEnd>> IsolatedRuns::ends_in(const Scenario& scenario) {

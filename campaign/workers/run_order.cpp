@@ -91,7 +91,7 @@ std::string encode(const RunAnswer& answer) {
   put(sink, answer.all_words);
   put(sink, answer.first_said);
   put(sink, answer.notes);
-  put(sink, answer.whereabouts);
+  put(sink, answer.itinerary);
   sink.u32(static_cast<std::uint32_t>(answer.fates.size()));
   for (const MessageFate& message : answer.fates) put(sink, message);
   return sink.take();
@@ -112,7 +112,7 @@ RunAnswer decode_answer(std::string_view bytes) {
   answer.all_words = take_texts(source);
   answer.first_said = take_declared(source);
   answer.notes = take_notes(source);
-  answer.whereabouts = take_whereabouts(source);
+  answer.itinerary = take_itinerary(source);
   answer.fates.resize(source.count(kShortestFateBytes));
   for (MessageFate& message : answer.fates) take(source, message);
   source.end();

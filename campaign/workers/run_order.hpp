@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "campaign/run/case_notes.hpp"
-#include "campaign/run/departures.hpp"
+#include "campaign/run/itinerary.hpp"
 #include "campaign/run/message_fates.hpp"
 #include "campaign/workers/case_text.hpp"
 #include "core/engine/run_watch.hpp"
@@ -38,7 +38,7 @@ struct RunAnswer {
   std::vector<Declared> first_said;                          // likewise
   CaseNotes notes;                                           // likewise
   std::vector<MessageFate> fates;                            // likewise
-  Whereabouts whereabouts;                                   // likewise
+  Itinerary itinerary;                                       // likewise
 };
 std::string encode(const RunAnswer& answer);
 RunAnswer decode_answer(std::string_view bytes);  // throws EngineError on bytes that `encode` did not write

@@ -84,7 +84,7 @@ RunAnswer answer_to(const RunOrder& order, const Stage& stage, WorkerSlot& slot)
     answer.first_said = std::move(run.first_said);
     answer.fates = std::move(run.fates);
     answer.notes = std::move(run.notes);
-    answer.whereabouts = std::move(run.whereabouts);
+    answer.itinerary = std::move(run.itinerary);
   }
   if (order.record && answer.outcome.is_failure()) answer.recording = tape.take();
   answer.cpu_ns = cpu_ns() - begin_ns;

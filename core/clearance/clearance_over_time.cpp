@@ -8,13 +8,13 @@ namespace {
 
 std::optional<SimTime> instant_of(const std::optional<Hit>& hit) { return hit ? std::optional(hit->at) : std::nullopt; }
 
-std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m,
-                                       EvaluationCount& count, double tolerance_m, Dating dating) {
+std::optional<ApproachBelow> approach_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                            EvaluationCount& count, double tolerance_m, Dating dating) {
   if (within.end < within.begin) return std::nullopt;
   const auto hit = advance(a, b, within.begin, within.end, level_m, count, dating);
   if (!hit) return std::nullopt;
   const Hit closest = ClosestSearch(a, b, tolerance_m, count).run(within.begin, *hit, within.end);
-  return Approach{hit->at, {closest.apart.clearance_m, closest.at}};
+  return ApproachBelow{hit->at, {closest.apart.clearance_m, closest.at}};
 }
 
 }  // namespace
@@ -43,8 +43,8 @@ std::optional<ClosestApproach> closest_approach(const Piece& a, const Piece& b, 
   return approach ? std::optional(approach->closest) : std::nullopt;
 }
 
-std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m,
-                                       EvaluationCount& count, double tolerance_m) {
+std::optional<ApproachBelow> approach_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                            EvaluationCount& count, double tolerance_m) {
   return approach_below(a, b, within, level_m, count, tolerance_m, Dating::Exact);
 }
 

@@ -47,11 +47,11 @@ std::optional<ClosestApproach> closest_approach(const Piece& a, const Piece& b, 
                                                 EvaluationCount& count, double tolerance_m = kSmallestClearance_m);
 
 // first_below and closest_approach in one: the search for the second begins where the walk to the first ends.
-struct Approach {
+struct ApproachBelow {
   SimTime first = kStart;
   ClosestApproach closest;
 };
-std::optional<Approach> approach_below(const Piece& a, const Piece& b, Interval within, double level_m,
-                                       EvaluationCount& count, double tolerance_m = kSmallestClearance_m);
+std::optional<ApproachBelow> approach_below(const Piece& a, const Piece& b, Interval within, double level_m,
+                                            EvaluationCount& count, double tolerance_m = kSmallestClearance_m);
 
 }  // namespace fleetproof

@@ -110,28 +110,28 @@ Element plan_part(const ReportInput& input) {
 // All below the headlines, in order.
 std::vector<Element> parts_of(const HtmlInput& input, const Page& page) {
   std::vector<Element> parts;
-  const auto add = [&](std::initializer_list<Topic> topics) {
-    for (const Topic topic : topics) {
+  const auto add = [&](std::initializer_list<SectionTopic> topics) {
+    for (const SectionTopic topic : topics) {
       for (const Section& section : page.sections) {
         if (section.topic == topic) parts.push_back(html::section_of(section));
       }
     }
   };
   for (const Section& section : page.sections) {
-    if (section.topic == Topic::Gates)
+    if (section.topic == SectionTopic::Gates)
       parts.push_back(html::folded_section_of(section, "Figures and reason of each gate (acceptance criterion)"));
   }
   parts.push_back(titled("Conditions").add(facts_of(campaign_conditions(input.report))));
   parts.push_back(html::map_part(input.report, input.figures));
-  add({Topic::Groups});
+  add({SectionTopic::Groups});
   parts.push_back(html::clearance_part(input.report, input.figures));
   parts.push_back(html::effort_part(input.report, input.figures));
   // The worst run of each group stands there: a list of the worst runs would be one failure many times.
   parts.push_back(html::failure_part(input.report, input.strips));
-  add({Topic::Comparison, Topic::Coverage, Topic::Sensitivity, Topic::Conditions, Topic::Audit, Topic::WeakPoints,
-       Topic::Attempts, Topic::Provenance});
+  add({SectionTopic::Comparison, SectionTopic::Coverage, SectionTopic::Sensitivity, SectionTopic::Conditions,
+       SectionTopic::Audit, SectionTopic::WeakPoints, SectionTopic::Attempts, SectionTopic::Provenance});
   parts.push_back(plan_part(input.report));
-  add({Topic::Method});
+  add({SectionTopic::Method});
   parts.push_back(assumptions_part());
   parts.push_back(limits_part());
   return parts;

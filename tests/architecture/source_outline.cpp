@@ -191,8 +191,26 @@ class Reader {
       std::regex_search(head, match, pattern);
       outline_.classes.push_back({match[2], head_line_, 0, 0});
     }
+    note_type();
     if (kind != Kind::Other) head_.clear();
     open_.push_back(opened);
+  }
+
+  // Of the block that begins, if it is one of a type. One that is declared in another and defined here has colons.
+  void note_type() {
+    static const std::regex pattern(R"(^(class|struct|union|enum|enum class) (\w+) ?(final )?(:[^:].*)?$)");
+    std::smatch match;
+    const std::string head = without_template_line(head_);
+    if (is_function_head(head) || !std::regex_search(head, match, pattern)) return;
+    NamedType type;
+    for (const Open& open : open_) {
+      if (open.kind != Kind::Namespace) return;
+      if (!open.head.starts_with("namespace ")) continue;
+      type.local = type.local || open.head.size() == 10;
+      type.name += open.head.substr(10, open.head.size() - 11) + "::";
+    }
+    type.name += match[2];
+    outline_.types.push_back(type);
   }
 
   Kind kind_of_block() const {

@@ -27,10 +27,17 @@ struct NamedFunction {
   std::string last_word() const { return name.substr(name.rfind(':') + 1); }
 };
 
+// A class, struct, union or enumeration at the scope of a namespace.
+struct NamedType {
+  std::string name;    // with its namespaces: "fleetproof::agents::A"
+  bool local = false;  // in an anonymous namespace: no other file can name it
+};
+
 struct Outline {
   std::vector<OutlinedFunction> functions;  // free ones and members; a lambda belongs to the function around it
   std::vector<OutlinedClass> classes;
   std::vector<NamedFunction> names;  // one for each declaration and definition
+  std::vector<NamedType> types;      // one for each definition
 };
 
 // The functions and classes of a C++ source, read from its text. This is no parser of C++: it follows braces and looks

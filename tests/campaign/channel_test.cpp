@@ -79,8 +79,8 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   message.content = "answers 1";
   message.on_its_way = Duration{8};
   const Departure departure{AgvId{1U}, at_ns(8), at_ns(9), StationId{2U}, StationId{3U}, {0.6, 0.8}, {-1.0, 0.0}};
-  answer.whereabouts.departures = {departure};
-  answer.whereabouts.deliveries = {{AgvId{2U}, 4, at_ns(10)}};
+  answer.itinerary.departures = {departure};
+  answer.itinerary.deliveries = {{AgvId{2U}, 4, at_ns(10)}};
   const std::string bytes = encode(answer);
   const RunAnswer decoded = decode_answer(bytes);
   EXPECT_TRUE(decoded.failed);
@@ -99,14 +99,14 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   EXPECT_EQ(std::tuple(decoded.fates[0].kind, decoded.fates[0].number), std::tuple(message.kind, message.number));
   EXPECT_EQ(decoded.fates[0].content, message.content);
   EXPECT_EQ(decoded.fates[0].arrives(), kStart + message.fate.sent + Duration{8});
-  ASSERT_EQ(decoded.whereabouts.departures.size(), 1U);
-  const Departure& there = decoded.whereabouts.departures[0];
+  ASSERT_EQ(decoded.itinerary.departures.size(), 1U);
+  const Departure& there = decoded.itinerary.departures[0];
   EXPECT_EQ(std::tuple(there.agv, there.at, there.arrives, there.from, there.to),
             std::tuple(departure.agv, departure.at, departure.arrives, departure.from, departure.to));
   EXPECT_EQ(there.heading, departure.heading);
   EXPECT_EQ(there.heading_there, departure.heading_there);
-  ASSERT_EQ(decoded.whereabouts.deliveries.size(), 1U);
-  const auto& [agv, transport, at] = decoded.whereabouts.deliveries[0];
+  ASSERT_EQ(decoded.itinerary.deliveries.size(), 1U);
+  const auto& [agv, transport, at] = decoded.itinerary.deliveries[0];
   EXPECT_EQ(std::tuple(agv, transport, at), std::tuple(AgvId{2U}, 4U, at_ns(10)));
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_THROW(decode_answer(std::string_view(bytes).substr(0, length)), EngineError) << length;

@@ -43,7 +43,7 @@ CaseRun close_call() {
   violation.b = EntityId{1U};
   violation.first = violation.last = violation.closest_at = at_s(10.0);
   run.outcome.violations.push_back(violation);
-  run.whereabouts.departures = {drive(1, 0.0, 3.0), drive(0, 1.0, 4.0), drive(0, 8.0, 12.0), drive(1, 11.0, 13.0)};
+  run.itinerary.departures = {drive(1, 0.0, 3.0), drive(0, 1.0, 4.0), drive(0, 8.0, 12.0), drive(1, 11.0, 13.0)};
   run.fates = {message(1, 0, 6.0, 7.5), message(1, 0, 8.5, 9.0), message(1, 0, 9.5, 10.5), message(0, 1, 1.0, 2.0),
                message(0, 1, 2.0, 3.0), message(0, 1, 9.0, 9.0), message(0, 2, 9.0, 9.1)};
   run.fates[5].fate.lost = true;
@@ -79,7 +79,7 @@ TEST(Circumstances, AreThoseOfTheTwoUntilItCame) {
 
 TEST(Circumstances, ATurnIsSettingOffToo) {
   CaseRun run = close_call();
-  run.whereabouts.turns = {drive(1, 9.5, 10.5)};
+  run.itinerary.turns = {drive(1, 9.5, 10.5)};
   const auto found = circumstances_of(run, of_three());
   EXPECT_EQ(found.at("later: set off (s before)"), 0.5);
   EXPECT_EQ(found.at("later: restarted (s before)"), 4.0) << "now AGV 1 is the later one";

@@ -18,7 +18,7 @@ struct Night {
     scenario.horizon = seconds(300);
     run = bench.host(scenario, Fates::Kept);
   }
-  const Whereabouts& whereabouts() const { return run.whereabouts; }
+  const Itinerary& itinerary() const { return run.itinerary; }
 
   test::CaseBench bench;
   Scenario scenario;
@@ -26,11 +26,11 @@ struct Night {
 };
 
 // Each departure is from where the one before led to, along a segment of the map, not before its arrival.
-TEST(Whereabouts, AreAWayThroughTheMap) {
+TEST(Itinerary, IsAWayThroughTheMap) {
   const Night night;
   std::map<AgvId, StationId> at;
   std::map<AgvId, SimTime> since;
-  for (const Departure& departure : night.whereabouts().departures) {
+  for (const Departure& departure : night.itinerary().departures) {
     const auto known = at.find(departure.agv);
     const StationId start = night.scenario.agvs[departure.agv.index()].start;
     EXPECT_EQ(departure.from, known == at.end() ? start : known->second);
@@ -43,15 +43,15 @@ TEST(Whereabouts, AreAWayThroughTheMap) {
     at[departure.agv] = departure.to;
     since[departure.agv] = departure.arrives;
   }
-  EXPECT_GT(night.whereabouts().departures.size(), 20U);
-  EXPECT_EQ(night.whereabouts().deliveries.size(), night.run.outcome.counters.transports_done);
+  EXPECT_GT(night.itinerary().departures.size(), 20U);
+  EXPECT_EQ(night.itinerary().deliveries.size(), night.run.outcome.counters.transports_done);
   EXPECT_GT(night.run.outcome.counters.transports_done, 0U);
 }
 
 TEST(LaterStart, PutsAgvsWhereTheyWere) {
   Night night;
   const AgvId agv{0U};
-  Whereabouts known;
+  Itinerary known;
   known.departures = {
       {agv, kStart + seconds(2), kStart + seconds(4), StationId{7U}, StationId{8U}, {0.0, 1.0}, {1.0, 0.0}},
       {agv, kStart + seconds(9), kStart + seconds(12), StationId{8U}, StationId{9U}, {0.0, -1.0}, {-1.0, 0.0}}};
@@ -73,7 +73,7 @@ TEST(LaterStart, TakesTheTimeBeforeOutOfAllInstants) {
   for (const auto& [agv, at] : {std::pair(1U, seconds(4)), {2U, seconds(8)}, {3U, seconds(30)}})
     night.scenario.faults.push_back(
         {.kind = Fault::Kind::Breakdown, .agv = AgvId{agv}, .at = at, .transport = {}, .lasts = seconds(5)});
-  Whereabouts known;
+  Itinerary known;
   known.deliveries = {{AgvId{1U}, 0, kStart + seconds(9)}, {AgvId{2U}, 0, kStart + seconds(11)}};
   const Scenario later = with_later_start(night.scenario, known, seconds(10), Between::Behind);
   EXPECT_EQ(later.horizon, night.scenario.horizon - seconds(10));

@@ -26,7 +26,7 @@ class Shelf : public ::testing::Test {
 };
 
 TEST_F(Shelf, AWorldThatCameBackIsLentAgain) {
-  const World* first = borrow(5).get();
+  const DrawnWorld* first = borrow(5).get();
   EXPECT_EQ(borrow(5).get(), first);
   EXPECT_EQ(drawn, 1);
 }

@@ -20,7 +20,7 @@ TrajectoryPair any_pair() {
 }
 
 struct Found {
-  std::optional<Approach> approach;
+  std::optional<ApproachBelow> approach;
   double at_first_m = 0.0;
 };
 

@@ -41,7 +41,7 @@ inline void check_first(const TrajectoryPair& pair, std::optional<SimTime> found
   }
 }
 
-inline void check_closest(const TrajectoryPair& pair, const Approach& approach, const Lowest& low) {
+inline void check_closest(const TrajectoryPair& pair, const ApproachBelow& approach, const Lowest& low) {
   constexpr double kAccuracy_m = 1e-7 + 1e-9;
   const ClosestApproach& closest = approach.closest;
   if (low.clearance_m == 0.0) {

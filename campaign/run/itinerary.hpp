@@ -26,27 +26,27 @@ struct Delivery {
 };
 
 // Where the AGVs of a run were, and what they had done by then.
-struct Whereabouts {
+struct Itinerary {
   std::vector<Departure> departures;
   std::vector<Departure> turns;  // on the spot: from and to are one station, and the headings are not known
   std::vector<Delivery> deliveries;
 };
-void put(ByteSink& sink, const Whereabouts& whereabouts);
-Whereabouts take_whereabouts(ByteSource& source);
+void put(ByteSink& sink, const Itinerary& itinerary);
+Itinerary take_itinerary(ByteSource& source);
 
 // Keeps them while the run goes on. Requires: the scenario outlives the object.
-class WhereaboutsKeeper final : public TraceSink {
+class ItineraryKeeper final : public TraceSink {
  public:
-  explicit WhereaboutsKeeper(const Scenario& scenario) : scenario_(scenario) {}
+  explicit ItineraryKeeper(const Scenario& scenario) : scenario_(scenario) {}
   void record(const TraceRecord& record, std::string_view text) override;
   void piece_started(const Piece& piece) override;
-  Whereabouts take() { return std::move(found_); }
+  Itinerary take() { return std::move(found_); }
 
  private:
   void turned(const TraceRecord& record);
 
   const Scenario& scenario_;
-  Whereabouts found_;
+  Itinerary found_;
 };
 
 }  // namespace fleetproof

@@ -1,4 +1,4 @@
-#include "campaign/run/departures.hpp"
+#include "campaign/run/itinerary.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -22,7 +22,7 @@ Vec2 take_vector(ByteSource& source) {
 
 }  // namespace
 
-void WhereaboutsKeeper::record(const TraceRecord& record, std::string_view) {
+void ItineraryKeeper::record(const TraceRecord& record, std::string_view) {
   if (record.kind == TraceKind::ActivityBegins || record.kind == TraceKind::ActivityEnds) turned(record);
   if (record.kind != TraceKind::TransportDone) return;
   std::uint32_t number = read<traced::TransportDone>(record).transport.value;
@@ -31,7 +31,7 @@ void WhereaboutsKeeper::record(const TraceRecord& record, std::string_view) {
   found_.deliveries.push_back({record.entity, number, record.at});
 }
 
-void WhereaboutsKeeper::turned(const TraceRecord& record) {
+void ItineraryKeeper::turned(const TraceRecord& record) {
   if (traced::activity_of(record) != ActivityKind::Turn) return;
   if (record.kind == TraceKind::ActivityBegins) {
     const auto station = traced::id_in<StationId>(read<traced::ActivityBegins>(record).subject);
@@ -43,7 +43,7 @@ void WhereaboutsKeeper::turned(const TraceRecord& record) {
   }
 }
 
-void WhereaboutsKeeper::piece_started(const Piece& piece) {
+void ItineraryKeeper::piece_started(const Piece& piece) {
   if (piece.manner != Manner::Drive || piece.entity.index() >= scenario_.agvs.size()) return;
   auto& departures = found_.departures;
   const auto last = std::ranges::find(departures.rbegin(), departures.rend(), piece.entity, &Departure::agv);
@@ -94,28 +94,28 @@ std::vector<Departure> take_departures(ByteSource& source) {
 
 }  // namespace
 
-void put(ByteSink& sink, const Whereabouts& whereabouts) {
-  put(sink, whereabouts.departures);
-  put(sink, whereabouts.turns);
-  sink.u32(static_cast<std::uint32_t>(whereabouts.deliveries.size()));
-  for (const auto& [agv, transport, at] : whereabouts.deliveries) {
+void put(ByteSink& sink, const Itinerary& itinerary) {
+  put(sink, itinerary.departures);
+  put(sink, itinerary.turns);
+  sink.u32(static_cast<std::uint32_t>(itinerary.deliveries.size()));
+  for (const auto& [agv, transport, at] : itinerary.deliveries) {
     sink.u32(agv.value);
     sink.u32(transport);
     sink.i64(to_ns(at));
   }
 }
 
-Whereabouts take_whereabouts(ByteSource& source) {
-  Whereabouts whereabouts;
-  whereabouts.departures = take_departures(source);
-  whereabouts.turns = take_departures(source);
-  whereabouts.deliveries.resize(source.count(kDeliveryBytes));
-  for (auto& [agv, transport, at] : whereabouts.deliveries) {
+Itinerary take_itinerary(ByteSource& source) {
+  Itinerary itinerary;
+  itinerary.departures = take_departures(source);
+  itinerary.turns = take_departures(source);
+  itinerary.deliveries.resize(source.count(kDeliveryBytes));
+  for (auto& [agv, transport, at] : itinerary.deliveries) {
     agv.value = source.u32();
     transport = source.u32();
     at = at_ns(source.i64());
   }
-  return whereabouts;
+  return itinerary;
 }
 
 }  // namespace fleetproof
