@@ -1,5 +1,7 @@
 #include "laws/laws.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "laws/battery_law.hpp"
@@ -77,6 +79,14 @@ bool is_to_compare_with(const Entry<MakeLaw>& law) { return &law >= default_laws
 
 const Entry<MakeLaw>* find_law(std::string_view name) {
   return find_entry(laws(), name == "exact" ? "safety-distance" : name);
+}
+
+std::string why_not_left_out(std::string_view name) {
+  const auto names = names_of(default_laws());
+  if (name == names.front())
+    return fmt::format("names \"{}\", the judge of violations; without it there is nothing to count", name);
+  if (std::ranges::find(names, name) != names.end()) return {};
+  return fmt::format("names \"{}\", which no campaign runs{}", name, name_hint(name, names));
 }
 
 std::vector<std::unique_ptr<Law>> make_default_laws(const Scenario& scenario, std::span<const std::string> left_out) {

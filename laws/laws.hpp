@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,9 @@ bool is_to_compare_with(const Entry<MakeLaw>& law);
 
 // The law with this name; null if there is none. `exact` is another name of `safety-distance`.
 const Entry<MakeLaw>* find_law(std::string_view name);
+
+// Empty if a campaign may leave this law out; else why not.
+std::string why_not_left_out(std::string_view name);
 
 // The default set for one run, without the laws in `left_out`. The judge comes first.
 std::vector<std::unique_ptr<Law>> make_default_laws(const Scenario& scenario,

@@ -9,11 +9,11 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
+#include "campaign/run/case_file.hpp"
 #include "campaign/run/engine_identity.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/scenario/canonical_bytes.hpp"
-#include "generators/scenario_file/scenario_file.hpp"
 #include "storage/archive_reader.hpp"
 
 namespace fleetproof::cli {
@@ -41,7 +41,7 @@ CaseSource of_run(const CaseWords& words, AgentPrograms& programs) {
     source.stored_failure = name_of(stored->outcome.outcome_class());
   source.name = fmt::format("{}-{}", std::filesystem::path(words.source).stem().string(), run);
   source.scenario = ScenarioSource(plan).scenario(run);
-  source.agent = {agent.program, plan.config_of(agent), plan.laws_left_out, plan.limits};
+  source.agent = case_agent(plan, agent);
   return source;
 }
 
@@ -49,12 +49,13 @@ CaseSource of_file(const CaseWords& words, AgentPrograms& programs) {
   refuse_results(words.source,
                  fmt::format("name a run of it: fleetproof {} {} RUN", words.verb, shell_word(words.source)));
   CaseSource source;
-  source.scenario = read_scenario(words.source);
+  source.scenario = read_case_file(words.source);
   source.name = std::filesystem::path(words.source).stem().string();
   std::vector<std::string> plugins = words.plugins;
   const std::string& named = words.agent.empty() ? source.scenario.agent : words.agent;
   source.agent.program = meet_agent(named, plugins, programs, &AgentPrograms::know);
   source.agent.config = words.config.empty() ? source.scenario.agent_config : words.config;
+  source.agent.laws_left_out = source.scenario.law.leave_out;
   if (source.agent.program.empty())
     throw InputError("--agent", "neither the scenario file nor the command line names an agent; name one");
   return source;

@@ -7,9 +7,9 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/scenario_source.hpp"
+#include "campaign/run/case_file.hpp"
 #include "campaign/workers/run_host.hpp"
 #include "generators/formats/importer.hpp"
-#include "generators/scenario_file/scenario_file.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/worlds/world_maker.hpp"
 
@@ -66,7 +66,7 @@ void check_campaign(const std::string& path) {
 }
 
 void check_scenario(const std::string& path) {
-  const Scenario scenario = read_scenario(path);
+  const Scenario scenario = read_case_file(path);
   for (const auto& problem : problems_of(scenario)) talk("warning: {}: {}\n", path, problem.sentence);
   put("{}: ok, {} stations, {} segments, {} AGVs, {:g} s\n", path, scenario.map->station_count(),
       scenario.map->segment_count(), scenario.agvs.size(), to_seconds(scenario.horizon));

@@ -108,9 +108,8 @@ void save_runs(const ExplainWords& words, const CaseSource& source, CaseHost& ho
   std::error_code error;
   std::filesystem::create_directories(words.runs, error);
   if (error) throw InputError("--runs", fmt::format("{} cannot be made: {}", words.runs, error.message()));
-  const auto save = [&](Scenario scenario, const std::string& name, bool is_expected) {
-    scenario.agent = source.agent.program;
-    scenario.agent_config = source.agent.config;
+  const auto save = [&](const Scenario& run, const std::string& name, bool is_expected) {
+    Scenario scenario = played_by(source.agent, run);
     if (is_expected) scenario.expected = expectation_of(host(scenario));
     write_whole({file_in(words.runs, name), "--runs", OutputKind::Scenario}, printable_json(to_text(scenario)));
   };

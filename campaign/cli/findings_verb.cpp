@@ -118,9 +118,8 @@ class FindingsDesk {
     const std::string id = finding.id();
     const FindingRecord record = record_of(host, finding, representative(finding).needs, trials(), worlds_of(finding));
     const AgentFactor& agent = plan_.agent_of_cell(representative(finding).run);
-    const auto write_case = [&](Scenario scenario, const std::string& name) {
-      scenario.agent = agent.program;
-      scenario.agent_config = plan_.config_of(agent);
+    const auto write_case = [&](const Scenario& world, const std::string& name) {
+      Scenario scenario = played_by(case_agent(plan_, agent), world);
       scenario.expected = expectation_of(host(scenario));
       write_beside(name, OutputKind::Scenario, printable_json(to_text(scenario)));
     };

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
+#include "campaign/shrink/case_host.hpp"
 #include "core/engine/run_watch.hpp"
 #include "core/scenario/scenario.hpp"
 
@@ -14,7 +13,6 @@ namespace fleetproof::cli {
 // are known, the run can be simulated, and watched, in this process (RunWatch::known_ends). None of a reference agent.
 // Call this before threads are started and files are opened. `known`: the agent is known, and not loaded. Throws
 // InputError if it does not end at the same call twice.
-std::vector<KnownEnd> known_ends(const Scenario& scenario, const std::string& program, const std::string& config,
-                                 const CampaignPlan& plan, const AgentPrograms& known);
+std::vector<KnownEnd> known_ends(const Scenario& scenario, const CaseAgent& agent, const AgentPrograms& known);
 
 }  // namespace fleetproof::cli

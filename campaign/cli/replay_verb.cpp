@@ -76,7 +76,7 @@ ReplayResult replay_software(const ReplayVerbWords& words, const ArchiveReader& 
     AgentPrograms known;
     meet_agent_of(words, archive, plan, known, &AgentPrograms::know);
     const AgentFactor& agent = plan.agent_of_cell(words.run);
-    ends = known_ends(ScenarioSource(plan).scenario(words.run), agent.program, plan.config_of(agent), plan, known);
+    ends = known_ends(ScenarioSource(plan).scenario(words.run), case_agent(plan, agent), known);
   }
   meet_agent_of(words, archive, plan, programs, in_process ? &AgentPrograms::load : &AgentPrograms::know);
   tell_rebuilt_plugins(archive.campaign(), {&plan.agent_of_cell(words.run), 1}, programs);
@@ -137,9 +137,7 @@ int replay_run(const ReplayVerbWords& words) {
   }
   const CellRecord cell = source.place(words.run).cell;
   const AgentFactor& agent = plan.agent_of_cell(cell.index);
-  Scenario scenario = source.scenario(words.run);
-  scenario.agent = agent.program;
-  scenario.agent_config = plan.config_of(agent);
+  const Scenario scenario = played_by(case_agent(plan, agent), source.scenario(words.run));
   std::optional<RunObservers> observed;
   if (words.observed.wanted()) {
     const auto stored = archive.run(words.run);

@@ -10,11 +10,11 @@
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/run/case_file.hpp"
 #include "campaign/shrink/failure_pattern.hpp"
 #include "campaign/shrink/shrink.hpp"
 #include "campaign/shrink/trial_file.hpp"
 #include "core/base/error.hpp"
-#include "generators/scenario_file/scenario_file.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "reports/wording.hpp"
 
@@ -88,7 +88,7 @@ std::optional<FailingCase> found_before(const ShrinkWords& words, CaseHost& host
   if (!std::filesystem::exists(words.out)) return std::nullopt;
   Scenario before;
   try {
-    before = read_scenario(words.out);
+    before = read_case_file(words.out);
   } catch (const InputError&) {  // of an older version, or damaged
     return std::nullopt;
   }
@@ -110,8 +110,7 @@ void prefer(std::optional<FailingCase> before, ShrinkResult& result) {
 }
 
 void save(const ShrinkWords& words, CaseHost& host, const CaseSource& source, FailingCase failing) {
-  failing.scenario.agent = source.agent.program;
-  failing.scenario.agent_config = source.agent.config;
+  failing.scenario = played_by(source.agent, std::move(failing.scenario));
   failing.scenario.expected = expectation_of(host(failing.scenario));
   write_whole({words.out, "--output", OutputKind::Scenario}, printable_json(to_text(failing.scenario)));
 }

@@ -14,13 +14,13 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/run/agent_programs.hpp"
+#include "campaign/run/case_file.hpp"
 #include "campaign/run/case_run.hpp"
 #include "campaign/shrink/other_luck.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/engine/simulation.hpp"
 #include "generators/formats/purpose_words.hpp"
-#include "generators/scenario_file/scenario_file.hpp"
 #include "laws/comparison.hpp"
 #include "laws/exact_law.hpp"
 #include "laws/laws.hpp"
@@ -119,7 +119,7 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
   if (law != &laws().front()) observers.laws.push_back(law->make(scenario));
   const bool published = is_to_compare_with(*law);
   if (!observers.laws.empty() && !published) return observers;
-  std::ranges::move(make_default_laws(scenario), std::back_inserter(observers.laws));
+  std::ranges::move(make_default_laws(scenario, scenario.law.leave_out), std::back_inserter(observers.laws));
   if (!published) return observers;
   // A published rule knows no exemptions, so an exempt violation that it files is no mistake.
   observers.laws[1] = make_exact_law(scenario);
@@ -229,7 +229,7 @@ std::vector<KnownEnd> ends_of_plugin(SimulateWords words, const Scenario& scenar
   AgentPrograms known;
   words.agent = meet_agent(words.agent, words.plugins, known, &AgentPrograms::know);
   known.program(words.agent, words.agent_place);
-  return known_ends(scenario, words.agent, words.config, {}, known);
+  return known_ends(scenario, {words.agent, words.config, scenario.law.leave_out}, known);
 }
 
 std::uint32_t luck_number(std::uint64_t number, const char* option) {
@@ -262,7 +262,7 @@ ReplayWords page_words(const SimulateWords& words) {
 
 int simulate_scenario(SimulateWords words) {
   refuse_results(words.scenario, fmt::format("name a run of it: fleetproof replay {} RUN", shell_word(words.scenario)));
-  Scenario scenario = with_luck(words, read_scenario(words.scenario));
+  Scenario scenario = with_luck(words, read_case_file(words.scenario));
   if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
   AgentPrograms programs;
   const bool names_agent = words.agent.empty() && !scenario.agent.empty();
@@ -282,9 +282,10 @@ int simulate_scenario(SimulateWords words) {
       simulate(scenario, agent, observers.laws, observed ? &*observed : nullptr, words.config.c_str(), watch);
   if (observed) observed->finish(outcome);
   const bool is_saved_case = scenario.expected != ExpectedOutcome{};
-  const ExpectedOutcome found = is_saved_case
-                                    ? expectation_of(run_case(scenario, agent, words.config, {}, Fates::Ignored, watch))
-                                    : ExpectedOutcome{};
+  const ExpectedOutcome found =
+      is_saved_case
+          ? expectation_of(run_case(scenario, agent, words.config, scenario.law.leave_out, Fates::Ignored, watch))
+          : ExpectedOutcome{};
   if (words.json) {
     print_json(scenario, outcome, words, observers, found);
   } else {

@@ -180,10 +180,9 @@ std::string text_of_words(std::string_view prefix, const NeighbourCounts& counts
 // What decides how its runs are judged, beside the scenario.
 void read_judge(TomlTable& table, KeptFinding& finding) {
   finding.laws_left_out = texts(table, "laws_left_out");
-  const auto names = names_of(default_laws());
   for (const std::string& name : finding.laws_left_out) {
-    if (std::ranges::find(names, name) == names.end())
-      throw InputError(table.place("laws_left_out"), fmt::format("{} is no law of a campaign", in_quotes(name)));
+    if (const std::string why_not = why_not_left_out(name); !why_not.empty())
+      throw InputError(table.place("laws_left_out"), "laws_left_out " + why_not);
   }
   visit_fields(finding.limits, [&](const Field& field, auto& value) {
     const auto given = table.given(field.key);

@@ -14,7 +14,7 @@ std::vector<PlayedCase> play_known_cases(const FindingsFile& file, const Campaig
   for (const KeptFinding& finding : file.findings()) kept.push_back(file.failure(finding));
   std::vector<PlayedCase> played;
   for (const AgentFactor& agent : plan.agents) {
-    CaseHost host({agent.program, plan.config_of(agent), plan.laws_left_out, plan.limits}, programs, workers);
+    CaseHost host(case_agent(plan, agent), programs, workers);
     host.simulate_while(go_on);
     const auto runs = all_runs(host, {kept.size(), [&](std::size_t i) { return std::optional(kept[i].smallest); }});
     for (std::size_t i = 0; i < kept.size(); ++i) {

@@ -33,8 +33,7 @@ AgentHosts::AgentHosts(const CampaignPlan& plan, const AgentPrograms& programs, 
   for (const SurveyedRun& run : runs) {
     if (hosts_.contains(run.agent)) continue;
     const AgentFactor& agent = plan.agent_of_cell(run.run);
-    const CaseAgent played{agent.program, plan.config_of(agent), plan.laws_left_out, plan.limits};
-    hosts_.emplace(run.agent, std::make_unique<CaseHost>(played, programs, workers));
+    hosts_.emplace(run.agent, std::make_unique<CaseHost>(case_agent(plan, agent), programs, workers));
   }
 }
 

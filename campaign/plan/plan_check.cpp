@@ -263,12 +263,8 @@ void check_vehicles(const CampaignPlan& plan, const PlanPlaces& places) {
 
 void check_laws_and_coverage(const CampaignPlan& plan, const PlanPlaces& places) {
   for (const std::string& name : plan.laws_left_out) {
-    const auto names = names_of(default_laws());
-    demand(std::ranges::find(names, name) != names.end(), places, "law.leave_out",
-           fmt::format("law.leave_out names \"{}\", which no campaign runs{}", name, name_hint(name, names)));
-    demand(
-        name != default_laws().front().name, places, "law.leave_out",
-        fmt::format("law.leave_out names \"{}\", the judge of violations; without it there is nothing to count", name));
+    const std::string why_not = why_not_left_out(name);
+    demand(why_not.empty(), places, "law.leave_out", "law.leave_out " + why_not);
   }
   for (const std::string& probe : plan.probes_to_meet()) {
     const bool printable = std::ranges::all_of(probe, [](unsigned char c) { return c >= 0x20 && c != 0x7f; });

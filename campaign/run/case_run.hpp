@@ -38,7 +38,7 @@ enum class Fates : bool { Ignored, Kept };
 
 // Under the default laws without those in `laws_left_out`.
 CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std::string& agent_config,
-                 const std::vector<std::string>& laws_left_out = {}, Fates fates = Fates::Ignored,
+                 const std::vector<std::string>& laws_left_out, Fates fates = Fates::Ignored,
                  const RunWatch& watch = {});
 
 // How a run failed: two runs fail in the same way if their kinds are equal.

@@ -2,6 +2,17 @@
 
 namespace fleetproof {
 
+CaseAgent case_agent(const CampaignPlan& plan, const AgentFactor& agent) {
+  return {agent.program, plan.config_of(agent), plan.laws_left_out, plan.limits};
+}
+
+Scenario played_by(const CaseAgent& agent, Scenario scenario) {
+  scenario.agent = agent.program;
+  scenario.agent_config = agent.config;
+  scenario.law.leave_out = agent.laws_left_out;
+  return scenario;
+}
+
 CaseHost::CaseHost(const CaseAgent& agent, const AgentPrograms& programs, int workers)
     : programs_(programs), workers_(workers) {
   AgentFactor& factor = plan_.agents.emplace_back();

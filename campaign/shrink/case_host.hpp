@@ -22,6 +22,10 @@ struct CaseAgent {
   LimitSetup limits{};
   friend bool operator==(const CaseAgent&, const CaseAgent&) = default;
 };
+CaseAgent case_agent(const CampaignPlan& plan, const AgentFactor& agent);
+// The scenario as a file keeps it: whoever plays the file has the same agent and configuration, and the same laws
+// judge.
+Scenario played_by(const CaseAgent& agent, Scenario scenario);
 
 // A case was to be simulated after the time for that was over.
 class GivenUp : public std::runtime_error {

@@ -101,6 +101,7 @@ struct LawSetup {
                              // exempt_radius_m of one station with such a purpose
   double exempt_radius_m = 0.0;
   std::vector<ExemptPair> exempt_pairs;  // safety-distance: two such bodies may be close to each other anywhere
+  std::vector<std::string> leave_out;    // a saved case: laws of the default set that its campaign did not run
 };
 
 // What a saved case is known to do. It changes nothing.

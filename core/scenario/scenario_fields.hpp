@@ -133,7 +133,7 @@ void visit_fields(Clock& clock, Visit&& visit) {
 template <FieldsOf<LawSetup> Law, class Visit>
 void visit_fields(Law& law, Visit&& visit) {
   auto& [safety_distance_m, snapshot_s, reaction_s, min_transports_per_agv_hour, exempt_purposes, exempt_radius_m,
-         exempt_pairs] = law;
+         exempt_pairs, leave_out] = law;
   visit(Field{.key = "safety_distance_m",
               .text = "bodies that come closer than this violate the safety distance",
               .low = 0.001,
@@ -159,6 +159,12 @@ void visit_fields(Law& law, Visit&& visit) {
               .text = "pairs of vehicle types, or \"obstacle\", that may be close to each other anywhere",
               .left_out = exempt_pairs.empty()},
         exempt_pairs);
+  visit(Field{.key = "leave_out",
+              .text = "laws that are not run",
+              .home = FieldHome::ScenarioOnly,
+              .left_out = leave_out.empty(),
+              .is_later = true},
+        leave_out);
 }
 
 template <FieldsOf<ExpectedOutcome> Expected, class Visit>

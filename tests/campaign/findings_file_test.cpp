@@ -124,7 +124,7 @@ TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
   EXPECT_EQ(error_of(toml_of(waived) + "reason = \"x\"\nuntil = \"2028-02-29\"\n"), "");
   auto other = odd();
   other.laws_left_out = {"gravity"};
-  EXPECT_THAT(error_of(toml_of(other)), HasSubstr("\"gravity\" is no law"));
+  EXPECT_THAT(error_of(toml_of(other)), HasSubstr("laws_left_out names \"gravity\", which no campaign runs"));
 }
 
 // What the whole runs of a finding showed, and the other findings of the same software.
