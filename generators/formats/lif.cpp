@@ -15,6 +15,7 @@
 #include "core/base/tolerances.hpp"
 #include "core/scenario/vehicle_fields.hpp"
 #include "generators/formats/heading.hpp"
+#include "generators/formats/lif_actions.hpp"
 #include "generators/formats/lif_corridor.hpp"
 #include "generators/formats/lif_layouts.hpp"
 #include "generators/formats/lif_left_out.hpp"
@@ -33,24 +34,6 @@
 
 namespace fleetproof {
 namespace {
-
-Purposes purpose_of_action(std::string_view type, const PurposeWords& own) {
-  if (const auto said = own.said_of(type)) return *said;
-  if (type == "pick" || type == "drop") return Purpose::Storage;
-  return type == "startCharging" ? Purposes(Purpose::Charging) : Purposes::from_bits(0);
-}
-
-// What the vehicles of all types do on one node or edge.
-Purposes purposes_of_actions(const std::vector<JsonReader>& rules, const PurposeWords& own) {
-  auto purposes = Purposes::from_bits(0);
-  for (const auto& type : rules) {
-    const auto actions = type.find("actions");
-    if (!actions) continue;
-    for (const auto& action : actions->items())
-      purposes = purposes | purpose_of_action(action.at("actionType").text(), own);
-  }
-  return purposes;
-}
 
 class LifReader {
  public:
@@ -284,9 +267,11 @@ class LifReader {
       if (!node || stated_.contains(node->index())) continue;
       auto& purposes = layout_.stations[node->index()].purposes;
       if (purposes != Purposes(Purpose::Routing)) continue;
-      purposes = purposes | Purpose::Storage;
-      warn(id, fmt::format("no action is named at node {}, which belongs to a station; it is taken to be for storage",
-                           in_quotes(id.text())));
+      const bool may_transfer = !forbid_transfers(rules_by_type(nodes_[node->index()]));
+      if (may_transfer) purposes = purposes | Purpose::Storage;
+      warn(id, fmt::format(
+                   "no action is named at node {}, which belongs to a station; {}", in_quotes(id.text()),
+                   may_transfer ? "it is taken to be for storage" : "it forbids to pick or drop, so AGVs only pass"));
     }
   }
 

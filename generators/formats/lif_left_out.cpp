@@ -16,7 +16,7 @@ constexpr Topic kDetails{
     "{0} kinds of details of actions are left out ({1}); here an action takes the time of its task"};
 constexpr Topic kTurns{"{0} edges have rules for turning ({1}); here an AGV turns at stations only, at its own speed"};
 constexpr Topic kLifts{"{0} edges and stations give the height of a lift or load ({1}); here the floor is flat"};
-constexpr Topic kLoads{"{0} edges are for sets of loads ({1}); here all loads are alike"};
+constexpr Topic kLoads{"{0} nodes and edges are for sets of loads ({1}); here all loads are alike"};
 constexpr Topic kReentry{"{0} edges have rules for reentry ({1}); they are left out"};
 constexpr Topic kCorridors{
     "{0} nodes and edges let an AGV leave the lane ({1}); leaving the lane is not modelled: it stays on the lane"};
@@ -26,6 +26,8 @@ constexpr Topic kDrawn{
 constexpr Topic kGuides{"{0} edges are lines on the floor that guide AGVs ({1}); here this changes nothing"};
 constexpr Topic kPlaces{"{0} stations stand beside the nodes ({1}); here an AGV serves them at their nodes"};
 constexpr Topic kSecond{"{0} edges have more than one trajectory ({1}); the first counts"};
+constexpr Topic kForbidden{"{0} nodes and edges forbid types of actions ({1}); here AGVs pick, drop and charge alone"};
+constexpr Topic kVersion{"the file says that it is LIF {1}; it is read as LIF 2.0"};
 constexpr Topic kUnknown{"{0} keys are unknown here and left out ({1})"};
 
 enum class Named : std::uint8_t { ByOwner, ByKey, ByValue };
@@ -44,10 +46,12 @@ constexpr Rule kRules[] = {
     {"layoutVersion", &kNotes, Named::ByKey},
     {"layoutLevelId", &kNotes, Named::ByKey},
     {"layoutDescription", &kNotes, Named::ByKey},
+    {"layoutDescriptor", &kNotes, Named::ByKey},
     {"nodes"},
     {"nodes/nodeId"},
     {"nodes/nodeName", &kNotes, Named::ByKey},
     {"nodes/nodeDescription", &kNotes, Named::ByKey},
+    {"nodes/nodeDescriptor", &kNotes, Named::ByKey},
     {"nodes/mapId", &kNotes, Named::ByKey},
     {"nodes/nodePosition"},
     {"nodes/nodePosition/x"},
@@ -60,12 +64,20 @@ constexpr Rule kRules[] = {
     {"nodes/types/allowedDeviationXY", &kCorridors},
     {"nodes/types/allowedDeviationTheta", &kCorridors},
     {"nodes/types/actions"},
+    {"nodes/types/requiredActions"},
+    {"nodes/types/feasibleActions"},
+    {"nodes/types/forbiddenActionTypes", &kForbidden},
+    {"nodes/types/loadRestriction"},
+    {"nodes/types/loadRestriction/loaded"},
+    {"nodes/types/loadRestriction/unloaded"},
+    {"nodes/types/loadRestriction/loadSetNames", &kLoads},
     {"edges"},
     {"edges/edgeId"},
     {"edges/startNodeId"},
     {"edges/endNodeId"},
     {"edges/edgeName", &kNotes, Named::ByKey},
     {"edges/edgeDescription", &kNotes, Named::ByKey},
+    {"edges/edgeDescriptor", &kNotes, Named::ByKey},
     {"edges/types"},
     {"edges/types/typeId"},
     {"edges/types/typeId/manufacturer", &kNotes, Named::ByKey},
@@ -77,7 +89,7 @@ constexpr Rule kRules[] = {
     {"edges/types/rotationAllowed", &kTurns, Named::ByOwner, "false"},
     {"edges/types/rotationAtStartNodeAllowed"},
     {"edges/types/rotationAtEndNodeAllowed"},
-    {"edges/types/reachOrientationBeforeEntering", &kTurns},
+    {"edges/types/reachOrientationBeforeEntering", &kTurns, Named::ByOwner, "true"},
     {"edges/types/maxSpeed"},
     {"edges/types/maximumSpeed"},
     {"edges/types/maxRotationSpeed", &kTurns},
@@ -86,11 +98,16 @@ constexpr Rule kRules[] = {
     {"edges/types/maxHeight", &kLifts},
     {"edges/types/minimumHeight", &kLifts},
     {"edges/types/maximumHeight", &kLifts},
+    {"edges/types/minimumLoadHandlingDeviceHeight", &kLifts},
+    {"edges/types/maximumMobileRobotHeight", &kLifts},
     {"edges/types/loadRestriction"},
     {"edges/types/loadRestriction/loaded"},
     {"edges/types/loadRestriction/unloaded"},
     {"edges/types/loadRestriction/loadSetNames", &kLoads},
     {"edges/types/actions"},
+    {"edges/types/requiredActions"},
+    {"edges/types/feasibleActions"},
+    {"edges/types/forbiddenActionTypes", &kForbidden},
     {"edges/types/trajectory"},
     {"edges/types/trajectory/degree"},
     {"edges/types/trajectory/knotVector"},
@@ -106,6 +123,7 @@ constexpr Rule kRules[] = {
     {"stations/interactionNodeIds"},
     {"stations/stationName", &kNotes, Named::ByKey},
     {"stations/stationDescription", &kNotes, Named::ByKey},
+    {"stations/stationDescriptor", &kNotes, Named::ByKey},
     {"stations/stationType", &kNotes, Named::ByKey},
     {"stations/stationHeight", &kLifts},
     {"stations/stationPosition", &kPlaces},
@@ -146,7 +164,7 @@ class LifWalk {
     if (rule == std::end(kRules)) return things_.add(kUnknown, value.place(), inner);
     if (rule->topic != nullptr) return left_out(*rule, value, key, owner);
     if (inner.ends_with("/types")) one_trajectory(value, owner);
-    if (inner.ends_with("/actions")) return actions(value);
+    if (inner.ends_with("/actions") || inner.ends_with("Actions")) return actions(value);
     if (value.value().shape == JsonValue::Shape::Object) members(value, inner, owner);
     if (value.value().shape != JsonValue::Shape::Array) return;
     for (const auto& item : value.items()) {
@@ -184,6 +202,22 @@ class LifWalk {
   const PurposeWords& own_;
 };
 
+void note_version(const JsonReader& root, LeftOutThings& things) {
+  const auto meta = root.find("metaInformation");
+  const auto version = meta ? meta->find("lifVersion") : std::nullopt;
+  if (!version || !version->is_text()) return;
+  const std::string text = version->text(), major = text.substr(0, text.find('.'));
+  if (major != "0" && major != "1" && major != "2") things.add(kVersion, version->place(), text);
+}
+
+void note_origin(const JsonReader& origin, LeftOutThings& things) {
+  for (const auto& key : origin.value().keys) {
+    if (key == "layouts") continue;
+    const bool is_note = key == "originId" || key == "originDescriptor" || key == "originDescription";
+    things.add(is_note ? kNotes : kUnknown, origin.at(key).place(), is_note ? key : "origins/" + key);
+  }
+}
+
 }  // namespace
 
 void note_left_out(const JsonReader& root, const JsonReader& layout, const PurposeWords& own,
@@ -192,6 +226,10 @@ void note_left_out(const JsonReader& root, const JsonReader& layout, const Purpo
   for (const auto& key : root.value().keys) {
     if (key == "layouts" || key == "origins") continue;
     things.add(key == "metaInformation" ? kNotes : kUnknown, root.at(key).place(), key);
+  }
+  note_version(root, things);
+  if (const auto origins = root.find("origins")) {
+    for (const auto& origin : origins->items()) note_origin(origin, things);
   }
   LifWalk(things, own).members(layout, "", "");
   things.tell(warnings);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "core/base/catalogue.hpp"
 #include "generators/formats/heading.hpp"
 #include "generators/formats/lif_types.hpp"
 #include "generators/text/name_list.hpp"
@@ -16,7 +17,18 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kHalfTurns = 0.005;  // tolerance of an orientation, in half turns
+constexpr double kHalfTurns = 0.005;      // tolerance of an orientation, in half turns
+constexpr double kFullTurn_rad = 6.2832;  // rounded up, as files round it
+constexpr std::string_view kReferences[] = {"TANGENTIAL", "GLOBAL"};
+
+bool is_tangential(const JsonReader& rule) {
+  const auto reference = rule.find("orientationType");
+  if (!reference) return true;
+  const auto word = reference->text();
+  if (std::ranges::find(kReferences, word) == std::end(kReferences))
+    reference->refuse("there is no such word" + name_hint(word, kReferences));
+  return word == kReferences[0];
+}
 
 // Of an orientation along the edge: whether the nose goes first. None: it is aside.
 std::optional<bool> is_forward(double rad) {
@@ -47,6 +59,11 @@ std::optional<std::vector<double>> angles_of(const JsonReader& list) {
   return angles_rad.empty() ? std::nullopt : std::optional(std::move(angles_rad));
 }
 
+// The rules of one edge come one after the other.
+void note(std::vector<std::string>& edges, const std::string& edge) {
+  if (edges.empty() || edges.back() != edge) edges.push_back(edge);
+}
+
 }  // namespace
 
 std::vector<double> LifTravel::orientations(const JsonReader& rule, const std::string& edge) {
@@ -60,11 +77,14 @@ std::vector<double> LifTravel::orientations(const JsonReader& rule, const std::s
     if (!list) continue;
     const auto angles_rad = angles_of(*list);
     if (!angles_rad) {
-      if (unread_.empty() || unread_.back() != edge) unread_.push_back(edge);
+      note(unread_, edge);
       continue;
     }
     found_rad.insert(found_rad.end(), angles_rad->begin(), angles_rad->end());
   }
+  if (std::ranges::any_of(found_rad, [](double rad) { return std::abs(rad) > kFullTurn_rad; })) note(large_, edge);
+  // LIF 1.0 means nose first; its successor, whose rules list types of mobile robots, means any orientation.
+  if (found_rad.empty() && rule.find("mobileRobotTypes")) note(open_, edge);
   if (found_rad.empty()) found_rad.push_back(0.0);
   return found_rad;
 }
@@ -73,11 +93,10 @@ bool LifTravel::add(const std::vector<JsonReader>& rules, Segment& segment) {
   std::map<std::vector<std::string>, std::set<bool>> ways;  // by type: whether forward
   bool forward = false, backward = false, sideways = false, also_sideways = false;
   for (const auto& rule : rules) {
-    std::string reference = "TANGENTIAL";
-    rule.read("orientationType", reference);
+    const bool tangential = is_tangential(rule);
     bool along = false, aside = false;
     for (const double rad : orientations(rule, segment.name)) {
-      const auto nose_first = reference == "TANGENTIAL" ? is_forward(rad) : std::nullopt;
+      const auto nose_first = tangential ? is_forward(rad) : std::nullopt;
       (nose_first ? along : aside) = true;
       if (!nose_first) continue;
       (*nose_first ? forward : backward) = true;
@@ -111,6 +130,9 @@ std::vector<std::string> LifTravel::sentences() const {
   tell(both_ways_,
        "{0} edges are driven forward by some types of vehicles and backward by others ({1}); here every type may do "
        "both");
+  tell(open_,
+       "{0} edges leave the orientation open ({1}); sideways travel is not modelled: here AGVs drive them nose first");
+  tell(large_, "{0} edges have orientations of more than a full turn ({1}); they count as radians, as LIF says");
   tell(unread_, "{0} edges list orientations that are no angles in radians ({1}); they are left out");
   return found;
 }

@@ -13,7 +13,7 @@ namespace fleetproof {
 class LifTravel {
  public:
   // Sets Segment::travel. Returns whether AGVs drive the edge sideways alone, so that here they drive it nose first.
-  // Throws InputError if an orientation of LIF 1.0 is no angle.
+  // Throws InputError if an orientation of LIF 1.0 is no angle, or relative to nothing that LIF knows.
   bool add(const std::vector<JsonReader>& rules, Segment& segment);
 
   // What was guessed or left out, one sentence for each kind of thing.
@@ -23,7 +23,7 @@ class LifTravel {
   // Which orientations a rule allows, in radians. A rule that gives none means 0: nose first.
   std::vector<double> orientations(const JsonReader& rule, const std::string& edge);
 
-  std::vector<std::string> sideways_, also_sideways_, both_ways_, unread_;  // names of edges
+  std::vector<std::string> sideways_, also_sideways_, both_ways_, unread_, large_, open_;  // names of edges
 };
 
 }  // namespace fleetproof

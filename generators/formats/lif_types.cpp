@@ -36,10 +36,7 @@ Loads loads_of(const std::vector<JsonReader>& rules, const std::string& type) {
   return loads;
 }
 
-bool has_place_for(const JsonReader& node, const std::string& type) {
-  const auto rules = rules_by_type(node);
-  return rules.empty() || std::ranges::any_of(rules, [&](const JsonReader& rule) { return is_named(rule, type); });
-}
+Loads operator&(const Loads& a, const Loads& b) { return {a.empty && b.empty, a.loaded && b.loaded}; }
 
 }  // namespace
 
@@ -87,12 +84,11 @@ void LifTypes::note(const JsonReader& element) {
 
 std::optional<std::vector<Permission>> LifTypes::permissions(const JsonReader& edge, const JsonReader& from,
                                                              const JsonReader& to) const {
-  const auto rules = rules_by_type(edge);
+  const auto at_edge = rules_by_type(edge), at_start = rules_by_type(from), at_end = rules_by_type(to);
   std::vector<Permission> found;
   for (const auto& name : names_.empty() ? std::vector<std::string>{""} : names_) {
-    const Loads loads = loads_of(rules, name);
-    if ((loads.empty || loads.loaded) && has_place_for(from, name) && has_place_for(to, name))
-      found.push_back({name, loads.state()});
+    const Loads loads = loads_of(at_edge, name) & loads_of(at_start, name) & loads_of(at_end, name);
+    if (loads.empty || loads.loaded) found.push_back({name, loads.state()});
   }
   if (found.empty()) return std::nullopt;
   const bool alike = std::ranges::all_of(found, [&](const Permission& one) { return one.load == found[0].load; });

@@ -18,8 +18,8 @@ std::vector<JsonReader> rules_by_type(const JsonReader& element);
 // The types for which one of these rules holds. An empty name: every type.
 std::vector<std::string> types_of(const JsonReader& rule);
 
-// Who may drive the edges of a LIF layout. A type needs a rule at the edge and at both of its nodes; a node or edge
-// without any rule is for every type.
+// Who may drive the edges of a LIF layout, and with which loads. A type needs a rule at the edge and at both of its
+// nodes, each of which may restrict its loads; a node or edge without any rule is for every type.
 class LifTypes {
  public:
   LifTypes(const std::vector<JsonReader>& nodes, const std::vector<JsonReader>& edges);

@@ -81,13 +81,32 @@ const Thing kThings[] = {
     {kEdgeType, R"("mobileRobotOrientations": ["forward"])"},
     {kEdgeType, R"("vehicleOrientations": [0, 3.14])"},
     {kEdgeType, R"("vehicleOrientations": [0, 1])"},
-    {kEdgeType, R"("reachOrientationBeforeEntering": true)"},
+    {kEdgeType, R"("reachOrientationBeforeEntering": false)"},
     {kEdgeType, R"("maximumSpeed": 1)"},
     {kEdgeType, R"("maximumRotationSpeed": 1)"},
     {kEdgeType, R"("corridor": {"maximumLeftWidth": 1, "maximumRightWidth": 1})"},
     {kEdgeType, R"("physicalLineGuidedProperty": {"direction": "left", "length": 1})"},
     {kStation, R"("stationType": "t")"},
+    {kLayout, R"("layoutDescriptor": "1")"},
+    {kNode, R"("nodeDescriptor": "n")"},
+    {kNodeType, R"("loadRestriction": {"unloaded": true, "loaded": false})"},
+    {kNodeType, R"("loadRestriction": {"unloaded": true, "loaded": true, "loadSetNames": ["pallet"]})"},
+    {kNodeType, R"("requiredActions": [{"actionType": "startCharging", "blockingType": "HARD"}])"},
+    {kNodeType, R"("feasibleActions": [{"actionType": "pick"}])"},
+    {kNodeType, R"("feasibleActions": [{"actionType": "dance"}])"},
+    {kNodeType, R"("forbiddenActionTypes": ["dance"])"},
+    {kEdge, R"("edgeDescriptor": "n")"},
+    {kEdgeType, R"("mobileRobotTypes": [{"manufacturer": "m", "seriesName": "s"}])"},
+    {kEdgeType, R"("minimumLoadHandlingDeviceHeight": 1)"},
+    {kEdgeType, R"("maximumMobileRobotHeight": 1)"},
+    {kEdgeType, R"("requiredActions": [{"actionType": "startCharging"}])"},
+    {kEdgeType, R"("feasibleActions": [{"actionType": "startCharging"}])"},
+    {kEdgeType, R"("forbiddenActionTypes": ["pick"])"},
+    {kStation, R"("stationDescriptor": "n")"},
+    {R"("layouts")", R"("metaInformation": {"lifId": "p", "lifVersion": "2.0.0"})"},
     // neither
+    {kEdgeType, R"("orientationType": "TANGENT")"},
+    {kEdgeType, R"("vehicleOrientation": 180)"},
     {R"("layouts")", R"("traffic": 1)"},
     {kLayout, R"("traffic": [1])"},
     {kNode, R"("traffic": {"light": 1})"},
@@ -131,8 +150,8 @@ INSTANTIATE_TEST_SUITE_P(All, LifThing, testing::ValuesIn(kThings));
 TEST(LifThings, ValuesThatSayNothingYieldNoSentence) {
   const auto count = import(kFile).sentences.size();
   for (const char* key :
-       {R"("orientationType": "TANGENTIAL")", R"("reentryAllowed": true)", R"("vehicleOrientation": 0)",
-        R"("vehicleOrientation": 0.0)", R"("mobileRobotOrientations": [0])"}) {
+       {R"("orientationType": "TANGENTIAL")", R"("reentryAllowed": true)", R"("reachOrientationBeforeEntering": true)",
+        R"("vehicleOrientation": 0)", R"("vehicleOrientation": 0.0)", R"("mobileRobotOrientations": [0])"}) {
     auto text = kFile;
     text.insert(text.find(kEdgeType), std::string(key) + ", ");
     EXPECT_EQ(import(text).sentences.size(), count) << key;
@@ -148,6 +167,24 @@ TEST(LifThings, SidewaysTravelAndLeavingTheLaneAreNamed) {
   };
   EXPECT_TRUE(says("(\"ab\"); sideways travel is not modelled"));
   EXPECT_TRUE(says("(\"ab\"); leaving the lane is not modelled"));
+}
+
+TEST(LifThings, AVersionOfTheFutureAndNotesOfOriginsAreNamed) {
+  const auto sentences_with = [](const std::string& version, const std::string& note) {
+    const auto text =
+        R"({"metaInformation": {"lifVersion": ")" + version + R"("}, "origins": [{)" + note + kFile.substr(1) + "]}";
+    return import(text).sentences;
+  };
+  const auto before = sentences_with("2.0.0", "").size();
+  EXPECT_EQ(sentences_with("1.0", "").size(), before);
+  for (const char* version : {"3.0.0", "10.0.0", "2026"}) {
+    const auto sentences = sentences_with(version, "");
+    ASSERT_EQ(sentences.size(), before + 1) << version;
+    EXPECT_TRUE(std::ranges::count(
+        sentences, "l.json:1: the file says that it is LIF \"" + std::string(version) + "\"; it is read as LIF 2.0"));
+  }
+  EXPECT_NE(sentences_with("2.0.0", R"("originId": "o", )"), sentences_with("2.0.0", ""));
+  EXPECT_NE(sentences_with("2.0.0", R"("scale": 2, )"), sentences_with("2.0.0", ""));
 }
 
 }  // namespace

@@ -81,6 +81,32 @@ TEST(LifRules, ATypeNeedsARuleAtTheEdgeAndAtBothNodes) {
   EXPECT_THAT(import({"", "", "", "", "", ""}).sentences, Not(HasSubstr("have no rule"))) << "a file without types";
 }
 
+TEST(LifRules, ANodeMayRestrictLoads) {
+  const std::string empty = R"({"vehicleTypeId": "fork", "loadRestriction": {"unloaded": true, "loaded": false}})";
+  const auto plant = import({.a = kFork, .b = kFork, .c = empty, .ab = kFork, .bc = kFork, .cb = kFork});
+  EXPECT_THAT(permissions(plant, 0), IsEmpty());
+  EXPECT_THAT(permissions(plant, 1), ElementsAre(":empty"));
+  EXPECT_THAT(permissions(plant, 2), ElementsAre(":empty"));
+  const std::string loaded = R"({"vehicleTypeId": "fork", "loadRestriction": {"unloaded": false, "loaded": true}})";
+  EXPECT_THAT(import({.a = kFork, .b = kFork, .c = empty, .ab = kFork, .bc = loaded, .cb = kFork}).sentences,
+              HasSubstr("no AGV may drive edge \"bc\""));
+}
+
+// As in LIF 2.0: what must be done, what can be done, and what must not be done.
+TEST(LifRules, ThreeListsOfActionsSayWhatANodeIsFor) {
+  const auto rule = [](const std::string& lists) { return "{\"vehicleTypeId\": \"fork\", " + lists + "}"; };
+  const auto plant = import({.a = rule(R"("requiredActions": [{"actionType": "startCharging"}])"),
+                             .b = rule(R"("feasibleActions": [{"actionType": "pick"}])"),
+                             .c = rule(R"("forbiddenActionTypes": ["pick", "drop"])"),
+                             .ab = kFork,
+                             .bc = kFork,
+                             .cb = kFork});
+  EXPECT_EQ(plant.layout.stations[0].purposes, Purposes(Purpose::Routing) | Purpose::Charging);
+  EXPECT_EQ(plant.layout.stations[1].purposes, Purposes(Purpose::Routing) | Purpose::Storage);
+  EXPECT_EQ(plant.layout.stations[2].purposes, Purposes(Purpose::Routing));
+  EXPECT_THAT(plant.sentences, HasSubstr("1 nodes and edges forbid types of actions (\"c\")"));
+}
+
 TEST(LifRules, AnEdgeForNobodyIsLeftOut) {
   const auto plant = import({kBoth, kBoth, kFork, kBoth, kTug, kFork});
   EXPECT_EQ(plant.layout.segments.size(), 2U);

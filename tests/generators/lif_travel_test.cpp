@@ -57,6 +57,27 @@ TEST(LifTravel, AListSaysWhichEndGoesFirst) {
   }
 }
 
+TEST(LifTravel, WordsAndAnglesThatMayBeSlipsAreNotTakenForSidewaysTravel) {
+  EXPECT_THAT(independent::refusal([](const std::string& rule) { import(rule); },
+                                   R"({"orientationType": "TANGENT", "vehicleOrientation": 3.1416})"),
+              HasSubstr("l.json:3: /layouts/0/edges/0/vehicleTypeEdgeProperties/0/orientationType: \"TANGENT\" is "
+                        "refused: there is no such word; known: TANGENTIAL, GLOBAL"));
+  EXPECT_THAT(import(R"({"vehicleOrientation": 180.0})").sentences,
+              HasSubstr("1 edges have orientations of more than a full turn (\"ab\"); they count as radians"));
+  EXPECT_THAT(import(R"({"vehicleOrientation": -6.2832})").sentences, Not(HasSubstr("full turn")));
+}
+
+// LIF 1.0: nose first. Its successor: as the AGV likes.
+TEST(LifTravel, NoOrientationMeansNoseFirstHere) {
+  EXPECT_EQ(import(R"({"vehicleTypeId": "fork"})").sentences.find("open"), std::string::npos);
+  const auto robots = R"("mobileRobotTypes": [{"manufacturer": "m", "seriesName": "s"}])";
+  const auto open = import(fmt::format("{{{}}}", robots));
+  EXPECT_EQ(open.travel, Travel::Forward);
+  EXPECT_THAT(open.sentences, HasSubstr("1 edges leave the orientation open (\"ab\")"));
+  EXPECT_THAT(import(fmt::format(R"({{{}, "mobileRobotOrientations": [0]}})", robots)).sentences,
+              Not(HasSubstr("orientation open")));
+}
+
 TEST(LifTravel, SidewaysTravelIsNamed) {
   const auto alone = listed("[1.5708, -1.5708]");
   EXPECT_EQ(alone.travel, Travel::Forward);
