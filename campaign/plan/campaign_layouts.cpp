@@ -34,7 +34,8 @@ bool is_family(const std::string& word, const std::string& place) {
 std::shared_ptr<const LogicalMap> read_map(const std::string& path, const ImportChoice& choice,
                                            std::vector<std::string>& warnings) {
   const Layout layout = import_layout(path, choice, warnings);
-  if (!choice.core_only && parts_of(layout).largest_size < layout.stations.size())
+  const auto core = parts_of(layout).largest_size;
+  if (!choice.core_only && core > 1 && core < layout.stations.size())
     warnings.push_back(fmt::format("{}: {}; core_only = true leaves these out", path, reachability_text(layout)));
   return std::make_shared<const LogicalMap>(layout);
 }

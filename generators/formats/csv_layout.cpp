@@ -325,6 +325,7 @@ Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnin
 
 Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
                         TwinPaths twins) {
+  refuse_utf16(text, source);
   Layout layout = TableReader(text, source).read();
   settle_twins(layout, twins, source, warnings);
   return layout;

@@ -55,6 +55,11 @@ class MapReader {
       throw InputError(source_, "no two free cells of the map are neighbours; expected cells with . between @");
     warnings_.push_back(fmt::format("{}: cells are taken to be {} m apart; the map names no charging and no parking{}",
                                     source_, pitch_m_, has_service_ ? "" : ", and no storage (S or E)"));
+    if (has_service_)
+      warnings_.push_back(
+          fmt::format("{}: cells S and E are taken for storage, as in maps of the League of Robot "
+                      "Runners; in maps of terrain, S is swamp",
+                      source_));
     fit_floor(layout_, kFloorMargin_m);
     if (const auto problems = problems_of(layout_); !problems.empty()) throw InputError(source_, problems[0].sentence);
     return std::move(layout_);
@@ -143,6 +148,7 @@ Layout read_grid_map(const std::string& path, std::vector<std::string>& warnings
 
 Layout parse_grid_map(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
                       double pitch_m) {
+  refuse_utf16(text, source);
   return MapReader(text, source, warnings, pitch_m).read();
 }
 

@@ -198,7 +198,7 @@ std::string fault_of(const Nurbs& n) {
   if (!std::ranges::is_sorted(n.knots)) return "the knots do not ascend; put them in order";
   if (!(n.knots[n.degree] < n.knots[n.points_m.size()])) return "all knots are equal; they run from 0 to 1";
   for (const double weight : n.weights) {
-    if (!(weight > 0.0)) return fmt::format("weight {} is not positive", weight);
+    if (!(weight > 0.0)) return fmt::format("weight {} is not positive; correct it, or leave it out for 1", weight);
   }
   return "";
 }

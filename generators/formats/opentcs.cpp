@@ -46,8 +46,8 @@ class ModelReader {
     check_version(model);
     if (model.child("element")) {
       xml_.refuse(model.child("element"),
-                  "this is a drawing of openTCS 3.0 to 4.7 (.opentcs); open it in the plant overview of openTCS 4.8 or "
-                  "later and save it as a plant model");
+                  "this is a drawing of openTCS 3.0 to 4.7 (.opentcs); open it in the plant overview of openTCS 4.8 to "
+                  "4.14, which still read it, and save it as a plant model");
     }
     drawing_ = read_drawing(xml_, model, warnings_);
     for (const auto point : model.children("point")) add_point(point);
@@ -297,6 +297,7 @@ class ModelReader {
     const auto number = static_cast<std::uint32_t>(layout_.blocks.size());
     bool holds_one = false;
     for (const auto member : block.children("member")) {
+      require_member(member);
       const auto found = std::ranges::find(layout_.segments, member.attribute("name").value(), &Segment::name);
       if (found == layout_.segments.end() || std::ranges::count(found->blocks, number) > 0) continue;
       found->blocks.push_back(number);
@@ -304,6 +305,19 @@ class ModelReader {
     }
     if (holds_one) return layout_.blocks.push_back(std::move(made));
     warn(block, fmt::format("block {} holds no path that is read; it is left out", in_quotes(made.name)));
+  }
+
+  void require_member(const pugi::xml_node& member) {
+    if (members_.empty()) {
+      for (const char* kind : {"path", "point", "location"}) {
+        for (const auto node : member.root().child("model").children(kind))
+          members_.insert(node.attribute("name").value());
+      }
+    }
+    const std::string name = member.attribute("name").value();
+    if (members_.contains(name)) return;
+    xml_.refuse(member, fmt::format("a member of a block is {}, but there is no such path, point or location{}",
+                                    in_quotes(name), remedy(name, {members_.begin(), members_.end()})));
   }
 
   // The place in the file that caused a fault of the finished layout.
@@ -361,6 +375,7 @@ class ModelReader {
   std::vector<std::string> headed_;                     // names of points
   std::map<std::string, std::set<std::string>> taken_;  // names, by element
   std::set<std::string> spelled_twice_;                 // names of points
+  std::set<std::string_view> members_;                  // names of all that a block may hold
   std::map<std::string, StationId> stations_;
   std::map<std::string, pugi::xml_node> location_types_;
   std::map<std::string, std::vector<std::string>> straightened_;  // names of paths, by their connection

@@ -11,7 +11,11 @@
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/tolerances.hpp"
+#include "core/scenario/vehicle_fields.hpp"
+#include "generators/formats/rmf_joined.hpp"
 #include "generators/formats/rmf_left_out.hpp"
+#include "generators/formats/rmf_words.hpp"
 #include "generators/map/antiparallel.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/name_list.hpp"
@@ -38,12 +42,12 @@ class LevelReader {
     const auto vertices = yaml_.list(level, "vertices", "the level"), lanes = yaml_.list(level, "lanes", "the level");
     for (const auto vertex : vertices) vertices_.push_back(vertex);
     if (vertices_.empty()) yaml_.refuse(vertices, "the level is empty: it has no vertex");
-    is_nav_graph_ = read_.is_nav_graph =
-        !vertices_[0].IsSequence() || vertices_[0].size() < 3 || vertices_[0][2].IsMap();
-    if (is_nav_graph_ && choice_.graph_idx != 0)
+    read_.is_nav_graph = !vertices_[0].IsSequence() || vertices_[0].size() < 3 || vertices_[0][2].IsMap();
+    if (read_.is_nav_graph && choice_.graph_idx != 0)
       throw InputError(yaml_.source(),
                        fmt::format("is a nav graph, which is one graph alone; leave out graph {}", choice_.graph_idx));
     read_scale(level);
+    for (const auto lane : lanes) join_ends(lane);
     std::size_t place = 0;
     for (const auto lane : lanes) add_lane(lane, place++);
     if (layout_.segments.empty()) refuse_choice(lanes);
@@ -51,6 +55,9 @@ class LevelReader {
       warn(level, fmt::format("{} two-way lanes ask for an orientation ({}); AGVs drive them back with the other end "
                               "first, without a turn",
                               told_.other_end_back.size(), name_list(told_.other_end_back)));
+    if (!told_.joined.empty())
+      warn(level, fmt::format("{} lanes have no length; the vertices that they join are one station each ({})",
+                              told_.no_length, name_list(told_.joined)));
     if (told_.other_graphs > 0) warn(lanes, fmt::format("{} lanes of other graphs are left out", told_.other_graphs));
     note_left_out(yaml_, root_, level, read_, warnings_);
     fit_floor(layout_, kFloorMargin_m);
@@ -88,7 +95,7 @@ class LevelReader {
         yaml_.refuse(levels, "a level is not a map of vertices and lanes; expected L1: {vertices: ..., lanes: ...}");
       names.push_back(entry.first.Scalar());
     }
-    const auto& wanted = read_.name = choice_.level.empty() ? names[0] : choice_.level;
+    const auto& wanted = read_.name = choice_.level.empty() ? first_with_lanes(levels) : choice_.level;
     for (const auto entry : levels) {
       if (entry.first.Scalar() != wanted) continue;
       if (names.size() > 1)
@@ -105,28 +112,23 @@ class LevelReader {
                                      name_list(names, kListed)));
   }
 
-  std::size_t vertex_index(const YAML::Node& list, std::size_t at, const char* what) const {
-    return yaml_.index_below(vertices_.size(), yaml_.item(list, at, what), fmt::format("{} names vertex", what));
+  // The first of all, if none has a lane.
+  static std::string first_with_lanes(const YAML::Node& levels) {
+    for (const auto entry : levels) {
+      const auto lanes = entry.second["lanes"];
+      if (lanes.IsDefined() && lanes.IsSequence() && lanes.size() > 0) return entry.first.Scalar();
+    }
+    return levels.begin()->first.Scalar();
   }
 
-  // The building file says [type, value] where the nav graph says value. Undefined if the attribute does not exist.
-  static YAML::Node parameter(const YAML::Node& words, const char* word) {
-    if (!words.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
-    const auto found = words[word];
-    return found.IsDefined() && found.IsSequence() && found.size() == 2 ? found[1] : found;
+  std::size_t vertex_index(const YAML::Node& list, std::size_t at, const char* what) const {
+    return yaml_.index_below(vertices_.size(), yaml_.item(list, at, what), fmt::format("{} names vertex", what));
   }
 
   // Whether the attribute exists and is true. One without a value is not.
   bool is_set(const YAML::Node& words, const char* word) const {
     const auto value = parameter(words, word);
     return value.IsDefined() && !value.IsNull() && yaml_.truth(value, word);
-  }
-
-  // Whether the attribute names something, such as the dispenser at a vertex. A word for false names nothing.
-  static bool names_something(const YAML::Node& words, const char* word) {
-    const auto value = parameter(words, word);
-    if (!value.IsDefined() || value.IsNull()) return false;
-    return !value.IsScalar() || (!value.Scalar().empty() && said_truth(value.Scalar()).value_or(true));
   }
 
   // The attributes of a vertex or lane: its last item, if that is a map. An item after them, or in their place, is
@@ -147,22 +149,25 @@ class LevelReader {
     return words_of(lane, 3, "a lane [FROM, TO, {ATTRIBUTES}]");
   }
   YAML::Node words_of_vertex(const YAML::Node& vertex) const {
-    return is_nav_graph_ ? words_of(vertex, 3, "a vertex [X, Y, {ATTRIBUTES}]")
-                         : words_of(vertex, 5, "a vertex [X, Y, Z, NAME, {ATTRIBUTES}]");
+    return read_.is_nav_graph ? words_of(vertex, 3, "a vertex [X, Y, {ATTRIBUTES}]")
+                              : words_of(vertex, 5, "a vertex [X, Y, Z, NAME, {ATTRIBUTES}]");
   }
 
   void read_scale(const YAML::Node& level) {
-    if (is_nav_graph_) return;
+    if (read_.is_nav_graph) return;
     const auto system = root_["coordinate_system"];
     const auto name = system.IsDefined() && system.IsScalar() ? system.Scalar() : "reference_image";
     if (name == "cartesian_meters") return;
-    if (name != "reference_image") {
+    if (name == "wgs84" || name == "web_mercator") {
       yaml_.refuse(
           system,
           fmt::format(
               "coordinate_system is {}, which needs a map projection; generate nav graphs and import one of them",
               in_quotes(name)));
     }
+    if (name != "reference_image")
+      yaml_.refuse(system, fmt::format("coordinate_system is {}; here it is reference_image or cartesian_meters",
+                                       in_quotes(name)));
     down_ = true;
     double sum = 0.0;
     std::size_t count = 0;
@@ -193,13 +198,14 @@ class LevelReader {
             yaml_.number(yaml_.item(node, 1, "a vertex"), "y of a vertex")};
   }
 
+  // Requires: the vertex is the first of those that are joined with it.
   StationId station_of(std::size_t vertex) {
     if (const auto found = stations_.find(vertex); found != stations_.end()) return found->second;
     const auto& node = vertices_[vertex];
-    const auto words = words_of_vertex(node);
     Station station;
-    const auto name = is_nav_graph_ ? parameter(words, "name") : node.size() > 3 ? node[3] : YAML::Node();
-    station.name = name.IsDefined() && name.IsScalar() ? name.Scalar() : "";
+    for (const std::size_t member : joined_.members_of(vertex)) {
+      if (station.name.empty()) station.name = given_name(vertices_[member], read_.is_nav_graph);
+    }
     if (station.name.empty()) station.name = fmt::format("v{}", vertex);
     if (const char* fault = fault_of_name(station.name))
       yaml_.refuse(node, fmt::format("name {}: {}", in_quotes(station.name), fault));
@@ -211,6 +217,20 @@ class LevelReader {
     }
     const Vec2 position = raw_position(vertex) * scale_m_;
     station.position_m = {position.x(), down_ ? 0.0 - position.y() : position.y()};
+    for (const std::size_t member : joined_.members_of(vertex)) {
+      add_purposes(vertices_[member], station);
+      read_.vertices.insert(member);
+    }
+    if (joined_.members_of(vertex).size() > 1) told_.joined.push_back(station.name);
+    const StationId id{layout_.stations.size()};
+    layout_.stations.push_back(std::move(station));
+    used_.push_back(vertex);
+    stations_.emplace(vertex, id);
+    return id;
+  }
+
+  void add_purposes(const YAML::Node& vertex, Station& station) {
+    const auto words = words_of_vertex(vertex);
     const auto give = [&](bool given, Purpose purpose) {
       if (given) station.purposes = station.purposes | purpose;
     };
@@ -219,13 +239,19 @@ class LevelReader {
     give(names_something(words, "pickup_dispenser"), Purpose::Storage);
     give(names_something(words, "dropoff_ingestor"), Purpose::Storage);
     if (names_something(words, "lift_cabin") || names_something(words, "lift"))
-      warn(node, fmt::format("vertex {} lies in a lift; here it is part of the floor", in_quotes(station.name)));
-    const StationId id{layout_.stations.size()};
-    layout_.stations.push_back(std::move(station));
-    used_.push_back(vertex);
-    read_.vertices.insert(vertex);
-    stations_.emplace(vertex, id);
-    return id;
+      warn(vertex, fmt::format("vertex {} lies in a lift; here it is part of the floor", in_quotes(station.name)));
+  }
+
+  bool is_of_other_graph(const YAML::Node& graph) const {
+    return !read_.is_nav_graph &&
+           (graph.IsDefined() ? yaml_.number(graph, "graph_idx") : 0.0) != static_cast<double>(choice_.graph_idx);
+  }
+
+  // Of a lane without a length.
+  void join_ends(const YAML::Node& lane) {
+    const auto from = vertex_index(lane, 0, "a lane"), to = vertex_index(lane, 1, "a lane");
+    if (from == to || is_of_other_graph(parameter(words_of_lane(lane), "graph_idx"))) return;
+    if ((raw_position(from) - raw_position(to)).norm() * scale_m_ <= kOnTheNode_m) joined_.join(from, to);
   }
 
   // `place`: in the list of lanes.
@@ -233,28 +259,36 @@ class LevelReader {
     const auto from = vertex_index(lane, 0, "a lane"), to = vertex_index(lane, 1, "a lane");
     const auto words = words_of_lane(lane);
     const auto graph = parameter(words, "graph_idx");
-    if (!is_nav_graph_ &&
-        (graph.IsDefined() ? yaml_.number(graph, "graph_idx") : 0.0) != static_cast<double>(choice_.graph_idx)) {
+    if (is_of_other_graph(graph)) {
       ++told_.other_graphs;
       told_.graphs.insert(graph.IsDefined() ? text_of(words, "graph_idx") : "0");
       return;
     }
     if (from == to) yaml_.refuse(lane, fmt::format("a lane leads from vertex {} to itself; leave it out", from));
     Segment segment;
-    segment.from = station_of(from);
-    segment.to = station_of(to);
+    segment.from = station_of(joined_.first_of(from));
+    segment.to = station_of(joined_.first_of(to));
+    if (segment.from == segment.to) return void(++told_.no_length);
     segment.bidirectional = is_set(words, "bidirectional");
     segment.name = fmt::format("lane {}", lanes_.size());
     if (const auto limit = parameter(words, "speed_limit"); limit.IsDefined()) {
-      const double limit_mps = yaml_.number(limit, "speed_limit");
-      segment.speed_limit_mps = limit_mps > 0.0 ? limit_mps : 0.0;  // 0, or -1 in older files: none
+      segment.speed_limit_mps = speed_limit_mps(limit);
       if (segment.bidirectional) segment.back_speed_limit_mps = segment.speed_limit_mps;
     }
     say_travel(lane, words, segment);
     say_mutex(words, segment);
     layout_.segments.push_back(std::move(segment));
     lanes_.push_back(lane);
-    read_.lanes.insert(place);
+    read_.lanes.emplace(place, layout_.segments.back().name);
+  }
+
+  double speed_limit_mps(const YAML::Node& limit) const {
+    const double given_mps = yaml_.number(limit, "speed_limit");
+    if (given_mps == 0.0 || given_mps == -1.0) return 0.0;  // in older files, -1 is none
+    if (!(given_mps >= kSlowest && given_mps <= kFastest))
+      yaml_.refuse(limit,
+                   fmt::format("speed_limit is {}; expected 0 (none), or {} to {} m/s", given_mps, kSlowest, kFastest));
+    return given_mps;
   }
 
   // Along the lane as drawn. A two-way lane is driven back with the other end first, without a turn.
@@ -285,10 +319,11 @@ class LevelReader {
     if (known == blocks.end()) blocks.push_back({name, BlockKind::OneVehicle});
   }
 
-  // Empty if there is no such parameter.
-  static std::string text_of(const YAML::Node& words, const char* key) {
-    const auto value = parameter(words, key);
-    return value.IsDefined() && value.IsScalar() ? value.Scalar() : "";
+  // `lane 3 from "A" to "B"`
+  std::string name_of_lane(std::size_t index) const {
+    const Segment& segment = layout_.segments[index];
+    return fmt::format("{} from {} to {}", segment.name, in_quotes(layout_.stations[segment.from.index()].name),
+                       in_quotes(layout_.stations[segment.to.index()].name));
   }
 
   void refuse_problems(const YAML::Node& level) const {
@@ -300,7 +335,7 @@ class LevelReader {
       const auto digits = pointer.substr(10);
       std::from_chars(digits.data(), digits.data() + digits.size(), index);
       yaml_.refuse(of_segment ? lanes_[index] : vertices_[used_[index]],
-                   fmt::format("{}: {}", of_segment ? "lane" : "vertex", problems[0].sentence));
+                   fmt::format("{}: {}", of_segment ? name_of_lane(index) : "vertex", problems[0].sentence));
     }
     yaml_.refuse(level, problems[0].sentence);
   }
@@ -310,17 +345,19 @@ class LevelReader {
   const RmfChoice& choice_;
   const YAML::Node root_;
   std::vector<YAML::Node> vertices_, lanes_;  // as in the file; by segment
-  bool is_nav_graph_ = false, down_ = false;
+  bool down_ = false;
   double scale_m_ = 1.0;
   Layout layout_;
-  std::map<std::size_t, StationId> stations_;  // by vertex
+  JoinedVertices joined_;
+  std::map<std::size_t, StationId> stations_;  // by the first of joined vertices
   std::vector<std::size_t> used_;              // vertex, by station
   std::set<std::string> names_;
   ReadLevel read_;
   struct {
-    std::size_t other_graphs = 0;             // lanes
-    std::set<std::string> graphs;             // other ones, by number
-    std::vector<std::string> other_end_back;  // names of segments
+    std::size_t other_graphs = 0, no_length = 0;  // lanes
+    std::vector<std::string> joined;              // names of stations
+    std::set<std::string> graphs;                 // other ones, by number
+    std::vector<std::string> other_end_back;      // names of segments
   } told_;
 };
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "generators/formats/left_out.hpp"
+#include "generators/formats/rmf_words.hpp"
 #include "generators/text/yaml_text.hpp"
 
 namespace fleetproof {
@@ -16,6 +17,8 @@ constexpr Topic kDoors{"{0} doors are left out ({1}); doors are not modelled: an
 constexpr Topic kLifts{"{0} lifts are left out ({1}); lifts are not modelled, and only one level is read"};
 constexpr Topic kParts{"{0} parts of the file are left out ({1}); they change no lane"};
 constexpr Topic kUnused{"{0} vertices lie on no lane that is read and are left out ({1})"};
+constexpr Topic kLostPlaces{
+    "{0} chargers, parking spots, dispensers and ingestors lie on no lane that is read and are left out ({1})"};
 constexpr Topic kHeights{"{0} vertices lie above or below the floor ({1}); here the floor is flat"};
 constexpr Topic kMutexes{"{0} mutex groups of vertices are left out ({1}); here a block holds lanes alone"};
 constexpr Topic kDocks{"{0} docking manoeuvres are left out ({1})"};
@@ -80,6 +83,13 @@ std::string value_of(const YAML::Node& node) {
   return text == "0.0" || !said_truth(text).value_or(true) ? "" : text;
 }
 
+bool is_place(const YAML::Node& vertex) {
+  if (!vertex.IsSequence() || vertex.size() < 3) return false;
+  const auto words = vertex[vertex.size() - 1];
+  constexpr const char* kPlaces[] = {"is_charger", "is_parking_spot", "pickup_dispenser", "dropoff_ingestor"};
+  return std::ranges::any_of(kPlaces, [&](const char* word) { return names_something(words, word); });
+}
+
 class LevelWalk {
  public:
   LevelWalk(const YamlText& yaml, const ReadLevel& read, LeftOutThings& things)
@@ -102,9 +112,9 @@ class LevelWalk {
   void vertices(const YAML::Node& list) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       const auto vertex = list[i];
-      const auto name = fmt::format("v{}", i);
+      const auto given = given_name(vertex, read_.is_nav_graph), name = given.empty() ? fmt::format("v{}", i) : given;
       if (!read_.vertices.contains(i)) {
-        things_.add(kUnused, yaml_.place(vertex), name);
+        things_.add(is_place(vertex) ? kLostPlaces : kUnused, yaml_.place(vertex), name);
         continue;
       }
       if (!read_.is_nav_graph && vertex.size() > 2 && !value_of(vertex[2]).empty())
@@ -115,7 +125,8 @@ class LevelWalk {
 
   void lanes(const YAML::Node& list) {
     for (std::size_t i = 0; i < list.size(); ++i) {
-      if (read_.lanes.contains(i)) attributes(list[i], kLaneRules, fmt::format("lane {}", i));
+      if (const auto lane = read_.lanes.find(i); lane != read_.lanes.end())
+        attributes(list[i], kLaneRules, lane->second);
     }
   }
 

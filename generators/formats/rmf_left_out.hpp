@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@ class YamlText;
 struct ReadLevel {
   std::string name{};
   bool is_nav_graph = false;
-  std::set<std::size_t> vertices, lanes;
+  std::set<std::size_t> vertices;
+  std::map<std::size_t, std::string> lanes;  // with the names of their segments
 };
 
 // Adds one sentence for each kind of thing in an Open-RMF building or nav graph that the import does not use: how many

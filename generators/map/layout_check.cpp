@@ -25,7 +25,8 @@ class Check {
     names("segments", layout_.segments);
     names("blocks", layout_.blocks);
     for (std::size_t i = 0; i < layout_.stations.size(); ++i) {
-      if (!on_the_floor(layout_.stations[i].position_m)) bad_number(fmt::format("/stations/{}/position_m", i));
+      const Vec2 position_m = layout_.stations[i].position_m;
+      if (!on_the_floor(position_m)) bad_number(fmt::format("/stations/{}/position_m", i), position_m);
       if (const auto& heading = layout_.stations[i].heading;
           heading && !(std::abs(heading->squaredNorm() - 1.0) <= kUnitVectorToTheLastDigits))
         add(ProblemKind::NumberOutOfRange, fmt::format("/stations/{}/heading", i), "a heading is a unit vector [x, y]");
@@ -42,15 +43,16 @@ class Check {
     problems_.push_back({kind, std::move(pointer), std::move(sentence)});
   }
 
-  void bad_number(std::string pointer) {
+  void bad_number(std::string pointer, const Vec2& position_m) {
     add(ProblemKind::NumberOutOfRange, std::move(pointer),
-        fmt::format("coordinates lie within {} m of the origin", kLargestCoordinate_m));
+        fmt::format("coordinates lie within {} m of the origin; [{}, {}] m does not: correct it", kLargestCoordinate_m,
+                    position_m.x(), position_m.y()));
   }
 
   void floor() {
     const auto low = layout_.floor_low_m, high = layout_.floor_high_m;
-    if (!on_the_floor(low)) bad_number("/floor_low_m");
-    if (!on_the_floor(high)) bad_number("/floor_high_m");
+    if (!on_the_floor(low)) bad_number("/floor_low_m", low);
+    if (!on_the_floor(high)) bad_number("/floor_high_m", high);
     if (low.x() > high.x() || low.y() > high.y()) {
       add(ProblemKind::NumberOutOfRange, "/floor_high_m", "the floor's high corner must not be below its low corner");
     }
@@ -80,7 +82,8 @@ class Check {
     if (s.from == s.to)
       return add(ProblemKind::BadGeometry, pointer, "a segment leads from one station to another one");
     const auto& c = s.control_points_m;
-    if (!std::ranges::all_of(c, on_the_floor)) return bad_number(pointer + "/control_points_m");
+    const auto off = std::ranges::find_if_not(c, on_the_floor);
+    if (off != c.end()) return bad_number(pointer + "/control_points_m", *off);
     if (!c.empty() && c.size() % 3 != 2) {
       return add(ProblemKind::BadGeometry, pointer + "/control_points_m",
                  fmt::format("{} control points; a curve has 2, 5, 8, ...", c.size()));

@@ -243,6 +243,8 @@ class WorldCheck {
                       rules ? core_under_rules() : reachability_text(scenario_.map->layout()),
                       rules && Reachability(*scenario_.map).core_share() >= kSmallestCoreShare
                           ? "give the fleet the types that the segments are for, or lift these permissions (any_type)"
+                      : reachability_.core().size() < 2
+                          ? "no two stations can reach each other; add segments that lead back"
                           : "add segments that lead back, or leave these stations out (core_only)"));
     }
     starts();

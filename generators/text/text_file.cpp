@@ -136,6 +136,11 @@ std::string read_text_file(const std::string& path) {
   return text;
 }
 
+void refuse_utf16(std::string_view text, std::string_view source) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw InputError(source, "is in UTF-16; save it as UTF-8");
+}
+
 void write_text_file(const std::string& path, std::string_view text, std::string_view remedy) {
   if (path.empty()) throw InputError("", fmt::format("the output file needs a name; {}", remedy));
   const std::string target = behind_links(path, remedy);

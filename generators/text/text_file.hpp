@@ -18,6 +18,9 @@ std::string read_text_file(const std::string& path);
 // Its first bytes, `most` of them if it has so many. InputError as above, but of no size.
 std::string read_beginning(const std::string& path, std::size_t most);
 
+// Throws InputError if a text that has to be UTF-8 begins as UTF-16 does.
+void refuse_utf16(std::string_view text, std::string_view source);
+
 // Writes `text` to `path`, whole or not at all. The text goes into a new file in the same folder and is brought to the
 // disk. Then the new file takes the name at one instant. A link stays, and the file behind it is replaced. InputError,
 // which ends in `remedy`, if the place is wrong; MachineError if the disk is full or fails. Either leaves what was

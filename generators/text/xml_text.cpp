@@ -3,17 +3,57 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <pugixml.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
+constexpr std::string_view kConverted[] = {"utf-16", "utf-32", "iso-8859-1", "latin1", "windows-1252"};
+
+// Where the text is not UTF-8 for the first time; its size if it is UTF-8.
+std::size_t end_of_utf8(std::string_view text) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(kSpace, begin), text.size());
+    if (!is_plain_utf8(text.substr(begin, end - begin))) return begin;
+    begin = end + 1;
+  }
+  return text.size();
+}
+
+// As the first line of the file declares it, in small letters; empty if it declares none.
+std::string declared_encoding(std::string_view text) {
+  const auto line = text.substr(0, text.find("?>"));
+  const auto key = line.starts_with("<?xml") ? line.find("encoding=") : std::string_view::npos;
+  if (key == std::string_view::npos || key + 10 >= line.size()) return {};
+  const auto rest = line.substr(key + 10);
+  std::string encoding(rest.substr(0, rest.find(line[key + 9])));
+  std::ranges::transform(encoding, encoding.begin(), [](unsigned char c) { return std::tolower(c); });
+  return encoding;
+}
+
+// pugixml would take all but those that it converts for UTF-8.
+void refuse_other_encodings(std::string_view text, std::string_view source) {
+  const bool wide = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
+                    text.substr(0, 4).find('\0') != std::string_view::npos;
+  const auto encoding = declared_encoding(text);
+  const bool converted = std::ranges::any_of(kConverted, [&](auto known) { return encoding.starts_with(known); });
+  if (wide || converted) return;
+  const std::size_t end = end_of_utf8(text);
+  if (end == text.size()) return;
+  throw InputError(
+      at_line(source, position_in(text, end).line),
+      encoding.empty() || encoding == "utf-8"
+          ? "the file is not UTF-8 here, as XML is unless it says otherwise; save it as UTF-8"
+          : fmt::format("the file is in {}, which is not read here; save it as UTF-8", in_quotes(encoding)));
+}
 
 }  // namespace
 
@@ -24,7 +64,11 @@ XmlText::XmlText(std::string_view text, std::string_view source) : text_(text), 
 }
 
 void XmlText::load(pugi::xml_document& document) const {
-  const auto result = document.load_buffer(text_.data(), text_.size());
+  refuse_other_encodings(text_, source_);
+  // Letters are the same in both.
+  const bool latin1 = declared_encoding(text_) == "windows-1252";
+  const auto result = document.load_buffer(text_.data(), text_.size(), pugi::parse_default,
+                                           latin1 ? pugi::encoding_latin1 : pugi::encoding_auto);
   if (result) return;
   const auto at = position_in(text_, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
   throw InputError(

@@ -32,7 +32,9 @@ TEST(GridMap, FreeCellsBecomeStationsJoinedToFourSides) {
   EXPECT_TRUE(layout.segments[0].bidirectional);
   EXPECT_EQ(warnings, (std::vector<std::string>{
                           "m.map:1: type \"octile\" is left out; here cells are joined on their four sides",
-                          "m.map: cells are taken to be 1.5 m apart; the map names no charging and no parking"}));
+                          "m.map: cells are taken to be 1.5 m apart; the map names no charging and no parking",
+                          "m.map: cells S and E are taken for storage, as in maps of the League of Robot Runners; in "
+                          "maps of terrain, S is swamp"}));
 }
 
 TEST(GridMap, BearsLineEndsOfOtherSystems) {

@@ -36,7 +36,8 @@ TEST(JsonValue, SyntaxErrorsNameLineAndColumn) {
   EXPECT_TRUE(refusal("{\n  \"a\": tru\n}").starts_with("f.json:2:11: not JSON: ")) << refusal("{\n  \"a\": tru\n}");
   EXPECT_TRUE(refusal("[1, 2").starts_with("f.json:1:6: not JSON: ")) << refusal("[1, 2");
   EXPECT_EQ(refusal(""), "f.json: is empty; expected a JSON object");
-  EXPECT_TRUE(refusal("\xff\xfe{").starts_with("f.json:1:1: not JSON: ")) << refusal("\xff\xfe{");
+  EXPECT_TRUE(refusal("\xff{").starts_with("f.json:1:1: not JSON: ")) << refusal("\xff{");
+  EXPECT_EQ(refusal("\xff\xfe{"), "f.json: is in UTF-16; save it as UTF-8");
   EXPECT_NE(refusal("[1e999]").find("f.json:1:"), std::string::npos) << refusal("[1e999]");
   EXPECT_NE(refusal("[NaN]").find("f.json:1:2: not JSON: "), std::string::npos) << refusal("[NaN]");
   EXPECT_NE(refusal("{} {}").find("f.json:1:4: not JSON: "), std::string::npos) << refusal("{} {}");

@@ -106,7 +106,7 @@ TEST(Nurbs, FaultsNameTheNumbers) {
   EXPECT_EQ(fault_of(spline(1, {0, 0, 0, 0}, {{0, 0}, {1, 1}})), "all knots are equal; they run from 0 to 1");
   auto weightless = spline(1, {0, 0, 1, 1}, {{0, 0}, {1, 1}});
   weightless.weights[1] = 0.0;
-  EXPECT_EQ(fault_of(weightless), "weight 0 is not positive");
+  EXPECT_EQ(fault_of(weightless), "weight 0 is not positive; correct it, or leave it out for 1");
 }
 
 }  // namespace

@@ -15,6 +15,29 @@ const std::string& crossdock() {
   return text;
 }
 
+// Plain words of the file may stand in any encoding.
+TEST(OpenTcsErrors, AnotherEncodingIsNamed) {
+  const auto in = [](const std::string& encoding, const std::string& name) {
+    const std::string head = encoding.empty() ? "" : "<?xml version=\"1.0\" encoding=\"" + encoding + "\"?>\n";
+    return independent::refusal(
+        [](const std::string& text) {
+          std::vector<std::string> warnings;
+          parse_opentcs(text, "m.xml", warnings);
+        },
+        head + "<model name=\"" + name + "\"/>");
+  };
+  const auto read = "m.xml:2: the model is empty: it has no <point>";
+  EXPECT_EQ(in("GBK", "plant"), read);
+  EXPECT_EQ(in("GBK", "\xbf\xec"), "m.xml:2: the file is in \"gbk\", which is not read here; save it as UTF-8");
+  EXPECT_EQ(in("utf-8", "\xbf\xec"),
+            "m.xml:2: the file is not UTF-8 here, as XML is unless it says otherwise; save it as UTF-8");
+  EXPECT_EQ(in("", "\xbf\xec"),
+            "m.xml:1: the file is not UTF-8 here, as XML is unless it says otherwise; save it as UTF-8");
+  EXPECT_EQ(in("UTF-8", "\xc3\xa4"), read);
+  EXPECT_EQ(in("ISO-8859-1", "\xe4"), read);
+  EXPECT_EQ(in("windows-1252", "\xe4"), read);
+}
+
 void import(const std::string& text) {
   std::vector<std::string> warnings;
   parse_opentcs(text, "m.xml", warnings);

@@ -214,7 +214,7 @@ TEST(OpenTcsPositions, BrokenDrawingsAreExplained) {
   EXPECT_EQ(with("value=\"14000\"", "value=\"1e300\""), "accepted") << "the plant is as good";
   EXPECT_EQ(refusal("<model><element type=\"layout\"/></model>"),
             "m.xml:1: this is a drawing of openTCS 3.0 to 4.7 (.opentcs); open it in the plant overview of openTCS 4.8 "
-            "or later and save it as a plant model");
+            "to 4.14, which still read it, and save it as a plant model");
 }
 
 }  // namespace

@@ -244,6 +244,10 @@ TEST(OpenTcs, BlocksHoldTheirPaths) {
   };
   EXPECT_TRUE(says("1 members of blocks are no paths (\"a\"); here a block holds paths alone"));
   EXPECT_TRUE(says("block \"void\" holds no path that is read; it is left out"));
+  const auto slip = replaced(text, "member name=\"ba\"", "member name=\"b a\"");
+  EXPECT_EQ(independent::refusal([&](const std::string& t) { parse_opentcs(t, "m.xml", warnings); }, slip),
+            "m.xml:9: a member of a block is \"b a\", but there is no such path, point or location; did you mean "
+            "\"ba\"?");
 }
 
 TEST(OpenTcs, TwinPathsBecomeOneSegmentUnlessKept) {

@@ -145,7 +145,7 @@ TEST(RmfThings, WhatIsFalseIsNotNamed) {
 
 TEST(RmfThings, AVertexAboveTheFloorIsNamed) {
   const Thing high{"ZED", "1.5", ""};
-  EXPECT_NE(import(filled(kBuilding, &high)).sentences.find("1 vertices lie above or below the floor (\"v1\")"),
+  EXPECT_NE(import(filled(kBuilding, &high)).sentences.find("1 vertices lie above or below the floor (\"gate\")"),
             std::string::npos);
 }
 

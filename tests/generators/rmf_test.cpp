@@ -84,6 +84,50 @@ TEST(Rmf, ABuildingIsScaledAndTurnedUp) {
                                                 "(\"v3\", \"v4\")"}));
 }
 
+// Such as a place to stand and the charger in it.
+TEST(Rmf, VerticesThatALaneWithoutALengthJoinsAreOneStation) {
+  const auto [layout, warnings] = import(R"(building_name: depot
+levels:
+  L1:
+    lanes:
+      - [0, 1, {}]
+      - [1, 0, {}]
+      - [1, 3, {bidirectional: true, speed_limit: 0.3}]
+      - [3, 4, {bidirectional: true}]
+      - [4, 2, {}]
+    vertices:
+      - [0.0, 0.0, {name: "", is_parking_spot: true}]
+      - [4.0, -1.0, {}]
+      - [4.0, -6.0, {name: end}]
+      - [4.0, -1.0, {name: CH_01, is_charger: true}]
+      - [4.0, -1.0005, {name: CH_02, pickup_dispenser: rack}]
+      - [9.0, 9.0, {name: CH_03, is_charger: true}]
+)");
+  ASSERT_EQ(layout.stations.size(), 3U);
+  EXPECT_EQ(layout.stations[1].name, "CH_01") << "the first that has one";
+  EXPECT_EQ(layout.stations[1].position_m, Vec2(4.0, -1.0));
+  EXPECT_EQ(layout.stations[1].purposes, Purposes(Purpose::Routing) | Purpose::Charging | Purpose::Storage);
+  ASSERT_EQ(layout.segments.size(), 2U);
+  EXPECT_EQ(layout.segments[1].from, StationId{1U});
+  EXPECT_EQ(layout.segments[1].to, StationId{2U});
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(warnings[0],
+            "b.yaml:4: 2 lanes have no length; the vertices that they join are one station each (\"CH_01\")");
+  EXPECT_EQ(warnings[1],
+            "b.yaml:16: 1 chargers, parking spots, dispensers and ingestors lie on no lane that is read and are left "
+            "out (\"CH_03\")");
+}
+
+TEST(Rmf, TheFirstLevelWithLanesIsRead) {
+  const auto text = replaced(kBuilding, "levels:\n", "levels:\n  Basement:\n    vertices: []\n");
+  const auto [layout, warnings] = import(text);
+  EXPECT_EQ(layout.name, "depot L1");
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings[0], "b.yaml:4: of 2 levels, \"L1\" is read (levels: \"Basement\", \"L1\")");
+  EXPECT_EQ(independent::refusal([](const std::string& t) { import_graph(t, {.level = "Basement"}); }, text),
+            "b.yaml:5: the level has no \"lanes\"; add them");
+}
+
 TEST(Rmf, AnotherGraphOrLevelCanBeChosen) {
   EXPECT_EQ(import_graph(kBuilding, {"", 1}).layout.segments.size(), 1U);
   EXPECT_EQ(import(replaced(kBuilding, "{graph_idx: [2, 1]}", "{}")).layout.segments.size(), 3U)
@@ -177,8 +221,12 @@ TEST(RmfErrors, NamePlaceValueAndRemedy) {
   EXPECT_EQ(break_at("[0, 1, {bi", "[1, 1, {bi"), "b.yaml:6: a lane leads from vertex 1 to itself; leave it out");
   EXPECT_EQ(break_at("[40, 10,", "[forty, 10,"), "b.yaml:14: x of a vertex is \"forty\"; expected a finite number");
   EXPECT_EQ(break_at("[40, 10,", "[.nan, 10,"), "b.yaml:14: x of a vertex is \".nan\"; expected a finite number");
-  EXPECT_EQ(break_at("[40, 10,", "[0, 0,"),
-            "b.yaml:6: lane: it has no length; move its stations apart or leave it out");
+  EXPECT_EQ(break_at("speed_limit: [3, 0.5]", "speed_limit: [3, -0.4]"),
+            "b.yaml:7: speed_limit is -0.4; expected 0 (none), or 0.001 to 100 m/s");
+  EXPECT_EQ(break_at("speed_limit: [3, 0.5]", "speed_limit: [3, 500]"),
+            "b.yaml:7: speed_limit is 500; expected 0 (none), or 0.001 to 100 m/s");
+  EXPECT_EQ(break_at("reference_image", "feet"),
+            "b.yaml:2: coordinate_system is \"feet\"; here it is reference_image or cartesian_meters");
   EXPECT_EQ(break_at("[3, 5]", "[3, 0]"), "b.yaml:10: 0 m for 100 pixels give no scale; correct the measurement");
   EXPECT_EQ(break_at("vertices:", "vertixes:"), "b.yaml:5: the level has no \"vertices\"; add them");
   EXPECT_EQ(independent::refusal(import, "a: 1\n"),

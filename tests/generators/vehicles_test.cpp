@@ -153,7 +153,7 @@ TEST(Factsheet, EachMalformedValueHasOneError) {
               HasSubstr("/agvGeometry/envelopes2d/0/polygonPoints/0/x"));
   EXPECT_THAT(root(R"("loadSpecification": [])"), HasSubstr("/loadSpecification"));
   EXPECT_THAT(independent::refusal(import_sheet, std::string(100'000, '[')), HasSubstr("f.json:1"));
-  EXPECT_THAT(independent::refusal(import_sheet, std::string("\xff\xfe{\0}\0", 6)), HasSubstr("f.json:1"));
+  EXPECT_THAT(independent::refusal(import_sheet, std::string("\xff\xfe{\0}\0", 6)), HasSubstr("is in UTF-16"));
   EXPECT_THAT(import_sheet(R"({"physicalParameters": {"length": 2, "width": 1}})").sentences,
               HasSubstr("f.json:1: gives no seriesName; the vehicle is called pallet-agv"));
 }

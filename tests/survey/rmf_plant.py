@@ -29,27 +29,45 @@ def scale_of(root, level, is_graph):
 def read(path, level=None, graph=0):
     with open(path, encoding="utf-8") as file:
         root = load(file.read())
-    chosen = root["levels"][level or next(iter(root["levels"]))]
+    levels = root["levels"]
+    chosen = levels[level or next((name for name in levels if levels[name].get("lanes")), next(iter(levels)))]
     vertices = chosen["vertices"]
     is_graph = isinstance(vertices[0][2] if len(vertices[0]) > 2 else {}, dict)
     scale = scale_of(root, chosen, is_graph)
+    lanes = [lane for lane in chosen["lanes"] if is_graph or int(words_of(lane).get("graph_idx", 0)) == graph]
+    spot_of = spots(vertices, lanes, abs(scale[0]))
     plant, names = Plant(), {}
 
-    def station(index):
-        if index not in names:
-            vertex, words = vertices[index], words_of(vertices[index])
-            name = words.get("name") if is_graph else vertex[3] if len(vertex) > 3 else ""
-            name = str(name) if name else f"v{index}"
-            names[index] = name if name not in plant.stations else f"v{index}"
-            plant.add(Station(names[index], vertex[0] * scale[0], vertex[1] * scale[1],
-                              {purpose for key, purpose in PURPOSES.items() if words.get(key)}))
-        return plant.stations[names[index]]
+    def name_of(index):
+        vertex = vertices[index]
+        return (words_of(vertex).get("name") if is_graph else vertex[3] if len(vertex) > 3 else "") or ""
 
-    for lane in chosen["lanes"]:
-        words = words_of(lane)
-        if is_graph or int(words.get("graph_idx", 0)) == graph:
-            add_lane(plant, station(lane[0]), station(lane[1]), words)
+    def station(index):
+        spot = spot_of[index]
+        if spot[0] not in names:
+            vertex, words = vertices[spot[0]], [words_of(vertices[member]) for member in spot]
+            name = next((str(name_of(member)) for member in spot if name_of(member)), f"v{spot[0]}")
+            names[spot[0]] = name if name not in plant.stations else f"v{spot[0]}"
+            plant.add(Station(names[spot[0]], vertex[0] * scale[0], vertex[1] * scale[1],
+                              {purpose for key, purpose in PURPOSES.items() if any(word.get(key) for word in words)}))
+        return plant.stations[names[spot[0]]]
+
+    for lane in lanes:
+        if spot_of[lane[0]] is not spot_of[lane[1]]:
+            add_lane(plant, station(lane[0]), station(lane[1]), words_of(lane))
     return plant
+
+
+def spots(vertices, lanes, metres):
+    """Of each vertex: all vertices that lanes shorter than a millimetre join with it, in order."""
+    spot_of = [[index] for index in range(len(vertices))]
+    for lane in lanes:
+        one, other = spot_of[lane[0]], spot_of[lane[1]]
+        if one is not other and dist(vertices[lane[0]][:2], vertices[lane[1]][:2]) * metres <= 1e-3:
+            joined = sorted(one + other)
+            for member in joined:
+                spot_of[member] = joined
+    return spot_of
 
 
 def add_lane(plant, start, end, words):
