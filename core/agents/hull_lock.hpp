@@ -73,8 +73,8 @@ class HullLock {
   void request(Stretch stretch, Purpose purpose, std::int64_t demand_ns = -1);
   Stretch way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), goals_now()); }
   Stretch way_out(Yields to);
-  // The AGV starts without a load, and the warehouse keeps only bodies without loads apart. The floor under its load is
-  // its own when it has locked its way from there.
+  // The AGV starts without a load, and only bodies without loads are promised to be apart then (agent.h). The floor
+  // under its load is its own when it has locked its way from there.
   bool must_lock_first() const { return !has_locked_ && !way_.empty() && way_.next().kind == Leg::Kind::Pick; }
   bool is_waiting() const { return !way_.acting() && (way_.empty() || must_lock_first()); }
   bool is_idle() const { return is_waiting() && errands_.empty(); }

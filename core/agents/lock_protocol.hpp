@@ -46,8 +46,8 @@
 //
 // The proof uses no assumption about the delay, the order or the number of messages, about clocks or keys, or about
 // which of several GRANTs was used and which message carried it. Keys, repetition and making way serve progress only.
-// Time releases nothing. The first hulls are the bodies at the start, and the warehouse keeps those apart. It does so
-// without their loads; an AGV takes a load there only when it has locked its way from there, and with it the floor
+// Time releases nothing. The first hulls are the bodies at the start, which the warehouse keeps apart. That is promised
+// for bodies without loads; an AGV takes a load there only when it has locked its way from there, and with it the floor
 // under the load (HullLock::must_lock_first).
 //
 // What i holds contains its body. The proof above is about held paths; these rules tie the body to the held path:

@@ -7,7 +7,8 @@
  *
  * Time. An activation starts at an instant t and sees the AGV, the inbox and the clock as of t. Its k-th controller
  * call takes effect at t plus the costs so far (the scenario's cost for each call, plus what the agent declares). If an
- * event arrives while the agent is busy, the agent receives it when it is free.
+ * event arrives while the agent is busy, the agent receives it when it is free. now_ns, events and timers show the
+ * AGV's own clock, which may be off and drift. It is never negative.
  *
  * Limits. In one activation an agent may make 10 000 controller calls, and ten million more of random and now_ns. Every
  * call counts, whatever it returns, and those in create() count with FP_EVENT_START. An agent that makes more is filed
@@ -33,7 +34,7 @@
  * turns on the spot, about its reference point, by the shorter way; half a turn may go either way. A difference of less
  * than 1e-7 rad is no turn. The footprint has its size with a load from the end of a pick to the end of a drop; the
  * load extends it by equal parts at both ends and both sides, so that centre_ahead_m stays. map.h says what arcs
- * promise.
+ * promise. At the start, bodies without loads are at least safety_distance_m apart.
  */
 #ifndef FLEETPROOF_AGENT_H
 #define FLEETPROOF_AGENT_H
@@ -127,11 +128,13 @@ typedef enum fp_event_kind {
   FP_EVENT_ORDER,     /* a transport was released for this AGV: order_id, from, to. After a restart, sent again for each
                          transport that is not done: first that of the load on board, then the oldest first; if the load
                          waits at a station, that is `from` */
-  FP_EVENT_MESSAGE,   /* the inbox is not empty; read it until FP_EMPTY */
+  FP_EVENT_MESSAGE,   /* the inbox is not empty; read it until FP_EMPTY. Messages are lost, late, doubled and reordered;
+                         those that were not read before a restart are lost */
   FP_EVENT_TIMER,     /* a timer went off: timer */
   FP_EVENT_ACTION_DONE
-  /* an action ended: result FP_OK, or FP_REFUSED if a contact put the AGV out of order. FP_REFUSED is final: the action
-     never goes on, and the AGV accepts none until the operator has set it down and the agent has restarted */
+  /* an action ended, the one that was accepted first: result FP_OK, or FP_REFUSED if a contact put the AGV out of
+     order. FP_REFUSED is final: the action never goes on, and the AGV accepts none until the operator has set it down
+     and the agent has restarted */
 } fp_event_kind;
 
 typedef struct fp_event {
@@ -175,7 +178,8 @@ typedef struct fp_host {
   int32_t (*send_unicast)(fp_controller*, const void* bytes, uint32_t size, uint32_t receiver);
 
   /* Perceptions. */
-  int32_t (*get_position)(fp_controller*, fp_pose* out);     /* perceived: it may be late, and wrong by a little */
+  int32_t (*get_position)(fp_controller*, fp_pose* out);     /* perceived: it may be late, and wrong; a
+                                                                bound is not told, so put it into your config */
   int32_t (*get_battery_level)(fp_controller*, double* out); /* 0 .. 1 */
   int32_t (*get_message)(fp_controller*, fp_message* out);   /* set out->struct_size first */
   int32_t (*is_loaded)(fp_controller*, uint32_t* out);       /* 0 or 1 */
@@ -186,8 +190,9 @@ typedef struct fp_host {
   int32_t (*set_timer)(
       fp_controller*, uint32_t timer,
       int64_t at_ns); /* one instant per timer number; setting it again replaces it, at_ns < 0 clears it */
-  uint64_t (*random)(fp_controller*, uint32_t purpose,
-                     uint64_t index); /* a pure function of run, AGV, purpose and index */
+  uint64_t (*random)(
+      fp_controller*, uint32_t purpose,
+      uint64_t index); /* 64 uniform bits: a pure function of run, AGV, purpose and index, in every boot */
   int32_t (*declare_cost_ns)(fp_controller*,
                              int64_t cost_ns); /* thinking time: later calls of this activation act that much later */
   int32_t (*safe_mode)(fp_controller*, uint32_t on);    /* declared: the AGV stands still because of the radio */
