@@ -68,11 +68,14 @@ TEST_F(ImportTest, TellsWhatItGuessed) {
   write("m.map", "height 1\nwidth 3\nmap\n.S.\n");
   const auto finished = run("import grid m.map --cell-pitch 1.5");
   EXPECT_EQ(finished.exit_code, 0);
-  EXPECT_EQ(finished.err,
-            "warning: m.map: cells are taken to be 1.5 m apart; the map names no charging and no parking\n"
-            "m.map: 3 stations, 2 segments, 1 warnings\n"
-            "purposes: 1 storage, 0 charging, 0 parking\n"
-            "reachability: all 3 stations can reach each other\n");
+  EXPECT_EQ(
+      finished.err,
+      "warning: m.map: cells are taken to be 1.5 m apart; the map names no charging and no parking\n"
+      "warning: m.map: cells S and E are taken for storage, as in maps of the League of Robot Runners; in maps of "
+      "terrain, S is swamp\n"
+      "m.map: 3 stations, 2 segments, 2 warnings\n"
+      "purposes: 1 storage, 0 charging, 0 parking\n"
+      "reachability: all 3 stations can reach each other\n");
 }
 
 // b can be reached from a and back; nobody comes back from the warehouse at the end.
