@@ -25,7 +25,7 @@ std::uint64_t unsigned_of(const SQLite::Statement& row, int column = 0);
 // Conversion between records and rows. Binds a record to an INSERT, and reads a record from a SELECT. Both use the
 // column lists of schema.hpp. What is bound is not copied: the record must live until the statement has run.
 void bind_run(Insert& insert, const RunRecord& run, std::uint64_t checksum);
-// The columns after run index and ordinal. `first`: the parameter to begin with. One statement may insert several
+// Bind the columns that follow run index and ordinal, from parameter `first` on: one statement may insert several
 // parts.
 void bind_incident(Insert& insert, int first, const Incident& incident);
 void bind_probe(Insert& insert, int first, const ProbeCount& probe);

@@ -23,8 +23,7 @@ struct CaseAgent {
   friend bool operator==(const CaseAgent&, const CaseAgent&) = default;
 };
 CaseAgent case_agent(const CampaignPlan& plan, const AgentFactor& agent);
-// The scenario as a file keeps it: whoever plays the file has the same agent and configuration, and the same laws
-// judge.
+// The scenario for a file, with what else decides its outcome: agent, configuration, and the laws that are left out.
 Scenario played_by(const CaseAgent& agent, Scenario scenario);
 
 // A case was to be simulated after the time for that was over.

@@ -12,8 +12,7 @@ Purposes purpose_of_action(std::string_view type, const PurposeWords& own) {
   return type == "startCharging" ? Purposes(Purpose::Charging) : Purposes::from_bits(0);
 }
 
-}  // namespace
-
+// LIF 1.0 has one list of them, its successor two.
 std::vector<JsonReader> actions_of(const JsonReader& rule) {
   std::vector<JsonReader> all;
   for (const char* key : {"actions", "requiredActions", "feasibleActions"}) {
@@ -21,6 +20,8 @@ std::vector<JsonReader> actions_of(const JsonReader& rule) {
   }
   return all;
 }
+
+}  // namespace
 
 Purposes purposes_of_actions(const std::vector<JsonReader>& rules, const PurposeWords& own) {
   auto purposes = Purposes::from_bits(0);

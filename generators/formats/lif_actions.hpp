@@ -8,10 +8,6 @@
 
 namespace fleetproof {
 
-// The actions that a rule of a LIF node or edge names. LIF 1.0 has one list of them (actions), its successor has two
-// (requiredActions, feasibleActions).
-std::vector<JsonReader> actions_of(const JsonReader& rule);
-
 // What AGVs of all types do on a node or edge with these rules.
 Purposes purposes_of_actions(const std::vector<JsonReader>& rules, const PurposeWords& own);
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <set>
 
-#include "core/base/catalogue.hpp"
 #include "generators/formats/heading.hpp"
 #include "generators/formats/lif_types.hpp"
 #include "generators/text/name_list.hpp"
@@ -20,15 +19,6 @@ namespace {
 constexpr double kHalfTurns = 0.005;      // tolerance of an orientation, in half turns
 constexpr double kFullTurn_rad = 6.2832;  // rounded up, as files round it
 constexpr std::string_view kReferences[] = {"TANGENTIAL", "GLOBAL"};
-
-bool is_tangential(const JsonReader& rule) {
-  const auto reference = rule.find("orientationType");
-  if (!reference) return true;
-  const auto word = reference->text();
-  if (std::ranges::find(kReferences, word) == std::end(kReferences))
-    reference->refuse("there is no such word" + name_hint(word, kReferences));
-  return word == kReferences[0];
-}
 
 // Of an orientation along the edge: whether the nose goes first. None: it is aside.
 std::optional<bool> is_forward(double rad) {
@@ -59,7 +49,7 @@ std::optional<std::vector<double>> angles_of(const JsonReader& list) {
   return angles_rad.empty() ? std::nullopt : std::optional(std::move(angles_rad));
 }
 
-// The rules of one edge come one after the other.
+// Adds the edge once: its rules are read in a row.
 void note(std::vector<std::string>& edges, const std::string& edge) {
   if (edges.empty() || edges.back() != edge) edges.push_back(edge);
 }
@@ -93,7 +83,7 @@ bool LifTravel::add(const std::vector<JsonReader>& rules, Segment& segment) {
   std::map<std::vector<std::string>, std::set<bool>> ways;  // by type: whether forward
   bool forward = false, backward = false, sideways = false, also_sideways = false;
   for (const auto& rule : rules) {
-    const bool tangential = is_tangential(rule);
+    const bool tangential = word_of(rule, "orientationType", kReferences, kReferences[0]) == kReferences[0];
     bool along = false, aside = false;
     for (const double rad : orientations(rule, segment.name)) {
       const auto nose_first = tangential ? is_forward(rad) : std::nullopt;

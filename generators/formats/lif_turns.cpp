@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/base/catalogue.hpp"
 #include "generators/formats/lif_types.hpp"
 #include "generators/text/name_list.hpp"
 
@@ -12,15 +11,6 @@ namespace fleetproof {
 namespace {
 
 constexpr std::string_view kWords[] = {"NONE", "CCW", "CW", "BOTH"};
-
-std::string word_at(const JsonReader& rule, const char* key) {
-  const auto found = rule.find(key);
-  if (!found) return "BOTH";
-  auto word = found->text();
-  if (std::ranges::find(kWords, word) == std::end(kWords))
-    found->refuse("there is no such word" + name_hint(word, kWords));
-  return word;
-}
 
 }  // namespace
 
@@ -38,7 +28,7 @@ void LifTurns::add_end(const JsonReader& edge, const char* key, Node& node, Ends
   const auto rules = rules_by_type(edge);
   std::size_t never = 0, on_edge = 0;
   for (const auto& rule : rules) {
-    const auto word = word_at(rule, key);
+    const auto word = word_of(rule, key, kWords, "BOTH");
     bool turns = sideways;
     rule.read("rotationAllowed", turns);
     never += word == "NONE" ? 1 : 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/catalogue.hpp"
 #include "generators/text/name_list.hpp"
 
 namespace fleetproof {
@@ -43,6 +44,15 @@ Loads operator&(const Loads& a, const Loads& b) { return {a.empty && b.empty, a.
 std::optional<JsonReader> either(const JsonReader& object, std::string_view old_key, std::string_view new_key) {
   auto found = object.find(old_key);
   return found ? found : object.find(new_key);
+}
+
+std::string word_of(const JsonReader& rule, std::string_view key, std::span<const std::string_view> words,
+                    std::string_view usual) {
+  const auto found = rule.find(key);
+  if (!found) return std::string(usual);
+  auto word = found->text();
+  if (std::ranges::find(words, word) == words.end()) found->refuse("there is no such word" + name_hint(word, words));
+  return word;
 }
 
 std::vector<JsonReader> rules_by_type(const JsonReader& element) {

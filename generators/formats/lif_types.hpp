@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,10 @@ namespace fleetproof {
 
 // The first of two spellings that the object has. LIF 1.0 says vehicleType, its successor says mobileRobotType.
 std::optional<JsonReader> either(const JsonReader& object, std::string_view old_key, std::string_view new_key);
+
+// The word that a rule gives for the key, or `usual`. Throws InputError if it is none of `words`.
+std::string word_of(const JsonReader& rule, std::string_view key, std::span<const std::string_view> words,
+                    std::string_view usual);
 
 // What a node or edge of LIF says for each type of vehicle; empty if it says nothing.
 std::vector<JsonReader> rules_by_type(const JsonReader& element);

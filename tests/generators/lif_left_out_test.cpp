@@ -169,6 +169,19 @@ TEST(LifThings, SidewaysTravelAndLeavingTheLaneAreNamed) {
   EXPECT_TRUE(says("(\"ab\"); leaving the lane is not modelled"));
 }
 
+TEST(LifThings, AStationWhereAnAgvMustNotDropIsNotTakenForStorage) {
+  const auto sentences_with = [](const std::string& type) {
+    auto text = kFile;
+    const std::string rule = R"("vehicleTypeNodeProperties": [{"forbiddenActionTypes": [")" + type + R"("]}], )";
+    const auto all = import(text.insert(text.find(R"("nodePosition": {"x": 6)"), rule)).sentences;
+    std::string joined;
+    for (const auto& sentence : all) joined += sentence + "\n";
+    return joined;
+  };
+  EXPECT_NE(sentences_with("drop").find("it forbids to pick or drop, so AGVs only pass"), std::string::npos);
+  EXPECT_NE(sentences_with("dance").find("it is taken to be for storage"), std::string::npos);
+}
+
 TEST(LifThings, AVersionOfTheFutureAndNotesOfOriginsAreNamed) {
   const auto sentences_with = [](const std::string& version, const std::string& note) {
     const auto text =
