@@ -129,7 +129,10 @@ std::string radio_text(const Json& radio, bool has_outages, const std::optional<
                                                word(part(radio, "outage_scope")))
                                  : "each loss independent of the others";
   auto text = recorded ? recording_text(*recorded) : std::string();
-  text += fmt::format("delay {}, {}, range {:g} m", word(part(radio, "delay_model")), losses, number(radio, "range_m"));
+  text += fmt::format("delay {}", word(part(radio, "delay_model")));
+  if (const double share = number(radio, "constant_delay_share"); share > 0.0)
+    text += fmt::format(" (constant in {} of the worlds)", percent(share));
+  text += fmt::format(", {}, range {:g} m", losses, number(radio, "range_m"));
   if (number(radio, "range_falloff_m") > 0.0)
     text += fmt::format(" with more losses over a falloff of {:g} m", number(radio, "range_falloff_m"));
   if (number(radio, "asymmetry") > 0.0) text += fmt::format(", asymmetry {:g}", number(radio, "asymmetry"));

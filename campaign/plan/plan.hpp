@@ -9,7 +9,7 @@
 
 #include "campaign/plan/unit_sample.hpp"
 #include "core/scenario/scenario.hpp"
-#include "generators/worlds/drawn_sources.hpp"
+#include "generators/worlds/drawn_radio.hpp"
 #include "generators/worlds/order_list.hpp"
 #include "generators/worlds/placement.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -119,6 +119,7 @@ struct CampaignPlan {
   OperatorSetup operator_help;
   RadioSetup radio;  // factors come from the cell, sources from the line below
   DrawnSources sources;
+  double constant_delay_share = 0.0;  // of worlds, in which radio.delay_model does not count
   AgentClockSetup agent_clock;
   LawSetup law;
   std::vector<std::string> laws_left_out;  // names of laws of the default set

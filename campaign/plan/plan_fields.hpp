@@ -95,6 +95,10 @@ void visit_fields(Limits& limits, Visit&& visit) {
         cpu_s);
 }
 
+inline constexpr Field kConstantDelayShare{
+    .key = "constant_delay_share",
+    .text = "share of worlds in which every message takes delay_s, whatever delay_model says"};
+
 template <FieldsOf<AuditSetup> Audit, class Visit>
 void visit_fields(Audit& audit, Visit&& visit) {
   auto& [share] = audit;
@@ -108,8 +112,9 @@ template <FieldsOf<CampaignPlan> Plan, class Visit>
 void visit_fields(Plan& plan, Visit&& visit) {
   [[maybe_unused]] auto& [name, kind, seed, replicates, horizon_s, stuck_after_s, agents, agent_config, factors,
                           sampling, layouts, fleet_sizes, held_streams, held_replicate, demand, placement, orders,
-                          vehicles, faults, scanner, operator_help, radio, sources, agent_clock, law, laws_left_out,
-                          required_probes, contact_stops, limits, audit, keep, gates, default_gates] = plan;
+                          vehicles, faults, scanner, operator_help, radio, sources, constant_delay_share, agent_clock,
+                          law, laws_left_out, required_probes, contact_stops, limits, audit, keep, gates,
+                          default_gates] = plan;
   visit(Field{.key = "name", .text = "name of the campaign; left out: that of the file"}, name);
   visit(Field{.key = "kind", .text = "claim: rates and bounds; search: counts only"}, kind);
   visit(kSeed, seed);
@@ -154,6 +159,7 @@ void visit_fields(Plan& plan, Visit&& visit) {
   visit(Field{.key = "radio", .text = "the radio of every cell"}, FieldTable{[&](auto& inner) {
           visit_fields(plan.radio, inner);
           visit_fields(plan.sources, inner);
+          inner(kConstantDelayShare.left_out_if(plan.constant_delay_share == 0.0), plan.constant_delay_share);
         }});
   visit(Field{.key = "agent_clock", .text = "the agent's computer"}, agent_clock);
   visit(Field{.key = "law", .text = "what the laws ask"}, FieldTable{[&](auto& inner) {

@@ -89,8 +89,9 @@ class PlanWriter {
  private:
   // Plans of before these fields keep their hash.
   static bool is_left_out(const Field& field) {
-    return field.left_out && (field.key == kKeep.key || field.key == kCentreAhead.key ||
-                              field.key == kReverseSpeed.key || field.key == kClocksAgree.key);
+    return field.left_out &&
+           (field.key == kKeep.key || field.key == kCentreAhead.key || field.key == kReverseSpeed.key ||
+            field.key == kClocksAgree.key || field.key == kConstantDelayShare.key);
   }
   template <class Value>
   static bool is_absent(const Value&) {

@@ -7,6 +7,7 @@
 #include "campaign/plan/factor_fields.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
+#include "generators/worlds/drawn_radio.hpp"
 #include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof {
@@ -75,6 +76,8 @@ Scenario ScenarioSource::in_world(const Scenario& world, std::uint64_t run_index
   scenario.name = fmt::format("{} run {}", printable(plan_.name), run_index);
   scenario.radio = plan_.radio;
   scenario.radio.sources = draw_radio_sources(plan_.sources, scenario.map->layout(), scenario.seed_of(Stream::Radio));
+  if (draws_constant_delay(plan_.constant_delay_share, scenario.seed_of(Stream::Radio)))
+    scenario.radio.delay_model = RadioSetup::DelayModel::Constant;
   scenario.agent_clock = plan_.agent_clock;
   scenario.scanner = plan_.scanner;
   scenario.operator_help = plan_.operator_help;

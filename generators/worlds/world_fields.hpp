@@ -4,7 +4,7 @@
 
 #include "core/scenario/scenario_fields.hpp"
 #include "generators/worlds/drawn_faults.hpp"
-#include "generators/worlds/drawn_sources.hpp"
+#include "generators/worlds/drawn_radio.hpp"
 #include "generators/worlds/placement.hpp"
 #include "generators/worlds/transports.hpp"
 #include "generators/worlds/world_maker.hpp"

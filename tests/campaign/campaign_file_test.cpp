@@ -264,7 +264,7 @@ TEST_F(CampaignFileTest, EveryRadioKeySurvivesThePlan) {
            "2\nroaming_min_s = 0.02\nroaming_max_s = 0.05\nroaming_gap_s = "
            "9\ninterference = true\ncontention_window = 15\nsources = 2\nsource_range_m = 8.5\nsource_mean_on_s = "
            "0.25\nsource_mean_off_s = 0.75\nsource_loss = "
-           "0.6\ntrace = \"hall.csv\"\n")
+           "0.6\nconstant_delay_share = 0.25\ntrace = \"hall.csv\"\n")
           .plan;
   const CampaignPlan again = parse_plan(plan_text(plan));
   EXPECT_EQ(plan_text(again), plan_text(plan));
@@ -282,10 +282,34 @@ TEST_F(CampaignFileTest, EveryRadioKeySurvivesThePlan) {
   for (std::size_t i = 0; i < values(defaults).size(); ++i)
     EXPECT_NE(values(plan.radio)[i], values(defaults)[i]) << "key " << i << " is not tested";
   EXPECT_EQ(again.sources.count, 2U);
+  EXPECT_EQ(again.constant_delay_share, 0.25);
   EXPECT_EQ(again.sources.like, (RadioSource{.range_m = 8.5, .mean_on_s = 0.25, .mean_off_s = 0.75, .loss = 0.6}));
   ASSERT_NE(again.radio.trace, nullptr);
   EXPECT_EQ(*again.radio.trace, (RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{0}, Duration{250'000'000}},
                                             {AgvId{0U}, AgvId{1U}, Duration{1'000'000'000}, std::nullopt}}));
+}
+
+TEST_F(CampaignFileTest, AShareOfTheWorldsHasConstantDelays) {
+  const std::string uniform = "replicates = 400\n" + kFactors + "[radio]\ndelay_model = \"uniform\"\n";
+  const CampaignPlan without = read(uniform).plan;
+  EXPECT_EQ(plan_text(without).find("constant_delay_share"), std::string::npos) << "plans of before keep their hash";
+  const auto worlds_with = [&](const std::string& share, const std::string& more) {
+    const CampaignPlan plan = read(uniform + "constant_delay_share = " + share + "\n" + more).plan;
+    int constant = 0;
+    for (std::uint64_t run = 0; run < plan.run_count(); run += plan.cell_count()) {
+      Scenario scenario = ScenarioSource(plan).scenario(run);
+      if (scenario.radio.delay_model != RadioSetup::DelayModel::Constant) continue;
+      ++constant;
+      scenario.radio.delay_model = RadioSetup::DelayModel::Uniform;
+      EXPECT_EQ(to_text(scenario), to_text(ScenarioSource(without).scenario(run)));
+    }
+    return constant;
+  };
+  EXPECT_EQ(worlds_with("0", ""), 0);
+  EXPECT_EQ(worlds_with("1", ""), 400);
+  EXPECT_NEAR(worlds_with("0.25", ""), 100, 35);  // four standard deviations
+  const int held = worlds_with("0.25", "[vary]\nhold = [\"radio\"]\n");
+  EXPECT_TRUE(held == 0 || held == 400) << held;
 }
 
 TEST_F(CampaignFileTest, ExternalSourcesMoveNothingElseAndHoldWithTheRadio) {

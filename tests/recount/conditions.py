@@ -49,7 +49,8 @@ def vehicle(given):
 
 
 def radio(given, outages):
-    text = f"delay {given['delay_model']}, "
+    share = given.get("constant_delay_share", 0.0)
+    text = f"delay {given['delay_model']}{f' (constant in {w.percent(share)} of the worlds)' if share else ''}, "
     text += (f"losses in outages ({given['outage_model']}, by {given['outage_scope']})" if outages
              else "each loss independent of the others")
     text += f", range {given['range_m']:g} m"

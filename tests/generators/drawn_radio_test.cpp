@@ -1,4 +1,4 @@
-#include "generators/worlds/drawn_sources.hpp"
+#include "generators/worlds/drawn_radio.hpp"
 
 #include <gtest/gtest.h>
 
