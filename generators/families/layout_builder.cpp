@@ -33,11 +33,6 @@ StationId LayoutBuilder::station(std::string name, PointMm at, Purposes purposes
 
 void LayoutBuilder::straight(StationId from, StationId to, Way way) { segment(from, to, way, {}); }
 
-void LayoutBuilder::back_in_spur(StationId from, StationId end) {
-  straight(from, end);
-  layout_.segments.back().travel = Travel::Backward;
-}
-
 void LayoutBuilder::s_bend(StationId from, StationId to, Way way) {
   const PointMm a = position(from), b = position(to);
   const std::int64_t middle = (a.x + b.x) / 2;
@@ -56,6 +51,11 @@ void LayoutBuilder::quarter_bend(StationId from, PointMm corner, StationId to, W
     return PointMm{end.x + (corner.x - end.x) * kPerMille / 1000, end.y + (corner.y - end.y) * kPerMille / 1000};
   };
   segment(from, to, way, {towards_corner(position(from)), towards_corner(position(to))});
+}
+
+void LayoutBuilder::travel(Travel there, Travel back) {
+  layout_.segments.back().travel = there;
+  layout_.segments.back().back_travel = back;
 }
 
 void LayoutBuilder::segment(StationId from, StationId to, Way way, std::vector<PointMm> control_points) {

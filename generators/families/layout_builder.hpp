@@ -29,8 +29,6 @@ class LayoutBuilder {
 
   StationId station(std::string name, PointMm at, Purposes purposes = Purpose::Routing);
   void straight(StationId from, StationId to, Way way = Way::Both);
-  // A dead end that AGVs back into and leave nose first.
-  void back_in_spur(StationId from, StationId end);
   // A curve whose tangents at both ends are along the x axis.
   void s_bend(StationId from, StationId to, Way way = Way::Both);
   // The same along the y axis.
@@ -38,8 +36,11 @@ class LayoutBuilder {
   // Nearly a quarter circle (the best approximation by one cubic Bezier). It leaves `from` towards `corner` and arrives
   // at `to` from `corner`.
   void quarter_bend(StationId from, PointMm corner, StationId to, Way way = Way::Both);
+  // Which end of an AGV goes first on the segment that was added last.
+  void travel(Travel there, Travel back);
   std::size_t station_count() const { return positions_.size(); }
   PointMm position(StationId station) const { return positions_[station.index()]; }
+  const std::string& name(StationId station) const { return layout_.stations[station.index()].name; }
 
   // The layout. Its floor extends 3 m beyond the outermost stations.
   Layout take();

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "generators/families/aisle_grid.hpp"
+#include "generators/families/close_pass.hpp"
 #include "generators/families/corridor_sidings.hpp"
 #include "generators/families/dense_crossing.hpp"
 #include "generators/families/fishbone.hpp"
@@ -45,6 +46,10 @@ constexpr Entry<MakeLayout> kFamilies[] = {
      "3-6 x 3-6 one-way lines 2.4-4 m apart: segments shorter than usual, traffic at every crossing; 10-24 spurs at "
      "the edge",
      make_dense_crossing},
+    {"close-pass",
+     "a one-way ring of two lanes that bend and kink, with 8-14 bars that end beside the lane across, entered and left "
+     "with either end first; 22-48 segments",
+     make_close_pass},
     {"plant",
      "zones of aisles inside rings of two one-way lanes, with docks, buffer lanes and charger rows; 20-10000 stations, "
      "as in plant/2000, else 40 for each AGV",

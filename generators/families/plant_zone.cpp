@@ -129,11 +129,8 @@ void PlantZone::cross_aisle() {
 
 // A dead end outwards.
 void PlantZone::spur(StationId from, PointMm end, Purposes purposes, std::string_view letter) {
-  if (!knobs_.back_in) {
-    next(from, end, purposes, letter);
-  } else {
-    builder_.back_in_spur(from, builder_.station(fmt::format("{}.{}{}", name_, letter, ++numbered_), end, purposes));
-  }
+  next(from, end, purposes, letter);
+  if (knobs_.back_in) builder_.travel(Travel::Backward, Travel::Forward);
 }
 
 void PlantZone::spur_of_ring(PlantRing::Side side, std::int64_t place, Purposes purposes, std::string_view letter) {

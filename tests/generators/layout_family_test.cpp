@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "generators/formats/layout_file.hpp"
@@ -74,6 +76,7 @@ UsualLength usual_length(std::string_view family) {
   if (family == "random-planar") return {4.0, 9.0};
   if (family == "fishbone") return {3.0, 7.5};
   if (family == "dense-crossing") return {2.4, 4.0};
+  if (family == "close-pass") return {3.0, 60.0, 7.0};
   if (family == "plant") return {1.0, 12.0, 8.0, 300};
   return {};
 }
@@ -224,6 +227,29 @@ TEST(DenseCrossing, IsAOneWayGridOfThreeToSixLines) {
     EXPECT_TRUE(one_way == 12 || one_way == 24 || one_way == 40 || one_way == 60) << seed << ": " << one_way;
     EXPECT_GE(static_cast<std::int64_t>(layout.segments.size()) - one_way, 10) << seed;
   }
+}
+
+TEST(ClosePass, BarsEndBesideTheLaneAcrossAndAreDrivenInAllWays) {
+  std::set<std::pair<Travel, Travel>> travels;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Layout layout = make(layout_family("close-pass"), seed);
+    std::size_t bars = 0;
+    for (const auto& s : layout.segments) {
+      if (!s.bidirectional) continue;
+      ++bars;
+      travels.emplace(s.travel, s.back_travel);
+      const Vec2 end = layout.stations[s.to.index()].position_m;
+      double nearest_m = 1e9;
+      for (const auto& t : layout.segments) {
+        if (!t.bidirectional) nearest_m = std::min(nearest_m, independent::distance_to_segment_m(layout, t, end));
+      }
+      EXPECT_GE(nearest_m, 2.75) << seed << ": " << s.name;
+      EXPECT_LE(nearest_m, 3.5) << seed << ": " << s.name;
+    }
+    EXPECT_GE(bars, 8U) << seed;
+    EXPECT_LE(bars, 14U) << seed;
+  }
+  EXPECT_EQ(travels.size(), 4U);
 }
 
 TEST(LayoutFamilies, UnknownNameIsAnInputErrorWithAHint) {

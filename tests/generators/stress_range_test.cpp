@@ -204,6 +204,56 @@ TEST(DenseCrossingUnderStress, TwoGridsCrossWithoutASharedStation) {
   EXPECT_EQ(most, 40);
 }
 
+bool is_of_the_ring(const Layout& layout, const Segment& s) {
+  const auto on_ring = [&](StationId id) {
+    const auto& name = layout.stations[id.index()].name;
+    return (name[0] == 'L' || name[0] == 'U' || name[0] == 'E') && !name.ends_with("k");
+  };
+  return on_ring(s.from) && on_ring(s.to);
+}
+
+// Counted over all layouts, since each of them has some of it: what a sweep that is too small by a few centimetres, or
+// a turn of a few degrees that is forgotten, needs to show.
+TEST(ClosePassUnderStress, BarsEndCloseToTheLaneAndLanesKinkBesideThem) {
+  int bars = 0, close = 0, kinks = 0, small_kinks = 0, bent = 0, side_by_side = 0;
+  for_each_layout("close-pass", [&](const Layout& layout) {
+    std::vector<Vec2> ends;
+    for (const auto& s : layout.segments) {
+      if (is_of_the_ring(layout, s)) continue;
+      if (!waits(layout.stations[s.to.index()])) continue;
+      const Vec2 end = at(layout, s.to);
+      ++bars;
+      bent += s.control_points_m.empty() ? 0 : 1;
+      for (const auto& other : ends) side_by_side += std::abs(other.x() - end.x()) < 1.45 ? 1 : 0;
+      ends.push_back(end);
+      close += std::ranges::any_of(layout.segments,
+                                   [&](const Segment& t) {
+                                     return is_of_the_ring(layout, t) &&
+                                            independent::distance_to_segment_m(layout, t, end) < 1.5;
+                                   })
+                   ? 1
+                   : 0;
+    }
+    for (const auto& s : layout.segments) {
+      for (const auto& t : layout.segments) {
+        if (s.to != t.from || !is_of_the_ring(layout, s) || !is_of_the_ring(layout, t)) continue;
+        if (!s.control_points_m.empty() || !t.control_points_m.empty()) continue;
+        const Vec2 u = (at(layout, s.to) - at(layout, s.from)).normalized(),
+                   v = (at(layout, t.to) - at(layout, t.from)).normalized();
+        const double sine = std::abs(u.x() * v.y() - u.y() * v.x());
+        kinks += sine > 0.001 ? 1 : 0;
+        small_kinks += sine > 0.001 && sine < 0.17 ? 1 : 0;
+      }
+    }
+  });
+  EXPECT_GT(close, bars / 8);
+  EXPECT_LT(close, bars / 2);
+  EXPECT_GT(bent, bars / 4);
+  EXPECT_GT(side_by_side, bars / 5);
+  EXPECT_GT(small_kinks, kinks / 3);
+  EXPECT_LT(small_kinks, kinks * 9 / 10);
+}
+
 TEST(LayoutRanges, WrongWordsAreInputErrorsWithAHint) {
   const auto error_of = [](std::string_view name) {
     try {
