@@ -11,11 +11,14 @@ namespace fleetproof::agents {
 namespace {
 
 // Where a question names them.
-constexpr unsigned kSelfBit = 32, kOptionsBit = 56;
+constexpr unsigned kSelfBit = 32, kOptionsBit = 52;
 
-constexpr std::array kOptions{&HullOptions::loads_count,   &HullOptions::sizes_differ, &HullOptions::turns_count,
-                              &HullOptions::corners_count, &HullOptions::bends_count,  &HullOptions::margin_is_whole,
-                              &HullOptions::shapes_decide};
+constexpr std::array kOptions{&HullOptions::loads_count,       &HullOptions::sizes_differ,
+                              &HullOptions::centres_differ,    &HullOptions::turns_count,
+                              &HullOptions::small_turns_count, &HullOptions::corners_count,
+                              &HullOptions::directions_count,  &HullOptions::bends_count,
+                              &HullOptions::margin_is_whole,   &HullOptions::shapes_decide};
+static_assert(kOptionsBit + kOptions.size() <= 64);
 
 HullOptions options_of(std::uint64_t bits) {
   HullOptions options;
@@ -37,7 +40,7 @@ class Sweeps {
   Sweeps(const fp_facts& facts, const HullKey& key) : map_(facts), options_(key.options) {
     for (std::uint32_t id = 0; id < facts.fleet_count; ++id) {
       const Body body = body_of(facts, key.self == HullKey::kNobody ? id : key.self, options_);
-      const auto known = std::ranges::find(kinds_, body);
+      const auto known = std::ranges::find_if(kinds_, [&](const Body& kind) { return is_same_kind(kind, body); });
       kind_of_.push_back(static_cast<std::uint32_t>(known - kinds_.begin()));
       if (known == kinds_.end()) kinds_.push_back(body);
     }
@@ -57,6 +60,10 @@ class Sweeps {
   }
 
  private:
+  bool is_same_kind(const Body& a, const Body& b) const {
+    return options_.centres_differ ? a == b : a.length_m == b.length_m && a.width_m == b.width_m;
+  }
+
   void sweep(const Body& kind) {
     for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) sweep_lane(kind, lane);
     for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
@@ -74,11 +81,12 @@ class Sweeps {
     const fp_pose end = end_of(map_.arc(lane, lane.arc_count - 1));
     HullPart part{static_cast<std::uint32_t>(shapes_.size()), 0, Vec{start.x_m + end.x_m, start.y_m + end.y_m} * 0.5,
                   0.0};
-    if (!options_.bends_count) append_sweep(chord_of(map_, id), map_.is_backward(id), kind, shapes_);
+    const bool tail_first = map_.is_backward(id) && options_.directions_count;
+    if (!options_.bends_count) append_sweep(chord_of(map_, id), tail_first, kind, shapes_);
     double length_m = 0.0;
     for (std::uint32_t i = 0; i < lane.arc_count; ++i) {
       length_m += map_.arc(lane, i).length_m;
-      if (options_.bends_count) append_sweep(map_.arc(lane, i), map_.is_backward(id), kind, shapes_);
+      if (options_.bends_count) append_sweep(map_.arc(lane, i), tail_first, kind, shapes_);
     }
     part.count = static_cast<std::uint32_t>(shapes_.size()) - part.first;
     part.reach_m = length_m / 2.0 + kind.reach_m();

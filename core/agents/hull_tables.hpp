@@ -21,7 +21,7 @@ inline constexpr double kArcHeading_rad = 2.2e-3;
 
 // What hulls depend on, besides map and fleet. It is a part of every question about them.
 struct HullKey {
-  static constexpr std::uint32_t kNobody = 0xffffff;
+  static constexpr std::uint32_t kNobody = 0xfffff;
 
   HullOptions options{};
   std::uint32_t self = kNobody;  // whose body every AGV has, if sizes do not differ

@@ -69,8 +69,8 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
       position_margin_m_(std::max(kPositionMargin_m, 2.0 * settings.position_error_m)),
       position_late_s_(settings.position_late_s),
       claim_m_(longest_claim_m(map)),
-      proofs_age_(options.consent.proofs_age),
-      places_spread_(options.consent.places_spread) {
+
+      consent_(options.consent) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
     const fp_agv& agv = agv_of(briefing, i);
     fastest_mps_.push_back(kSpeedMargin * (1.0 + agv.speed_deviation) * agv.speed_mps);
@@ -89,8 +89,8 @@ Neighbours::News Neighbours::note(std::uint32_t sender, const Message& message, 
   Neighbour& n = of(sender);
   News news = News::Same;
   const std::uint32_t boot = boot_of(status.epoch), newest_boot = boot_of(n.status.epoch);
-  const bool is_newest =
-      !n.known || boot > newest_boot || (boot == newest_boot && status.stamp_ms >= n.status.stamp_ms);
+  const bool is_newest = !n.known || boot > newest_boot ||
+                         (boot == newest_boot && (status.stamp_ms >= n.status.stamp_ms || !consent_.stamps_count));
   if (is_newest) {
     const bool same_held = n.known && n.status.place_unknown == status.place_unknown &&
                            (message.repeats_way || is_same(n.status.held, status.held));
@@ -153,7 +153,7 @@ void Neighbours::note_acknowledgement(Neighbour& neighbour, const Message& messa
 
 void Neighbours::note_place(Neighbour& neighbour, const Message& message, std::int64_t sent_ns) {
   if (sent_ns < neighbour.proved.after_ns) return;
-  if (!places_spread_ && neighbour.proved.after_ns >= 0 && sent_ns > neighbour.proved.after_ns) {
+  if (!consent_.places_spread && neighbour.proved.after_ns >= 0 && sent_ns > neighbour.proved.after_ns) {
     const double apart_s = static_cast<double>(sent_ns - neighbour.proved.after_ns) * 1e-9;
     neighbour.proved.velocity_mps = (message.status.position_m - neighbour.proved.position_m) * (1.0 / apart_s);
   }
@@ -164,10 +164,11 @@ void Neighbours::note_place(Neighbour& neighbour, const Message& message, std::i
 bool Neighbours::surely_beyond(std::uint32_t agv, const Path& path, std::int64_t now_ns) {
   const Neighbour& n = of(agv);
   if (n.proved.after_ns < 0) return false;
-  const double age_s = proofs_age_ ? static_cast<double>(now_ns - n.proved.after_ns) * 1e-9 : 0.0;
+  const double age_s = consent_.proofs_age ? static_cast<double>(now_ns - n.proved.after_ns) * 1e-9 : 0.0;
   const double hulls_m = claim_m_ + geometry_.reach_m(agv) + geometry_.clearance_m();
-  const Vec position_m = n.proved.position_m + n.proved.velocity_mps * (places_spread_ ? 0.0 : age_s);
-  const double moved_m = fastest_mps_[agv] * ((places_spread_ ? age_s : 0.0) + position_late_s_) + position_margin_m_;
+  const Vec position_m = n.proved.position_m + n.proved.velocity_mps * (consent_.places_spread ? 0.0 : age_s);
+  const double moved_m =
+      fastest_mps_[agv] * ((consent_.places_spread ? age_s : 0.0) + position_late_s_) + position_margin_m_;
   const double needed_m = hulls_m + moved_m;
   if (length(position_m - map_.position_m(path.station)) <= needed_m)
     return false;  // mostly; saves looking at all parts

@@ -219,7 +219,7 @@ class Neighbours {
   std::vector<double> fastest_mps_;  // by AGV; includes the error of a clock
   double position_margin_m_, position_late_s_;
   double claim_m_;
-  bool proofs_age_, places_spread_;
+  ConsentOptions consent_;
   std::uint32_t fresh_from_ms_ = 0;
   std::uint32_t next_heard_ = 0;
   std::uint64_t changes_ = 0;

@@ -6,7 +6,9 @@
 namespace fleetproof::agents {
 
 extern const fp_agent_type kAgelessProof;
+extern const fp_agent_type kArrivalOrder;
 extern const fp_agent_type kAsksOnce;
+extern const fp_agent_type kBackwardAsForward;
 extern const fp_agent_type kBendsAsChords;
 extern const fp_agent_type kBothStepBack;
 extern const fp_agent_type kCountsMessages;
@@ -17,6 +19,7 @@ extern const fp_agent_type kGrantsAtBoot;
 extern const fp_agent_type kGrantsForGood;
 extern const fp_agent_type kHalfMargin;
 extern const fp_agent_type kIgnoresParked;
+extern const fp_agent_type kKindsBySize;
 extern const fp_agent_type kLaneByLane;
 extern const fp_agent_type kLockExpires;
 extern const fp_agent_type kNamesNotShapes;
@@ -29,6 +32,8 @@ extern const fp_agent_type kOvertakenDropsGrant;
 extern const fp_agent_type kOvertakenGoesOn;
 extern const fp_agent_type kOvertakenIfGranted;
 extern const fp_agent_type kRestartForgetsLane;
+extern const fp_agent_type kRestartForgetsTurn;
+extern const fp_agent_type kSmallTurnsFree;
 extern const fp_agent_type kStaleGrant;
 extern const fp_agent_type kStraightOn;
 extern const fp_agent_type kTieWithoutNumber;
