@@ -82,9 +82,9 @@ class ClosePass {
     StationId root{};
   };
 
-  // Rings are one-way; under stress, one in three is two-way.
+  // Rings are one-way; under stress, every second one is two-way.
   Way draw_way() {
-    const std::uint32_t drawn = draws_.below(stress_ ? 3 : 2);
+    const std::uint32_t drawn = draws_.below(stress_ ? 4 : 2);
     return drawn == 0 ? Way::Forward : drawn == 1 ? Way::Backward : Way::Both;
   }
 

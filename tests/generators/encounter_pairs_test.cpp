@@ -169,7 +169,7 @@ TEST_P(Encounters, RandomPlacementsSeldomDo) {
 // different segments; an AGV without a partner starts at random.
 double share_at_once(std::string_view layout) {
   if (layout.starts_with("plant")) return 0.1;
-  return layout == "loop-spurs/stress" || layout == "close-pass/stress" ? 0.55 : 0.9;
+  return layout == "loop-spurs/stress" || layout == "close-pass/stress" ? 0.5 : 0.9;
 }
 
 TEST_P(Encounters, SymmetricPairsReachOneStationAtOnce) {
