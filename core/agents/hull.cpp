@@ -78,17 +78,10 @@ const HullGeometry::Hull& HullGeometry::hull_of(std::uint32_t agv, const Path& p
   return last_;
 }
 
-bool HullGeometry::counts_turn(Vec from, Vec to) const {
-  constexpr double kCosineOfSmall = 0.985;  // of 10 degrees
-  const HullOptions& options = parts_.key().options;
-  if (!options.turns_count || same_heading(from, to)) return false;
-  return options.small_turns_count || dot(from, to) < kCosineOfSmall;
-}
-
 void HullGeometry::collect(std::uint32_t agv, const Path& path, Parts& parts) const {
   Vec heading = path.heading;
   for (const std::uint32_t lane : path.lanes()) {
-    if (counts_turn(heading, map_.start_heading(lane)))
+    if (parts_.key().options.turns_count && !same_heading(heading, map_.start_heading(lane)))
       parts.numbers[parts.count++] = parts_.of_turn(agv, map_.lane(lane).from);
     parts.numbers[parts.count++] = parts_.of_lane(agv, lane);
     heading = map_.end_heading(lane);

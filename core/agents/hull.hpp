@@ -63,7 +63,6 @@ class HullGeometry {
   // From its first station; the hull of the path lies within.
   double extent_m(std::uint32_t agv, const Path& path) const;
   bool is_far(std::uint32_t number, std::uint32_t agv, const Path& path) const;
-  bool counts_turn(Vec from, Vec to) const;
   void collect(std::uint32_t agv, const Path& path, Parts& parts) const;
   const Hull& hull_of(std::uint32_t agv, const Path& path);
   Box box_around(const Parts& parts) const;

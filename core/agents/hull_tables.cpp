@@ -13,11 +13,9 @@ namespace {
 // Where a question names them.
 constexpr unsigned kSelfBit = 32, kOptionsBit = 52;
 
-constexpr std::array kOptions{&HullOptions::loads_count,       &HullOptions::sizes_differ,
-                              &HullOptions::centres_differ,    &HullOptions::turns_count,
-                              &HullOptions::small_turns_count, &HullOptions::corners_count,
-                              &HullOptions::directions_count,  &HullOptions::bends_count,
-                              &HullOptions::margin_is_whole,   &HullOptions::shapes_decide};
+constexpr std::array kOptions{&HullOptions::loads_count, &HullOptions::sizes_differ,    &HullOptions::centres_differ,
+                              &HullOptions::turns_count, &HullOptions::corners_count,   &HullOptions::directions_count,
+                              &HullOptions::bends_count, &HullOptions::margin_is_whole, &HullOptions::shapes_decide};
 static_assert(kOptionsBit + kOptions.size() <= 64);
 
 HullOptions options_of(std::uint64_t bits) {

@@ -8,16 +8,15 @@ namespace fleetproof::agents {
 
 // Which floor a hull covers.
 struct HullOptions {
-  bool loads_count = true;        // a body has its size with a load
-  bool sizes_differ = true;       // another AGV has the size of its own type
-  bool centres_differ = true;     // bodies of one size differ in where their reference point is
-  bool turns_count = true;        // a turn on the spot covers floor
-  bool small_turns_count = true;  // a turn of less than 10 degrees does so, too
-  bool corners_count = true;      // such a turn reaches as far as the corners of the body, not only as far as its ends
-  bool directions_count = true;   // a body that drives backward lies on the other side of its reference point
-  bool bends_count = true;        // a lane is its curve, not the straight line between its stations
-  bool margin_is_whole = true;    // false: hulls keep half the safety distance
-  bool shapes_decide = true;      // false: paths conflict if they share a station
+  bool loads_count = true;       // a body has its size with a load
+  bool sizes_differ = true;      // another AGV has the size of its own type
+  bool centres_differ = true;    // bodies of one size differ in where their reference point is
+  bool turns_count = true;       // a turn on the spot covers floor
+  bool corners_count = true;     // such a turn reaches as far as the corners of the body, not only as far as its ends
+  bool directions_count = true;  // a body that drives backward lies on the other side of its reference point
+  bool bends_count = true;       // a lane is its curve, not the straight line between its stations
+  bool margin_is_whole = true;   // false: hulls keep half the safety distance
+  bool shapes_decide = true;     // false: paths conflict if they share a station
 };
 
 // What counts as consent.

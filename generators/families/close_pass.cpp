@@ -91,11 +91,15 @@ class ClosePass {
   static Side other(Side side) { return side == kLower ? kUpper : kLower; }
   std::int64_t line(Side side) const { return side == kLower ? 0 : height_; }
   std::int64_t half_width() { return one_of(draws_, kHalfWidths_mm); }
-  std::int64_t gap() { return draw_between(draws_, kLowGap_mm, kHighGap_mm, 10); }
+  // For a body that passes, from the middle of its lane.
+  std::int64_t room_beside() {
+    const std::int64_t width = half_width();
+    return width + draw_between(draws_, kLowGap_mm, kHighGap_mm, 10);
+  }
   // Of the middles of two bodies side by side.
   std::int64_t side_by_side() {
     const std::int64_t reach = turns() ? one_of(draws_, kTurnReaches_mm) : half_width();
-    return std::max(sizes_.apart, half_width() + reach + gap());
+    return std::max(sizes_.apart, reach + room_beside());
   }
   bool turns() { return draws_.below(2) == 0; }
 
@@ -230,7 +234,7 @@ class ClosePass {
   std::int64_t draw_room() {
     if (!stress_) return draw_between(draws_, kLowRoom_mm, kHighRoom_mm, 50);
     const std::int64_t reach = turns() ? one_of(draws_, kTurnReaches_mm) : one_of(draws_, kReaches_mm);
-    return half_width() + reach + gap();
+    return reach + room_beside();
   }
 
   // As if all its segments were straight.

@@ -33,7 +33,6 @@ extern const fp_agent_type kOvertakenGoesOn;
 extern const fp_agent_type kOvertakenIfGranted;
 extern const fp_agent_type kRestartForgetsLane;
 extern const fp_agent_type kRestartForgetsTurn;
-extern const fp_agent_type kSmallTurnsFree;
 extern const fp_agent_type kStaleGrant;
 extern const fp_agent_type kStraightOn;
 extern const fp_agent_type kTieWithoutNumber;
