@@ -69,7 +69,6 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
       position_margin_m_(std::max(kPositionMargin_m, 2.0 * settings.position_error_m)),
       position_late_s_(settings.position_late_s),
       claim_m_(longest_claim_m(map)),
-
       consent_(options.consent) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
     const fp_agv& agv = agv_of(briefing, i);

@@ -90,6 +90,7 @@ class ClosePass {
 
   static Side other(Side side) { return side == kLower ? kUpper : kLower; }
   std::int64_t line(Side side) const { return side == kLower ? 0 : height_; }
+  bool coin() { return draws_.below(2) == 0; }
   std::int64_t half_width() { return one_of(draws_, kHalfWidths_mm); }
   // For a body that passes, from the middle of its lane.
   std::int64_t room_beside() {
@@ -98,17 +99,16 @@ class ClosePass {
   }
   // Of the middles of two bodies side by side.
   std::int64_t side_by_side() {
-    const std::int64_t reach = turns() ? one_of(draws_, kTurnReaches_mm) : half_width();
+    const std::int64_t reach = coin() ? one_of(draws_, kTurnReaches_mm) : half_width();
     return std::max(sizes_.apart, reach + room_beside());
   }
-  bool turns() { return draws_.below(2) == 0; }
 
   void place_bars() {
     const std::uint32_t count = sizes_.fewest + draws_.below(sizes_.most - sizes_.fewest + 1);
     bars_.push_back({0, draw_shift(), draw_side()});
     while (bars_.size() < count) {
       const Bar& last = bars_.back();
-      const bool is_beside_last = stress_ && draws_.below(2) == 0;
+      const bool is_beside_last = stress_ && coin();
       const std::int64_t x =
           last.x + (is_beside_last ? side_by_side() : draw_between(draws_, sizes_.low_pitch, sizes_.high_pitch, 50));
       // Bars side by side on one lane have the same shape.
@@ -117,10 +117,10 @@ class ClosePass {
     }
   }
 
-  Side draw_side() { return draws_.below(2) == 0 ? kLower : kUpper; }
-  std::int64_t draw_shift() { return draws_.below(2) == 0 ? 0 : draw_between(draws_, -sizes_.shift, sizes_.shift, 50); }
+  Side draw_side() { return coin() ? kLower : kUpper; }
+  std::int64_t draw_shift() { return coin() ? 0 : draw_between(draws_, -sizes_.shift, sizes_.shift, 50); }
 
-  // The roots of the lane's own bars, and stations near the ends of the others where there is room.
+  // Stations at the roots of the lane's own bars and, where there is room, near the ends of the other lane's bars.
   void place_lane(Side side) {
     std::vector<std::int64_t> places{bars_.front().x - kMargin_mm, bars_.back().x + kMargin_mm};
     for (const auto& bar : bars_) {
@@ -152,7 +152,7 @@ class ClosePass {
   // Every second station lies beside the line as far as the one before.
   std::int64_t draw_sway(PointMm before, std::int64_t x, Side side) {
     const std::int64_t sway = before.y - line(side);
-    if (draws_.below(2) == 0) return sway;
+    if (coin()) return sway;
     const std::int64_t most = (x - before.x) * slope_ / 1'000;
     return std::clamp(sway + draw_between(draws_, -most, most, 1), -kMostSway_mm, kMostSway_mm);
   }
@@ -233,7 +233,7 @@ class ClosePass {
 
   std::int64_t draw_room() {
     if (!stress_) return draw_between(draws_, kLowRoom_mm, kHighRoom_mm, 50);
-    const std::int64_t reach = turns() ? one_of(draws_, kTurnReaches_mm) : one_of(draws_, kReaches_mm);
+    const std::int64_t reach = coin() ? one_of(draws_, kTurnReaches_mm) : one_of(draws_, kReaches_mm);
     return reach + room_beside();
   }
 

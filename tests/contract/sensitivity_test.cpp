@@ -79,9 +79,10 @@ TEST(Sensitivity, AmongBodiesThatNoAgentSensesOnlyARateCounts) {
 // The faults that are found soon; tests/soak/kill_table has all of them.
 TEST_F(Sensitive, TheShortStandardCampaignDetectsFaultsInItsFirstReplicates) {
   const std::vector<std::string> faults = {
-      "timeout-grant",  "no-overhang",     "names-not-shapes",  "stale-grant",       "counts-messages",
-      "ignores-parked", "grants-at-boot",  "grants-for-good",   "lock-expires",      "forgets-boot",
-      "asks-once",      "bends-as-chords", "overtaken-goes-on", "failure-frees-lane"};
+      "timeout-grant",     "no-overhang",        "names-not-shapes", "stale-grant",
+      "counts-messages",   "ignores-parked",     "grants-at-boot",   "grants-for-good",
+      "lock-expires",      "forgets-boot",       "asks-once",        "bends-as-chords",
+      "overtaken-goes-on", "failure-frees-lane", "kinds-by-size",    "arrival-order"};
   std::string words;
   for (const std::string& fault : faults) words += " --agent " + fault;
   const auto finished = run("sensitivity '" + kShort + "' --json --runs 896" + words);

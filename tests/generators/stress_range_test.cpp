@@ -212,8 +212,7 @@ bool is_of_the_ring(const Layout& layout, const Segment& s) {
   return on_ring(s.from) && on_ring(s.to);
 }
 
-// Counted over all layouts, since each of them has some of it: what a sweep that is too small by a few centimetres, or
-// a turn of a few degrees that is forgotten, needs to show.
+// Counted over all layouts: one of them need not have everything.
 TEST(ClosePassUnderStress, BarsEndCloseToTheLaneAndLanesKinkBesideThem) {
   int bars = 0, close = 0, kinks = 0, small_kinks = 0, bent = 0, side_by_side = 0;
   for_each_layout("close-pass", [&](const Layout& layout) {
