@@ -225,9 +225,11 @@ TEST(ClosePassUnderStress, BarsEndCloseToTheLaneAndLanesKinkBesideThem) {
       bent += s.control_points_m.empty() ? 0 : 1;
       for (const auto& other : ends) side_by_side += std::abs(other.x() - end.x()) < 1.45 ? 1 : 0;
       ends.push_back(end);
+      const char across = layout.stations[s.from.index()].name[0] == 'L' ? 'U' : 'L';
       close += std::ranges::any_of(layout.segments,
                                    [&](const Segment& t) {
                                      return is_of_the_ring(layout, t) &&
+                                            layout.stations[t.from.index()].name[0] == across &&
                                             independent::distance_to_segment_m(layout, t, end) < 1.5;
                                    })
                    ? 1
