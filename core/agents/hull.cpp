@@ -81,8 +81,9 @@ const HullGeometry::Hull& HullGeometry::hull_of(std::uint32_t agv, const Path& p
 void HullGeometry::collect(std::uint32_t agv, const Path& path, Parts& parts) const {
   Vec heading = path.heading;
   for (const std::uint32_t lane : path.lanes()) {
-    if (parts_.key().options.turns_count && !same_heading(heading, map_.start_heading(lane)))
-      parts.numbers[parts.count++] = parts_.of_turn(agv, map_.lane(lane).from);
+    const Vec start = map_.start_heading(lane);
+    if (parts_.key().options.turns_count && !same_heading(heading, start))
+      parts.numbers[parts.count++] = parts_.of_turn(agv, map_.lane(lane).from, heading, start);
     parts.numbers[parts.count++] = parts_.of_lane(agv, lane);
     heading = map_.end_heading(lane);
   }

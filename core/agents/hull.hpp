@@ -10,8 +10,8 @@
 
 namespace fleetproof::agents {
 
-// Hulls: all the floor that an AGV may cover while it drives a path, as shapes. The hull of a path has parts: a disc
-// for each turn on the spot, and the sweep of every lane. A path without lanes has the standing body only.
+// Hulls: all the floor that an AGV may cover while it drives a path, as shapes. The hull of a path has parts: the
+// sweeps of each turn on the spot and of each lane. A path without lanes has the standing body only.
 class HullGeometry {
  public:
   // Requires: map and briefing outlive the object.

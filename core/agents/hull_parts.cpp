@@ -34,15 +34,29 @@ std::span<const std::uint32_t> HullParts::conflicts_of(std::uint32_t number) con
       key_.question(number));
 }
 
-// Of a turn, with all other parts; of a lane, with the lanes after it.
+std::uint32_t HullParts::whole_of(std::uint32_t number) const {
+  if (!is_turn(number)) return number;
+  const std::uint32_t first_turn = number - number % per_kind_ + map_.lane_count();
+  return first_turn + tables_.turns().station_of(number - first_turn);
+}
+
+bool HullParts::shapes_conflict(std::uint32_t a, std::uint32_t b) const {
+  return std::ranges::any_of(tables_.shapes(a), [&](const Shape& of_a) {
+    return std::ranges::any_of(tables_.shapes(b),
+                               [&](const Shape& of_b) { return closer_than(of_a, of_b, clearance_m()); });
+  });
+}
+
+// Of a turn, with all other parts; of a lane, with the lanes after it. The rectangles of a turn reach beyond the disc
+// of any turn, which no corner leaves: two parts conflict only if each also conflicts with the whole of the other.
 std::vector<std::uint32_t> HullParts::find_conflicts(std::uint32_t number) const {
   const bool turns = is_turn(number);
+  const std::uint32_t whole = whole_of(number);
   const auto conflict_with = [&](std::uint32_t other) {
     if (!turns && (is_turn(other) || other < number)) return false;
-    return std::ranges::any_of(tables_.shapes(number), [&](const Shape& a) {
-      return std::ranges::any_of(tables_.shapes(other),
-                                 [&](const Shape& b) { return closer_than(a, b, clearance_m()); });
-    });
+    const std::uint32_t whole_other = whole_of(other);
+    return (whole == number || shapes_conflict(whole, other)) &&
+           (whole_other == other || shapes_conflict(number, whole_other)) && shapes_conflict(number, other);
   };
   std::vector<std::uint32_t> found = tables_.near().around(number);
   std::erase_if(found, [&](std::uint32_t other) { return !conflict_with(other); });
@@ -86,8 +100,10 @@ bool HullParts::conflicts_with_body(std::uint32_t number, const Shape& body) con
   const double far_m = part.reach_m + body.reach_m() + clearance_m();
   const Vec d = body.centre_m - part.centre_m;
   if (dot(d, d) >= far_m * far_m) return false;
-  return std::ranges::any_of(tables_.shapes(number),
-                             [&](const Shape& shape) { return closer_than(shape, body, clearance_m()); });
+  const auto near = [&](const Shape& shape) { return closer_than(shape, body, clearance_m()); };
+  const std::uint32_t whole = whole_of(number);
+  return std::ranges::any_of(tables_.shapes(number), near) &&
+         (whole == number || std::ranges::any_of(tables_.shapes(whole), near));
 }
 
 }  // namespace fleetproof::agents

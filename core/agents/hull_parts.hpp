@@ -17,7 +17,11 @@ namespace fleetproof::agents {
 class HullParts {
  public:
   HullParts(const MapView& map, const fp_facts& facts, const HullKey& key)
-      : map_(map), facts_(facts), key_(key), tables_(facts, key), per_kind_(map.lane_count() + map.station_count()) {}
+      : map_(map),
+        facts_(facts),
+        key_(key),
+        tables_(facts, key),
+        per_kind_(map.lane_count() + tables_.turns().count()) {}
   HullParts(const HullParts&) = delete;
   HullParts& operator=(const HullParts&) = delete;
 
@@ -26,8 +30,13 @@ class HullParts {
   double clearance_m() const { return tables_.clearance_m(); }
   const Body& body(std::uint32_t agv) const { return tables_.body(tables_.kind_of(agv)); }
   std::uint32_t of_lane(std::uint32_t agv, std::uint32_t lane) const { return tables_.kind_of(agv) * per_kind_ + lane; }
+  // Of any turn at the station.
   std::uint32_t of_turn(std::uint32_t agv, std::uint32_t station) const {
     return tables_.kind_of(agv) * per_kind_ + map_.lane_count() + station;
+  }
+  // Of the turn from one heading to the other, or of any turn there.
+  std::uint32_t of_turn(std::uint32_t agv, std::uint32_t station, Vec from, Vec to) const {
+    return tables_.kind_of(agv) * per_kind_ + map_.lane_count() + tables_.turns().number_of(station, from, to);
   }
   // Contains the part.
   const Box& box(std::uint32_t number) const { return tables_.near().box(number); }
@@ -52,6 +61,10 @@ class HullParts {
   static constexpr std::size_t kRemembered = 256;
 
   bool is_turn(std::uint32_t number) const { return number % per_kind_ >= map_.lane_count(); }
+  // The part of any turn there, if this is a turn; otherwise the part itself. It contains the floor that this one
+  // covers.
+  std::uint32_t whole_of(std::uint32_t number) const;
+  bool shapes_conflict(std::uint32_t a, std::uint32_t b) const;
   std::span<const std::uint32_t> conflicts_of(std::uint32_t number) const;
   std::span<const std::uint32_t> remembered_conflicts_of(std::uint32_t number);
   std::vector<std::uint32_t> find_conflicts(std::uint32_t number) const;

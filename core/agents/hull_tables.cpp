@@ -35,7 +35,7 @@ Body body_of(const fp_facts& facts, std::uint32_t id, const HullOptions& options
 // Works the tables out.
 class Sweeps {
  public:
-  Sweeps(const fp_facts& facts, const HullKey& key) : map_(facts), options_(key.options) {
+  Sweeps(const fp_facts& facts, const HullKey& key) : map_(facts), turns_(map_), options_(key.options) {
     for (std::uint32_t id = 0; id < facts.fleet_count; ++id) {
       const Body body = body_of(facts, key.self == HullKey::kNobody ? id : key.self, options_);
       const auto known = std::ranges::find_if(kinds_, [&](const Body& kind) { return is_same_kind(kind, body); });
@@ -52,7 +52,9 @@ class Sweeps {
   std::vector<std::byte> tables() const {
     TableWriter tables;
     tables.add(std::vector{clearance_m_});
-    tables.add(kinds_), tables.add(kind_of_), tables.add(parts_), tables.add(shapes_);
+    tables.add(kinds_), tables.add(kind_of_);
+    turns_.add_to(tables);
+    tables.add(parts_), tables.add(shapes_);
     tables.add(PartsNear(boxes(), clearance_m_).bytes());
     return tables.bytes();
   }
@@ -64,12 +66,20 @@ class Sweeps {
 
   void sweep(const Body& kind) {
     for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) sweep_lane(kind, lane);
-    for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
-      const double reach_m = options_.corners_count ? kind.reach_m() : kind.length_m / 2.0;
-      const Vec at = map_.position_m(station);
-      parts_.push_back({static_cast<std::uint32_t>(shapes_.size()), 1, at, kind.reach_m()});
-      shapes_.push_back(disc_at(at, reach_m));
+    for (std::uint32_t turn = 0; turn < turns_.count(); ++turn) sweep_turn(kind, turn);
+  }
+
+  void sweep_turn(const Body& kind, std::uint32_t number) {
+    const Vec at = map_.position_m(turns_.station_of(number));
+    HullPart part{static_cast<std::uint32_t>(shapes_.size()), 0, at, kind.reach_m()};
+    const Body turning = options_.corners_count ? kind : Body{kind.length_m, 0.0, 0.0};
+    if (turns_.is_any(number)) {
+      shapes_.push_back(disc_at(at, turning.reach_m()));
+    } else {
+      append_turn(at, turns_.turn(number).from, turns_.turn(number).to, turning, shapes_);
     }
+    part.count = static_cast<std::uint32_t>(shapes_.size()) - part.first;
+    parts_.push_back(part);
   }
 
   // No point of a lane is further from the middle between its ends than half the length of the lane.
@@ -102,6 +112,7 @@ class Sweeps {
   }
 
   MapView map_;
+  Turns turns_;
   HullOptions options_;
   double clearance_m_ = 0.0;
   std::vector<Body> kinds_;
@@ -136,6 +147,7 @@ HullTables::HullTables(TableReader tables)
     : clearance_m_(tables.next<double>().front()),
       kinds_(tables.next<Body>()),
       kind_of_(tables.next<std::uint32_t>()),
+      turns_(tables),
       parts_(tables.next<HullPart>()),
       shapes_(tables.next<Shape>()),
       near_(tables.next<std::byte>()) {}

@@ -9,6 +9,7 @@
 #include "core/agents/map_view.hpp"
 #include "core/agents/parts_near.hpp"
 #include "core/agents/shapes.hpp"
+#include "core/agents/turns.hpp"
 
 namespace fleetproof::agents {
 
@@ -39,8 +40,8 @@ struct HullPart {
   double reach_m = 0.0;
 };
 
-// The parts of all hulls in a plant: for every kind of body in the fleet, the sweep of each lane, then a disc for the
-// turn on the spot at each station. Requires: the facts outlive the object.
+// The parts of all hulls in a plant: for every kind of body in the fleet, the sweep of each lane, then that of each
+// turn on the spot, which for any turn at a station is a disc. Requires: the facts outlive the object.
 class HullTables {
  public:
   HullTables(const fp_facts& facts, const HullKey& key);
@@ -49,6 +50,7 @@ class HullTables {
   std::uint32_t kind_count() const { return static_cast<std::uint32_t>(kinds_.size()); }
   std::uint32_t kind_of(std::uint32_t agv) const { return kind_of_[agv]; }
   const Body& body(std::uint32_t kind) const { return kinds_[kind]; }
+  const Turns& turns() const { return turns_; }
   const HullPart& part(std::uint32_t number) const { return parts_[number]; }
   std::span<const Shape> shapes(std::uint32_t number) const {
     return shapes_.subspan(parts_[number].first, parts_[number].count);
@@ -61,6 +63,7 @@ class HullTables {
   double clearance_m_;
   std::span<const Body> kinds_;             // different footprints
   std::span<const std::uint32_t> kind_of_;  // by AGV
+  Turns turns_;
   std::span<const HullPart> parts_;
   std::span<const Shape> shapes_;
   PartsNear near_;

@@ -6,15 +6,16 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr double kSmallAngle_rad = 0.25;
-constexpr double kPieceAngle_rad = 0.1;  // of a bend that one rectangle covers
+constexpr double kPieceAngle_rad = 0.1;  // of a bend or a turn that one rectangle covers
+constexpr double kBeyond_rad = 1.5e-3;   // headings that are closer than this count as the same
 constexpr double kRounding_m = 1e-6;
 
-struct Turn {
+struct Rotation {
   double cosine = 1.0, sine = 0.0;
 };
 
 // Taylor, exact to rounding for |angle| <= kSmallAngle_rad.
-Turn small_turn(double angle_rad) {
+Rotation small_turn(double angle_rad) {
   const double q = angle_rad * angle_rad;
   const double sine =
       angle_rad * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0)))));
@@ -23,7 +24,7 @@ Turn small_turn(double angle_rad) {
   return {cosine, sine};
 }
 
-Vec apply(Turn t, Vec v) { return {t.cosine * v.x - t.sine * v.y, t.sine * v.x + t.cosine * v.y}; }
+Vec apply(Rotation t, Vec v) { return {t.cosine * v.x - t.sine * v.y, t.sine * v.x + t.cosine * v.y}; }
 
 bool is_straight(const fp_arc& arc) { return std::abs(arc.curvature_per_m * arc.length_m) < 1e-9; }
 
@@ -52,12 +53,39 @@ bool overlap(const Shape& a, const Shape& b) {
          std::abs(dot(d, left_of(b.axis))) <= b.half_width_m + a.half_length_m * s + a.half_width_m * c;
 }
 
+// The body with its reference point at the origin, as large as it needs to be to cover it however it is turned by up to
+// `half` about that point: its sides tilt, and its centre swings.
+Shape body_swung(const Body& body, Rotation half) {
+  const double off_m = std::abs(body.ahead_m) * half.sine, back_m = std::abs(body.ahead_m) * (1.0 - half.cosine);
+  return {{body.ahead_m, 0.0},
+          {1.0, 0.0},
+          body.length_m / 2.0 + body.width_m / 2.0 * half.sine + back_m + kRounding_m,
+          body.width_m / 2.0 + body.length_m / 2.0 * half.sine + off_m + kRounding_m};
+}
+
+Vec unit(Vec v) { return v * (1.0 / length(v)); }
+
+// Halves the angle until one rectangle covers what is between the headings.
+void append_pieces(Vec at_m, Vec from, Vec to, const Body& body, std::vector<Shape>& shapes) {
+  const Vec middle = unit(from + to);
+  const double sine = std::abs(dot(left_of(middle), to));  // of half the angle
+  if (sine > kPieceAngle_rad / 2.0) {
+    append_pieces(at_m, from, middle, body, shapes);
+    append_pieces(at_m, middle, to, body, shapes);
+    return;
+  }
+  Shape swung = body_swung(body, {dot(middle, to), sine});
+  swung.centre_m = at_m + middle * body.ahead_m;
+  swung.axis = middle;
+  shapes.push_back(swung);
+}
+
 }  // namespace
 
 Vec turned(Vec v, double angle_rad) {
   const double steps = std::ceil(std::abs(angle_rad) / kSmallAngle_rad);
   if (steps < 1.0) return v;
-  const Turn t = small_turn(angle_rad / steps);
+  const Rotation t = small_turn(angle_rad / steps);
   for (double i = 0.0; i < steps; i += 1.0) v = apply(t, v);
   return v;
 }
@@ -91,26 +119,22 @@ bool closer_than(const Shape& a, const Shape& b, double distance_m) {
 }
 
 void append_sweep(const fp_arc& arc, bool tail_first, const Body& body, std::vector<Shape>& shapes) {
-  const double length_m = body.length_m, width_m = body.width_m;
   const double ahead_m = tail_first ? -body.ahead_m : body.ahead_m;  // of the travel
   Vec at{arc.start.x_m, arc.start.y_m}, heading{arc.start.heading_x, arc.start.heading_y};
   if (is_straight(arc)) {
-    shapes.push_back(
-        {at + heading * (arc.length_m / 2.0 + ahead_m), heading, (arc.length_m + length_m) / 2.0, width_m / 2.0, 0.0});
+    shapes.push_back({at + heading * (arc.length_m / 2.0 + ahead_m), heading, (arc.length_m + body.length_m) / 2.0,
+                      body.width_m / 2.0, 0.0});
     return;
   }
   const double angle_rad = std::abs(arc.curvature_per_m) * arc.length_m;
   const double pieces = std::ceil(angle_rad / kPieceAngle_rad);
   const double radius_m = 1.0 / std::abs(arc.curvature_per_m);
   const double quarter_rad = angle_rad / pieces / 4.0;
-  const Turn quarter = small_turn(arc.curvature_per_m > 0.0 ? quarter_rad : -quarter_rad);
-  const Turn half = small_turn(2.0 * quarter_rad);
+  const Rotation quarter = small_turn(arc.curvature_per_m > 0.0 ? quarter_rad : -quarter_rad);
+  const Rotation half = small_turn(2.0 * quarter_rad);
   const double half_chord_m = radius_m * half.sine, sagitta_m = radius_m * (1.0 - half.cosine);
-  // Compared with the middle of the piece, the body is turned by at most half the angle of the piece. It is off the
-  // tangent by at most the sagitta, and its centre swings about the reference point.
-  const double off_m = std::abs(ahead_m) * half.sine, back_m = std::abs(ahead_m) * (1.0 - half.cosine);
-  const double half_length_m = half_chord_m + length_m / 2.0 + width_m / 2.0 * half.sine + back_m + kRounding_m;
-  const double half_width_m = width_m / 2.0 + length_m / 2.0 * half.sine + sagitta_m + off_m + kRounding_m;
+  const Shape swung = body_swung(body, half);
+  const double half_length_m = swung.half_length_m + half_chord_m, half_width_m = swung.half_width_m + sagitta_m;
   const auto advance_half = [&] {  // along the chord, which lies half-way between the two headings
     heading = apply(quarter, heading);
     at = at + heading * (2.0 * radius_m * std::abs(quarter.sine));
@@ -121,6 +145,11 @@ void append_sweep(const fp_arc& arc, bool tail_first, const Body& body, std::vec
     shapes.push_back({at + heading * ahead_m, heading, half_length_m, half_width_m, 0.0});
     advance_half();
   }
+}
+
+void append_turn(Vec at_m, Vec from, Vec to, const Body& body, std::vector<Shape>& shapes) {
+  const double beyond = dot(left_of(from), to) > 0.0 ? kBeyond_rad : -kBeyond_rad;
+  append_pieces(at_m, unit(from - left_of(from) * beyond), unit(to + left_of(to) * beyond), body, shapes);
 }
 
 }  // namespace fleetproof::agents

@@ -55,4 +55,9 @@ bool closer_than(const Shape& a, const Shape& b, double distance_m);
 // first or tail first. Exact for a straight line; too large by a few centimetres in bends.
 void append_sweep(const fp_arc& arc, bool tail_first, const Body& body, std::vector<Shape>& shapes);
 
+// Appends shapes that together cover the floor that a body sweeps while it turns on the spot, about its reference
+// point and by the shorter way, between these headings or a little beyond them. Too large by a few centimetres.
+// Requires: the headings are at most three eighths of a turn apart.
+void append_turn(Vec at_m, Vec from, Vec to, const Body& body, std::vector<Shape>& shapes);
+
 }  // namespace fleetproof::agents

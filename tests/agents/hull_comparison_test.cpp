@@ -2,7 +2,9 @@
 // part by part.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include "core/agents/hull.hpp"
 #include "tests/agents/drawn_map.hpp"
@@ -25,16 +27,27 @@ class HullComparison : public ::testing::Test {
     return path;
   }
 
-  // Compares `a` part by part. Requires: it has lanes.
-  bool conflict_by_parts(HullGeometry& fresh, const Path& a, const Path& b) const {
-    Vec heading = a.heading;
-    for (const std::uint32_t lane : a.lanes()) {
-      const bool turns = !same_heading(heading, map.start_heading(lane));
-      if (turns && fresh.turn_conflict(0, map.lane(lane).from, 1, b)) return true;
-      if (fresh.lane_conflict(0, lane, 1, b)) return true;
+  // The parts of a hull, without boxes and without what is remembered.
+  std::vector<std::uint32_t> parts_of(const HullParts& parts, std::uint32_t agv, const Path& path) const {
+    std::vector<std::uint32_t> numbers;
+    Vec heading = path.heading;
+    for (const std::uint32_t lane : path.lanes()) {
+      const Vec start = map.start_heading(lane);
+      if (!same_heading(heading, start)) numbers.push_back(parts.of_turn(agv, map.lane(lane).from, heading, start));
+      numbers.push_back(parts.of_lane(agv, lane));
       heading = map.end_heading(lane);
     }
-    return false;
+    return numbers;
+  }
+
+  // Requires: `a` has lanes.
+  bool conflict_by_parts(HullParts& parts, const Path& a, const Path& b) const {
+    const Shape standing = body_at(map.position_m(b.station), b.heading, parts.body(1));
+    const auto others = parts_of(parts, 1, b);
+    return std::ranges::any_of(parts_of(parts, 0, a), [&](std::uint32_t of_a) {
+      return b.empty() ? parts.conflicts_with_body(of_a, standing)
+                       : std::ranges::any_of(others, [&](std::uint32_t of_b) { return parts.conflict(of_a, of_b); });
+    });
   }
 
   // Stations on a grid that is a little askew, with lanes to the neighbours.
@@ -59,7 +72,9 @@ class HullComparison : public ::testing::Test {
 };
 
 TEST_F(HullComparison, SaysWhatThePartsSay) {
-  HullGeometry by_parts(map, fleet.briefing(0, 0));
+  const fp_briefing briefing = fleet.briefing(0, 0);
+  const Facts facts(briefing);
+  HullParts by_parts(map, facts.shared(), {HullOptions{}, 0});
   Path a = any_path();
   int conflicts = 0, asked = 0;
   for (int i = 0; i < 20'000; ++i) {

@@ -85,6 +85,31 @@ TEST(AgentShapes, SweepCoversTheBodyEverywhereOnTheArc) {
   }
 }
 
+// Likewise while the body turns on the spot, also by a little more than asked for.
+TEST(AgentShapes, TurnCoversTheBodyAtEveryHeading) {
+  std::mt19937_64 draws(4);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 400; ++i) {
+    const double from = 6.3 * unit(draws), most = i % 4 == 0 ? 0.05 : 2.3;
+    const double to = from + (i % 2 == 0 ? 1.0 : -1.0) * (0.0015 + most * unit(draws));
+    const fp_pose start = pose(5.0 * unit(draws), 5.0 * unit(draws), from);
+    const Body body{1.0 + 1.6 * unit(draws), 0.6 + 0.7 * unit(draws), i < 200 ? 0.0 : 2.0 * unit(draws) - 1.0};
+    std::vector<Shape> shapes;
+    append_turn({start.x_m, start.y_m}, {std::cos(from), std::sin(from)}, {std::cos(to), std::sin(to)}, body, shapes);
+    for (const Shape& s : shapes)
+      EXPECT_LT(s.half_width_m - body.width_m / 2.0, 0.052 * (body.length_m / 2.0 + std::abs(body.ahead_m)));
+    const double beyond = to > from ? 0.0014 : -0.0014;
+    for (double t = 0.0; t <= 1.0; t += 1.0 / 512) {
+      const double angle = from - beyond + t * (to - from + 2.0 * beyond);
+      for (const auto& corner : corners_of(pose(start.x_m, start.y_m, angle), false, body)) {
+        double nearest_m = 1e9;
+        for (const Shape& s : shapes) nearest_m = std::min(nearest_m, distance_m({corner.x, corner.y}, s));
+        ASSERT_LE(nearest_m, 1e-9) << "turn " << i << " at " << t;
+      }
+    }
+  }
+}
+
 TEST(AgentShapes, EndOfAnArcIsWhereItLeads) {
   const fp_arc arc{pose(1.0, 2.0, 0.7), 3.0, -0.6};
   const fp_pose end = end_of(arc), expected = testing::on_arc(arc, 3.0);
@@ -130,6 +155,71 @@ TEST_F(Crossing, TurningOnTheSpotNeedsMoreRoomThanDrivingOff) {
   Path turning = path(0, 1);
   turning.heading = {0.0, 1.0};
   EXPECT_TRUE(geometry.conflict(0, turning, 1, path(4, 5)));
+}
+
+TEST_F(Crossing, TurnNeedsNoFloorThatItDoesNotSweep) {
+  // A lane to the east, and a little to the left of it the lane after it. 0.85 m to the right of them, another body.
+  DrawnMap kinked;
+  const std::uint32_t at = kinked.station(0, 0);
+  kinked.segment(kinked.station(-6, 0), at), kinked.segment(at, kinked.station(6, 1));
+  kinked.station(-0.6, -1.35);
+  const MapView view(kinked.map());
+  const TestFleet pair(kinked.map(), 2);
+  HullGeometry hulls(view, pair.briefing(0, 0));
+  Path through, back, beside;
+  through.station = 1;
+  through.append(kinked.lane_between(1, at)), through.append(kinked.lane_between(at, 2));
+  back.station = 1;
+  back.append(kinked.lane_between(1, at)), back.append(kinked.lane_between(at, 1));
+  beside.station = 3;
+  EXPECT_FALSE(hulls.conflict(0, through, 1, beside)) << "a turn of nine degrees";
+  EXPECT_TRUE(hulls.conflict(0, back, 1, beside)) << "half a turn may go either way";
+}
+
+// The oracle: bodies at 200 headings of the turn, and the lane after it.
+TEST(HullGeometry, TurnsConflictWithWhatTheBodyMeets) {
+  std::mt19937_64 draws(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int conflicts = 0, free = 0, close = 0;
+  for (int i = 0; i < 600; ++i) {
+    const double from = 2.0 * M_PI * unit(draws), turn = (i % 2 == 0 ? 1.0 : -1.0) * (0.02 + 3.1 * unit(draws));
+    DrawnMap drawn;
+    drawn.station(0, 0);
+    drawn.segment(drawn.station(-9.0 * std::cos(from), -9.0 * std::sin(from)), 0);
+    drawn.segment(0, drawn.station(0.3 * std::cos(from + turn), 0.3 * std::sin(from + turn)));
+    const double away_m = 0.9 + 1.8 * unit(draws), side = 2.0 * M_PI * unit(draws);
+    drawn.station(away_m * std::cos(side), away_m * std::sin(side));
+    fp_agv agv = testing::kTestAgv;
+    agv.centre_ahead_m = i % 3 == 0 ? 0.6 * unit(draws) - 0.3 : 0.0;
+    const TestFleet pair(drawn.map(), 2, agv);
+    const MapView map(drawn.map());
+    HullGeometry geometry(map, pair.briefing(0, 0));
+    Path turning, standing;
+    turning.heading = {std::cos(from), std::sin(from)};
+    turning.append(drawn.lane_between(0, 2));
+    standing.station = 3;
+    standing.heading = {std::cos(5.0 * side), std::sin(5.0 * side)};
+    const Body body{agv.length_m, agv.width_m, agv.centre_ahead_m};
+    const auto corners = [&](double x, double y, double angle) { return corners_of(pose(x, y, angle), false, body); };
+    const auto other = corners(map.position_m(3).x, map.position_m(3).y, 5.0 * side);
+    double nearest_m = INFINITY;
+    for (double t = 0.0; t <= 1.0; t += 1.0 / 200) {
+      const double on_m = 0.3 * t, last = from + turn;
+      nearest_m = std::min({nearest_m, testing::clearance_m(corners(0, 0, from + t * turn), other),
+                            testing::clearance_m(corners(on_m * std::cos(last), on_m * std::sin(last), last), other)});
+    }
+    const bool found = geometry.conflict(0, turning, 1, standing);
+    if (nearest_m < geometry.clearance_m() - 0.002) {
+      EXPECT_TRUE(found) << i << ": " << nearest_m;
+    } else if (std::abs(turn) < 2.3 && nearest_m > geometry.clearance_m() + 0.08) {
+      EXPECT_FALSE(found) << i << ": " << nearest_m;
+    }
+    conflicts += found, free += !found;
+    close += std::abs(nearest_m - geometry.clearance_m()) < 0.1;
+  }
+  EXPECT_GT(conflicts, 150);
+  EXPECT_GT(free, 150);
+  EXPECT_GT(close, 60);
 }
 
 TEST_F(Crossing, StandingAgvHoldsItsBody) {

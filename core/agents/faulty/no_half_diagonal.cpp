@@ -1,5 +1,5 @@
-// FAULT: the hull of a turn on the spot has half the length as its radius, not half the diagonal. Otherwise this agent
-// is hull-lock.
+// FAULT: the hull of a turn on the spot reaches half the length of the body, not half the diagonal. Otherwise this
+// agent is hull-lock.
 #include "core/agents/faulty/faulty_agents.hpp"
 #include "core/agents/hull_lock.hpp"
 
