@@ -8,14 +8,11 @@
 #include "core/agents/agents.h"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
-#include "reports/evidence/binomial.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr const char* kSoundAgent = "hull-lock";
-constexpr const char* kViolation = "violation";
-constexpr const char* kStuck = "stuck";
 constexpr double kConfidence = 0.95;
 constexpr std::uint64_t kRunsAhead = 256;
 
@@ -29,71 +26,23 @@ CampaignPlan with_agent(CampaignPlan plan, const std::string& agent) {
   return plan;
 }
 
-// Without the links of a deadlock, which are filed beside it.
-std::vector<std::string> accusations_of(const Outcome& outcome) {
-  std::vector<std::string> names;
-  if (outcome.violation) names.emplace_back(kViolation);
-  if (outcome.stuck) names.emplace_back(kStuck);
-  for (const Incident& incident : outcome.incidents) {
-    if (!accuses(incident.kind) || incident.kind == IncidentKind::WaitsDeclared ||
-        incident.kind == IncidentKind::WaitsInferred)
-      continue;
-    names.emplace_back(info_of(incident.kind).name);
-  }
-  std::ranges::sort(names);
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
-}
-
-void count(AgentTally& tally, RunRecord record) {
-  ++tally.runs;
-  tally.traces.emplace(record.run_index, record.outcome.digest);
-  for (const ProbeCount& probe : record.outcome.probes) {
-    if (probe.source == ProbeSource::World) ++tally.met[probe.name];
-  }
-  for (const std::string& name : accusations_of(record.outcome)) {
-    ++tally.accused[name];
-    const auto [known, is_new] = tally.first.try_emplace(name, record);
-    if (!is_new && record.run_index < known->second.run_index) known->second = record;
-  }
-}
-
 // Runs are handed out in order. So when a run has ended the campaign and those under way have finished, no earlier run
 // is missing.
 AgentTally tally_of(const CampaignPlan& plan, const AgentPrograms& programs, const SensitivityOptions& options,
                     bool until_violation) {
   AgentTally tally;
   tally.agent = plan.agents.front().name;
+  const std::vector<CellRecord> cells = plan.cells();
   const RunOne run_one(plan, programs);
   TaskPool pool(options.workers, 0, std::min(options.runs, plan.run_count()), kRunsAhead,
                 [&](std::uint64_t index) { return std::optional(run_one(index)); });
   while (!pool.finished()) {
-    std::optional<RunRecord> record = pool.next(std::chrono::milliseconds(10));
+    const std::optional<RunRecord> record = pool.next(std::chrono::milliseconds(10));
     if (!record) continue;
     if (until_violation && record->outcome.violation) pool.stop();
-    count(tally, std::move(*record));
+    tally.count(*record, cells);
   }
   return tally;
-}
-
-std::uint64_t runs_with(const AgentTally& tally, const std::string& accusation) {
-  const auto known = tally.accused.find(accusation);
-  return known == tally.accused.end() ? 0 : known->second;
-}
-
-// What the fault is accused of more often than the sound agent; empty: nothing. The clearest difference counts.
-std::string more_often(const AgentTally& fault, const AgentTally& sound) {
-  if (fault.accused.empty()) return {};
-  std::string clearest;
-  double widest = 0.0;
-  const Confidence each = Confidence(kConfidence).shared(2.0 * static_cast<double>(fault.accused.size()));
-  for (const auto& [name, runs] : fault.accused) {
-    const double gap = lower_bound(runs, fault.runs, each) - upper_bound(runs_with(sound, name), sound.runs, each);
-    if (gap <= widest) continue;
-    widest = gap;
-    clearest = name;
-  }
-  return clearest;
 }
 
 // The probe of the world that is met least often, as counted in these runs of the sound agent.
@@ -110,19 +59,28 @@ std::string rarest_probe(const RunRecord& record, const std::map<std::string, st
   return rarest;
 }
 
+// The finding of the accused runs in which the fault shows.
+void tell_first_run(FaultFinding& finding, const AccusedRuns& shows, const AgentTally& sound,
+                    const std::vector<CellRecord>& cells) {
+  const RunRecord& first = shows.first.at(finding.seen_as);
+  if (!finding.by_rate) finding.runs = first.run_index + 1;
+  finding.cell = cells[first.cell];
+  finding.probe = rarest_probe(first, sound.met);
+  if (!finding.by_rate && first.outcome.contact) finding.seen_as = "contact";
+}
+
 FaultFinding finding_of(AgentTally tally, const AgentTally& sound, const CampaignPlan& plan) {
   FaultFinding finding;
-  finding.runs = tally.runs;
-  const bool violates = runs_with(tally, kViolation) > 0 && runs_with(sound, kViolation) == 0;
-  finding.seen_as = violates ? kViolation : more_often(tally, sound);
-  finding.by_rate = !violates && !finding.seen_as.empty();
+  finding.runs = tally.all.runs;
   finding.tried = !std::ranges::includes(sound.traces, tally.traces);
-  if (!finding.seen_as.empty()) {
-    const RunRecord& first = tally.first.at(finding.seen_as);
-    if (violates) finding.runs = first.run_index + 1;
-    finding.cell = plan.cells()[first.cell];
-    finding.probe = rarest_probe(first, sound.met);
-    if (violates && first.outcome.contact) finding.seen_as = "contact";
+  if (tally.all.with(kAccusedOfViolation) > 0 && sound.all.with(kAccusedOfViolation) == 0) {
+    finding.seen_as = kAccusedOfViolation;
+    tell_first_run(finding, tally.all, sound, plan.cells());
+  } else if (const auto accusation = more_often(tally, sound, kConfidence)) {
+    finding.seen_as = accusation->name;
+    finding.by_rate = true;
+    finding.radio = accusation->radio;
+    tell_first_run(finding, finding.radio ? tally.by_radio.at(*finding.radio) : tally.all, sound, plan.cells());
   }
   finding.tally = std::move(tally);
   return finding;
@@ -153,7 +111,7 @@ Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& p
   result.sound = tally_of(with_agent(plan, kSoundAgent), programs, options, false);
   for (const std::string& agent : options.agents.empty() ? faulty : options.agents) {
     const CampaignPlan worlds = with_agent(plan, agent);
-    const bool until_violation = runs_with(result.sound, kViolation) == 0;
+    const bool until_violation = result.sound.all.with(kAccusedOfViolation) == 0;
     result.faults.push_back(finding_of(tally_of(worlds, programs, options, until_violation), result.sound, worlds));
     if (told) told(result.faults.back());
   }

@@ -2,35 +2,25 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "campaign/batch/agent_tally.hpp"
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
 
-// What one agent did in the worlds of a plan.
-struct AgentTally {
-  std::string agent;
-  std::uint64_t runs = 0;
-  // Runs with at least one, by what the laws accuse: "violation", "stuck", or the name of an incident kind.
-  std::map<std::string, std::uint64_t> accused;
-  std::map<std::string, RunRecord> first;    // of each: the first run, in order of run index
-  std::map<std::string, std::uint64_t> met;  // runs that met it, by probe of the world
-  // Digests of what was done, by run index; of the sound agent all, of others those that were simulated.
-  std::map<std::uint64_t, std::uint64_t> traces;
-};
-
 // How a planted fault shows in the worlds of a plan.
 struct FaultFinding {
   AgentTally tally;
   // What the fault was accused of; empty: it was missed.
   std::string seen_as;
-  bool by_rate = false;    // accused more often than the sound agent, not for the first violation
+  bool by_rate = false;  // accused more often than the sound agent, not for the first violation
+  // Of a rate: with what radio it was accused more often; empty: over all runs.
+  std::optional<RadioCondition> radio;
   bool tried = true;       // false: in each run it did the same as the sound agent, to the bit
   std::uint64_t runs = 0;  // until the first violation; of a rate, or if it was missed: all
   CellRecord cell;         // of the first such run
@@ -51,9 +41,10 @@ struct SensitivityOptions {
 
 // Runs the sound agent and the faulty agents in the worlds of `plan`, whatever its agents are, and stores nothing.
 // A fault is detected by its first violation, if the sound agent has none in all its runs; then its other runs are not
-// simulated. Otherwise a fault is detected if the laws accuse it of something in more runs than the sound agent: the
-// lower bound of one rate lies above the upper bound of the other, with 5 % risk over all comparisons of this fault.
-// Throws InputError for an agent that is not a faulty one. `told` hears each finding.
+// simulated. Otherwise a fault is detected if the laws accuse it of something in more runs than the sound agent, over
+// all runs or with one of the radios of the plan: the lower bound of one rate lies above the upper bound of the other,
+// with 5 % risk over all comparisons of this fault. Throws InputError for an agent that is not a faulty one. `told`
+// hears each finding.
 Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& programs,
                                 const SensitivityOptions& options,
                                 const std::function<void(const FaultFinding&)>& told = {});

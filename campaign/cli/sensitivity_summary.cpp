@@ -21,7 +21,10 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-std::string cell_text(const CellRecord& cell) {
+// Where the fault showed: a rate, with which radio; otherwise, in which cell.
+std::string place_of(const FaultFinding& finding) {
+  if (finding.radio) return factor_spans(finding.radio->lowest, finding.radio->highest);
+  const CellRecord& cell = finding.cell;
   return fmt::format("{}, {} AGVs, {}", cell.layout, cell.fleet_size, factor_spans(cell.lowest, cell.highest));
 }
 
@@ -44,7 +47,7 @@ PlantedFault summary_of(const std::vector<SeededSensitivity>& measured, std::siz
     runs.push_back(finding.seen_as.empty() ? kMissed : static_cast<double>(finding.runs));
     if (finding.seen_as.empty()) continue;
     if (fault.seeds++ == 0) {
-      fault.cell = cell_text(finding.cell);
+      fault.cell = place_of(finding);
       fault.probe = finding.probe;
     }
     ++seen_as[finding.seen_as];
@@ -81,10 +84,9 @@ SensitivityRecord summary_of(const CampaignPlan& plan, const AgentPrograms& prog
   record.sound_agent = measured.front().found.sound.agent;
   for (const auto& [seed, found] : measured) {
     record.seeds.push_back(seed);
-    record.runs = std::max(record.runs, found.sound.runs);
-    record.sound_runs += found.sound.runs;
-    const auto violations = found.sound.accused.find("violation");
-    if (violations != found.sound.accused.end()) record.sound_violations += violations->second;
+    record.runs = std::max(record.runs, found.sound.all.runs);
+    record.sound_runs += found.sound.all.runs;
+    record.sound_violations += found.sound.all.with(kAccusedOfViolation);
   }
   for (std::size_t place = 0; place < measured.front().found.faults.size(); ++place) {
     record.faults.push_back(summary_of(measured, place));

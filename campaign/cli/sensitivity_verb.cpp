@@ -30,7 +30,8 @@ void put_fault(const PlantedFault& fault, std::size_t seeds) {
   const std::string found = seeds == 1 ? "" : fmt::format(" with {} of {} seeds", fault.seeds, seeds);
   if (!fault.tried) return put("  {:24} never tried: in each run the same as the sound agent\n", fault.agent);
   if (fault.seeds == 0) return put("  {:24} missed\n", fault.agent);
-  if (fault.by_rate) return put("  {:24} {} more often than the sound agent{}\n", fault.agent, fault.seen_as, found);
+  if (fault.by_rate)
+    return put("  {:24} {} more often than the sound agent{} ({})\n", fault.agent, fault.seen_as, found, fault.cell);
   const std::string runs = fault.median_runs ? fmt::format("{:g}", *fault.median_runs) : "too many";
   put("  {:24} {} after {} runs{}{} ({}{})\n", fault.agent, fault.seen_as, runs, seeds == 1 ? "" : " (median)", found,
       fault.cell, fault.probe.empty() ? "" : "; met " + fault.probe);
@@ -39,10 +40,10 @@ void put_fault(const PlantedFault& fault, std::size_t seeds) {
 // What the sound agent, beside which rates are judged, was accused of itself.
 void put_sound(const AgentTally& sound) {
   std::vector<std::string> parts;
-  for (const auto& [name, runs] : sound.accused) parts.push_back(fmt::format("{} in {}", name, runs));
-  put("{} in {}: {}\n", sound.agent, count_text(sound.runs, "run"),
+  for (const auto& [name, runs] : sound.all.accused) parts.push_back(fmt::format("{} in {}", name, runs));
+  put("{} in {}: {}\n", sound.agent, count_text(sound.all.runs, "run"),
       parts.empty() ? "accused of nothing" : joined(parts, ", "));
-  if (sound.accused.contains("violation"))
+  if (sound.all.with(kAccusedOfViolation) > 0)
     talk(
         "warning: {} itself is accused of violations in these worlds, as with obstacles that no agent senses; "
         "violations are compared as rates\n",

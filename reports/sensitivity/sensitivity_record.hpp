@@ -17,8 +17,9 @@ struct PlantedFault {
   bool by_rate = false;                    // accused more often than the sound agent, not by its first violation
   std::optional<double> median_runs;       // until the first violation; absent: by rate, or missed in half of the seeds
   std::optional<std::uint64_t> most_runs;  // absent: by rate, or missed in a seed
-  std::string cell, probe;                 // of the first such run of the first seed that detected it
-  bool tried = true;                       // false: in each run of each seed it did the same as the sound agent
+  // Of the first such run of the first seed that detected it. Of a rate that shows with one radio, this radio.
+  std::string cell, probe;
+  bool tried = true;  // false: in each run of each seed it did the same as the sound agent
 };
 
 // Which planted faults the worlds of a plan detect: what `fleetproof sensitivity` measured.

@@ -23,7 +23,7 @@ std::string or_dash(const std::string& text) { return text.empty() ? "-" : print
 std::string measured_text(const SensitivityRecord& record) {
   std::string text = fmt::format(
       "Measured with {}, in at most {} of each agent. A fault is detected if it ends in a violation, or is accused of "
-      "something more often than {} is (95 % confidence){}. ",
+      "something more often than {} is, over all runs or with one radio (95 % confidence){}. ",
       count_text(record.seeds.size(), "seed"), count_text(record.runs, "run"), printable(record.sound_agent, 40),
       record.seeds.size() == 1 ? "" : ", with at least nine of ten seeds");
   text += record.sound_violations == 0

@@ -38,7 +38,7 @@ TEST(Sensitivity, CountsTheRunsUntilTheFirstViolationOnAnyNumberOfWorkers) {
       ASSERT_EQ(found.faults.size(), 1U);
       EXPECT_EQ(found.faults[0].seen_as.empty(), expected == 0) << agent;
       EXPECT_EQ(found.faults[0].runs, expected == 0 ? 24 : expected) << agent;
-      EXPECT_EQ(found.sound.runs, 24U) << "eight cells of one agent, three replicates";
+      EXPECT_EQ(found.sound.all.runs, 24U) << "eight cells of one agent, three replicates";
     }
   }
 }
@@ -48,7 +48,7 @@ TEST(Sensitivity, AFaultThatDoesNothingIsMissed) {
   const Sensitivity found =
       measure_sensitivity(test::small_plan(), AgentPrograms(), {.workers = 2, .agents = {"wraps-at-256"}});
   EXPECT_EQ(found.faults[0].seen_as, "");
-  EXPECT_EQ(found.faults[0].tally.accused, found.sound.accused);
+  EXPECT_EQ(found.faults[0].tally.all.accused, found.sound.all.accused);
   EXPECT_FALSE(found.faults[0].tried);
   EXPECT_EQ(found.detected(), 0U);
 }
@@ -71,7 +71,7 @@ TEST(Sensitivity, AmongBodiesThatNoAgentSensesOnlyARateCounts) {
   plan.faults.obstacles_per_hour = 600.0;
   const Sensitivity found = measure_sensitivity(
       plan, AgentPrograms(), {.runs = 40, .workers = 2, .agents = {"wraps-at-256", "grants-for-good"}});
-  ASSERT_GT(found.sound.accused.at("violation"), 0U);
+  ASSERT_GT(found.sound.all.with("violation"), 0U);
   EXPECT_EQ(found.faults[0].seen_as, "") << "the same runs as those of the sound agent";
   EXPECT_EQ(found.faults[1].runs, 40U) << "no fault ends at its first violation here";
 }
