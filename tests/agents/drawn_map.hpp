@@ -43,6 +43,8 @@ class DrawnMap {
     return segments_++;
   }
 
+  void drive_backward(std::uint32_t lane) { lanes_[lane].backward = 1; }
+
   // The lane is for AGVs with this load alone: FP_EMPTY_ONLY or FP_LOADED_ONLY.
   void permit(std::uint32_t from, std::uint32_t to, std::uint32_t load) {
     permissions_.push_back({FP_ANY_TYPE, load});
