@@ -2,10 +2,13 @@
 // all loads arrive where they should.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 #include <tuple>
 
 #include "core/agents/agent_type.hpp"
+#include "core/agents/faulty/faulty_agents.hpp"
 #include "tests/agents/junction.hpp"
 
 namespace fleetproof::agents {
@@ -101,6 +104,32 @@ TEST(Restart, HoldsTheLanesThatTheAgvWillDriveFromItsFirstInstantAndNothingBeyon
     EXPECT_EQ(warehouse.drops(), 1U);
     EXPECT_EQ(warehouse.misplaced(), 0U);
   }
+}
+
+// An AGV makes half a turn beside the lane of another one, which waits for that. In the middle of the turn its computer
+// restarts, and does not know where the turn began.
+TEST(Restart, HoldsTheTurnThatTheAgvMayBeMaking) {
+  DrawnMap drawn;
+  const auto from = drawn.station(0, 0, FP_STORAGE), to = drawn.station(14, 0, FP_STORAGE);
+  const auto beside = drawn.station(-1.7, 1.2, FP_STORAGE), away = drawn.station(20, 1.2, FP_STORAGE);
+  drawn.segment(from, to), drawn.segment(beside, away);
+  const TestFleet fleet(drawn.map(), 2);
+  const auto least_m = [&](const fp_agent_type& type, double restart_s) {
+    FakeWarehouse warehouse(drawn, fleet, {from, beside}, type, FakeRadio{0.0, 0.01, false, 0.0}, 1);
+    warehouse.heading(0, -1, 0);
+    warehouse.order(0, 0.1, from, to);  // 5 s of picking, 4 s of turning
+    warehouse.order(1, 1.0, away, beside);
+    warehouse.restart(0, restart_s, 0.1);
+    warehouse.run(120.0);
+    EXPECT_EQ(warehouse.drops(), 2U);
+    return warehouse.least_clearance_m();
+  };
+  double least_of_faulty_m = INFINITY;
+  for (double restart_s = 5.5; restart_s < 9.0; restart_s += 0.5) {
+    EXPECT_GE(least_m(kHullLock, restart_s), 0.1) << restart_s;
+    least_of_faulty_m = std::min(least_of_faulty_m, least_m(kRestartForgetsTurn, restart_s));
+  }
+  EXPECT_LT(least_of_faulty_m, 0.1) << "or this tests nothing";
 }
 
 // A long AGV stands across, beside the lane of another one. Its computer restarts, and sees the heading of before.
