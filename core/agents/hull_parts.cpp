@@ -6,13 +6,13 @@
 namespace fleetproof::agents {
 
 bool HullParts::conflict(std::uint32_t a, std::uint32_t b) {
-  const HullPart &of_a = tables_.part(a), &of_b = tables_.part(b);
+  const HullPart &of_a = part(a), &of_b = part(b);
   const double near_m = of_a.reach_m + of_b.reach_m + clearance_m();
   const Vec apart_m = of_a.centre_m - of_b.centre_m;
   if (dot(apart_m, apart_m) >= near_m * near_m) return false;
-  // Of two turns or two lanes, the list of the first one is asked for; of a turn and a lane, that of the turn.
-  const bool a_turns = is_turn(a), b_turns = is_turn(b);
-  if (a_turns == b_turns ? b < a : b_turns) std::swap(a, b);
+  // The list of the part with the higher rank is asked for; of equal ranks, that of the first one.
+  const Rank rank_a = numbers_.rank(a), rank_b = numbers_.rank(b);
+  if (rank_a == rank_b ? b < a : rank_a < rank_b) std::swap(a, b);
   return std::ranges::binary_search(remembered_conflicts_of(a), b);
 }
 
@@ -34,32 +34,58 @@ std::span<const std::uint32_t> HullParts::conflicts_of(std::uint32_t number) con
       key_.question(number));
 }
 
-std::uint32_t HullParts::whole_of(std::uint32_t number) const {
-  if (!is_turn(number)) return number;
-  const std::uint32_t first_turn = number - number % per_kind_ + map_.lane_count();
-  return first_turn + tables_.turns().station_of(number - first_turn);
+std::uint32_t HullParts::of_turn(std::uint32_t agv, std::uint32_t station, Vec from, Vec to) const {
+  const std::uint32_t sector = tables_.sectors().find(station, from, to);
+  return sector == FP_NONE ? of_turn(agv, station) : numbers_.of_sector(tables_.kind_of(agv), sector);
 }
 
-bool HullParts::shapes_conflict(std::uint32_t a, std::uint32_t b) const {
-  return std::ranges::any_of(tables_.shapes(a), [&](const Shape& of_a) {
-    return std::ranges::any_of(tables_.shapes(b),
-                               [&](const Shape& of_b) { return closer_than(of_a, of_b, clearance_m()); });
+std::vector<Shape> HullParts::shapes_of(std::uint32_t number) const {
+  if (!numbers_.is_sector(number)) return {tables_.shapes(number).begin(), tables_.shapes(number).end()};
+  const Sector& sector = tables_.sectors()[numbers_.sector(number)];
+  const Body body = turning_body(tables_.body(numbers_.kind(number)), key_.options);
+  std::vector<Shape> shapes;
+  shapes.reserve(32);
+  append_turn(map_.position_m(sector.station), sector.from, sector.to, body, shapes);
+  return shapes;
+}
+
+bool HullParts::come_close(std::span<const Shape> a, std::span<const Shape> b) const {
+  return std::ranges::any_of(a, [&](const Shape& of_a) {
+    return std::ranges::any_of(b, [&](const Shape& of_b) { return closer_than(of_a, of_b, clearance_m()); });
   });
 }
 
-// Of a turn, with all other parts; of a lane, with the lanes after it. The rectangles of a turn reach beyond the disc
-// of any turn, which no corner leaves: two parts conflict only if each also conflicts with the whole of the other.
+// Of a disc, with lanes and other discs; of a lane, with the lanes after it.
 std::vector<std::uint32_t> HullParts::find_conflicts(std::uint32_t number) const {
-  const bool turns = is_turn(number);
-  const std::uint32_t whole = whole_of(number);
-  const auto conflict_with = [&](std::uint32_t other) {
-    if (!turns && (is_turn(other) || other < number)) return false;
-    const std::uint32_t whole_other = whole_of(other);
-    return (whole == number || shapes_conflict(whole, other)) &&
-           (whole_other == other || shapes_conflict(number, whole_other)) && shapes_conflict(number, other);
-  };
+  const Rank rank = numbers_.rank(number);
+  if (rank == Rank::Sector) return find_conflicts_of_sector(number);
   std::vector<std::uint32_t> found = tables_.near().around(number);
-  std::erase_if(found, [&](std::uint32_t other) { return !conflict_with(other); });
+  std::erase_if(found, [&](std::uint32_t other) {
+    if (rank == Rank::Lane && (other < number || numbers_.rank(other) == Rank::Disc)) return true;
+    return !come_close(tables_.shapes(number), tables_.shapes(other));
+  });
+  return found;
+}
+
+// With all other parts. The rectangles of a sector reach beyond the disc of whatever turn, which no corner leaves, and
+// its floor lies in both. So if it comes close to another floor, each of the two comes close to both of the other's.
+std::vector<std::uint32_t> HullParts::find_conflicts_of_sector(std::uint32_t number) const {
+  const auto disc = tables_.shapes(whole_of(number));
+  const std::vector<Shape> shapes = shapes_of(number);
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t other : tables_.near().around(whole_of(number))) {
+    const auto whole = tables_.shapes(other);
+    if (!come_close(disc, whole) || !come_close(shapes, whole)) continue;
+    found.push_back(other);
+    if (numbers_.rank(other) != Rank::Disc) continue;
+    const std::uint32_t station = numbers_.station(other), end = tables_.sectors().begin_at(station + 1);
+    for (std::uint32_t i = tables_.sectors().begin_at(station); i < end; ++i) {
+      const std::uint32_t sector = numbers_.of_sector(numbers_.kind(other), i);
+      const std::vector<Shape> others = shapes_of(sector);
+      if (come_close(disc, others) && come_close(shapes, others)) found.push_back(sector);
+    }
+  }
+  std::ranges::sort(found);
   return found;
 }
 
@@ -76,8 +102,8 @@ std::span<const std::uint32_t> HullParts::lanes_blocked_by_turning(std::uint32_t
 std::vector<std::uint32_t> HullParts::find_blocked_lanes(std::uint32_t station) const {
   std::vector<std::uint32_t> found;
   for (std::uint32_t kind = 0; kind < tables_.kind_count(); ++kind) {
-    for (const std::uint32_t other : conflicts_of(kind * per_kind_ + map_.lane_count() + station)) {
-      if (!is_turn(other)) found.push_back(other % per_kind_);
+    for (const std::uint32_t other : conflicts_of(numbers_.of_disc(kind, station))) {
+      if (numbers_.rank(other) == Rank::Lane) found.push_back(numbers_.lane(other));
     }
   }
   std::ranges::sort(found);
@@ -89,21 +115,18 @@ bool HullParts::standing_blocks_lane(std::uint32_t station, Vec heading, std::ui
   for (std::uint32_t standing = 0; standing < tables_.kind_count(); ++standing) {
     const Shape body = body_at(map_.position_m(station), heading, tables_.body(standing));
     for (std::uint32_t driving = 0; driving < tables_.kind_count(); ++driving) {
-      if (conflicts_with_body(driving * per_kind_ + lane, body)) return true;
+      if (conflicts_with_body(numbers_.of_lane(driving, lane), body)) return true;
     }
   }
   return false;
 }
 
 bool HullParts::conflicts_with_body(std::uint32_t number, const Shape& body) const {
-  const HullPart& part = tables_.part(number);
-  const double far_m = part.reach_m + body.reach_m() + clearance_m();
-  const Vec d = body.centre_m - part.centre_m;
-  if (dot(d, d) >= far_m * far_m) return false;
-  const auto near = [&](const Shape& shape) { return closer_than(shape, body, clearance_m()); };
-  const std::uint32_t whole = whole_of(number);
-  return std::ranges::any_of(tables_.shapes(number), near) &&
-         (whole == number || std::ranges::any_of(tables_.shapes(whole), near));
+  const HullPart& whole = part(number);
+  const double far_m = whole.reach_m + body.reach_m() + clearance_m();
+  const Vec d = body.centre_m - whole.centre_m;
+  if (dot(d, d) >= far_m * far_m || !come_close(tables_.shapes(whole_of(number)), {&body, 1})) return false;
+  return !numbers_.is_sector(number) || come_close(shapes_of(number), {&body, 1});
 }
 
 }  // namespace fleetproof::agents

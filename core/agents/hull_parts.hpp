@@ -8,6 +8,7 @@
 #include "core/agents/facts.hpp"
 #include "core/agents/hull_tables.hpp"
 #include "core/agents/map_view.hpp"
+#include "core/agents/part_numbers.hpp"
 #include "core/agents/shapes.hpp"
 
 namespace fleetproof::agents {
@@ -21,7 +22,7 @@ class HullParts {
         facts_(facts),
         key_(key),
         tables_(facts, key),
-        per_kind_(map.lane_count() + tables_.turns().count()) {}
+        numbers_(map.lane_count(), map.station_count(), tables_.kind_count(), tables_.sectors().count()) {}
   HullParts(const HullParts&) = delete;
   HullParts& operator=(const HullParts&) = delete;
 
@@ -29,20 +30,20 @@ class HullParts {
   const HullKey& key() const { return key_; }
   double clearance_m() const { return tables_.clearance_m(); }
   const Body& body(std::uint32_t agv) const { return tables_.body(tables_.kind_of(agv)); }
-  std::uint32_t of_lane(std::uint32_t agv, std::uint32_t lane) const { return tables_.kind_of(agv) * per_kind_ + lane; }
-  // Of any turn at the station.
+  std::uint32_t of_lane(std::uint32_t agv, std::uint32_t lane) const {
+    return numbers_.of_lane(tables_.kind_of(agv), lane);
+  }
+  // Of whatever turn at the station: a disc.
   std::uint32_t of_turn(std::uint32_t agv, std::uint32_t station) const {
-    return tables_.kind_of(agv) * per_kind_ + map_.lane_count() + station;
+    return numbers_.of_disc(tables_.kind_of(agv), station);
   }
-  // Of the turn from one heading to the other, or of any turn there.
-  std::uint32_t of_turn(std::uint32_t agv, std::uint32_t station, Vec from, Vec to) const {
-    return tables_.kind_of(agv) * per_kind_ + map_.lane_count() + tables_.turns().number_of(station, from, to);
-  }
-  // Contains the part.
-  const Box& box(std::uint32_t number) const { return tables_.near().box(number); }
-  // A lower bound of the distance from the point to this part.
+  // Of the turn from one heading to the other: a sector, or the disc.
+  std::uint32_t of_turn(std::uint32_t agv, std::uint32_t station, Vec from, Vec to) const;
+  // Contains the floor of the part.
+  const Box& box(std::uint32_t number) const { return tables_.near().box(whole_of(number)); }
+  // A lower bound of the distance from the point to the floor of this part.
   double distance_bound_m(Vec point_m, std::uint32_t number) const {
-    return length(point_m - tables_.part(number).centre_m) - tables_.part(number).reach_m;
+    return length(point_m - part(number).centre_m) - part(number).reach_m;
   }
 
   // True if they come closer than the clearance.
@@ -60,21 +61,25 @@ class HullParts {
   };
   static constexpr std::size_t kRemembered = 256;
 
-  bool is_turn(std::uint32_t number) const { return number % per_kind_ >= map_.lane_count(); }
-  // The part of any turn there, if this is a turn; otherwise the part itself. It contains the floor that this one
-  // covers.
-  std::uint32_t whole_of(std::uint32_t number) const;
-  bool shapes_conflict(std::uint32_t a, std::uint32_t b) const;
+  // The disc of whatever turn there, if this is a sector; otherwise the part itself.
+  std::uint32_t whole_of(std::uint32_t number) const {
+    if (!numbers_.is_sector(number)) return number;
+    return numbers_.of_disc(numbers_.kind(number), tables_.sectors()[numbers_.sector(number)].station);
+  }
+  const HullPart& part(std::uint32_t number) const { return tables_.part(whole_of(number)); }
+  std::vector<Shape> shapes_of(std::uint32_t number) const;
+  bool come_close(std::span<const Shape> a, std::span<const Shape> b) const;
   std::span<const std::uint32_t> conflicts_of(std::uint32_t number) const;
   std::span<const std::uint32_t> remembered_conflicts_of(std::uint32_t number);
   std::vector<std::uint32_t> find_conflicts(std::uint32_t number) const;
+  std::vector<std::uint32_t> find_conflicts_of_sector(std::uint32_t number) const;
   std::vector<std::uint32_t> find_blocked_lanes(std::uint32_t station) const;
 
   const MapView& map_;
   const fp_facts& facts_;
   HullKey key_;
   HullTables tables_;
-  std::uint32_t per_kind_;
+  PartNumbers numbers_;
   std::vector<Remembered> remembered_;  // by the last digits of the number
 };
 

@@ -35,7 +35,7 @@ Body body_of(const fp_facts& facts, std::uint32_t id, const HullOptions& options
 // Works the tables out.
 class Sweeps {
  public:
-  Sweeps(const fp_facts& facts, const HullKey& key) : map_(facts), turns_(map_), options_(key.options) {
+  Sweeps(const fp_facts& facts, const HullKey& key) : map_(facts), sectors_(map_), options_(key.options) {
     for (std::uint32_t id = 0; id < facts.fleet_count; ++id) {
       const Body body = body_of(facts, key.self == HullKey::kNobody ? id : key.self, options_);
       const auto known = std::ranges::find_if(kinds_, [&](const Body& kind) { return is_same_kind(kind, body); });
@@ -53,7 +53,7 @@ class Sweeps {
     TableWriter tables;
     tables.add(std::vector{clearance_m_});
     tables.add(kinds_), tables.add(kind_of_);
-    turns_.add_to(tables);
+    sectors_.add_to(tables);
     tables.add(parts_), tables.add(shapes_);
     tables.add(PartsNear(boxes(), clearance_m_).bytes());
     return tables.bytes();
@@ -66,20 +66,11 @@ class Sweeps {
 
   void sweep(const Body& kind) {
     for (std::uint32_t lane = 0; lane < map_.lane_count(); ++lane) sweep_lane(kind, lane);
-    for (std::uint32_t turn = 0; turn < turns_.count(); ++turn) sweep_turn(kind, turn);
-  }
-
-  void sweep_turn(const Body& kind, std::uint32_t number) {
-    const Vec at = map_.position_m(turns_.station_of(number));
-    HullPart part{static_cast<std::uint32_t>(shapes_.size()), 0, at, kind.reach_m()};
-    const Body turning = options_.corners_count ? kind : Body{kind.length_m, 0.0, 0.0};
-    if (turns_.is_any(number)) {
-      shapes_.push_back(disc_at(at, turning.reach_m()));
-    } else {
-      append_turn(at, turns_.turn(number).from, turns_.turn(number).to, turning, shapes_);
+    for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
+      const Vec at = map_.position_m(station);
+      parts_.push_back({static_cast<std::uint32_t>(shapes_.size()), 1, at, kind.reach_m()});
+      shapes_.push_back(disc_at(at, turning_body(kind, options_).reach_m()));
     }
-    part.count = static_cast<std::uint32_t>(shapes_.size()) - part.first;
-    parts_.push_back(part);
   }
 
   // No point of a lane is further from the middle between its ends than half the length of the lane.
@@ -112,7 +103,7 @@ class Sweeps {
   }
 
   MapView map_;
-  Turns turns_;
+  Sectors sectors_;
   HullOptions options_;
   double clearance_m_ = 0.0;
   std::vector<Body> kinds_;
@@ -132,6 +123,10 @@ std::span<const std::byte> tables_of(const fp_facts& facts, const HullKey& key) 
 
 }  // namespace
 
+Body turning_body(const Body& kind, const HullOptions& options) {
+  return options.corners_count ? kind : Body{kind.length_m, 0.0, 0.0};
+}
+
 HullKey::HullKey(std::uint64_t question)
     : options(options_of(question >> kOptionsBit)), self(static_cast<std::uint32_t>(question >> kSelfBit) & kNobody) {}
 
@@ -147,7 +142,7 @@ HullTables::HullTables(TableReader tables)
     : clearance_m_(tables.next<double>().front()),
       kinds_(tables.next<Body>()),
       kind_of_(tables.next<std::uint32_t>()),
-      turns_(tables),
+      sectors_(tables),
       parts_(tables.next<HullPart>()),
       shapes_(tables.next<Shape>()),
       near_(tables.next<std::byte>()) {}

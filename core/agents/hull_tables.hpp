@@ -8,8 +8,8 @@
 #include "core/agents/lock_options.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/parts_near.hpp"
+#include "core/agents/sectors.hpp"
 #include "core/agents/shapes.hpp"
-#include "core/agents/turns.hpp"
 
 namespace fleetproof::agents {
 
@@ -34,14 +34,18 @@ struct HullKey {
   static std::uint32_t item_of(std::uint64_t question) { return static_cast<std::uint32_t>(question); }
 };
 
+// Of a body that turns, what its hull has room for.
+Body turning_body(const Body& kind, const HullOptions& options);
+
 struct HullPart {
   std::uint32_t first = 0, count = 0;  // of its shapes
-  Vec centre_m;                        // of a disc that contains the part
+  Vec centre_m;                        // of a disc that contains its floor
   double reach_m = 0.0;
 };
 
-// The parts of all hulls in a plant: for every kind of body in the fleet, the sweep of each lane, then that of each
-// turn on the spot, which for any turn at a station is a disc. Requires: the facts outlive the object.
+// The lanes and discs of all hulls in a plant, by number: for every kind of body in the fleet, the sweep of each lane,
+// then for each station the disc of whatever turn there. And the sectors, without the floor that they cover, because
+// few of them are ever asked for. Requires: the facts outlive the object.
 class HullTables {
  public:
   HullTables(const fp_facts& facts, const HullKey& key);
@@ -50,7 +54,7 @@ class HullTables {
   std::uint32_t kind_count() const { return static_cast<std::uint32_t>(kinds_.size()); }
   std::uint32_t kind_of(std::uint32_t agv) const { return kind_of_[agv]; }
   const Body& body(std::uint32_t kind) const { return kinds_[kind]; }
-  const Turns& turns() const { return turns_; }
+  const Sectors& sectors() const { return sectors_; }
   const HullPart& part(std::uint32_t number) const { return parts_[number]; }
   std::span<const Shape> shapes(std::uint32_t number) const {
     return shapes_.subspan(parts_[number].first, parts_[number].count);
@@ -63,7 +67,7 @@ class HullTables {
   double clearance_m_;
   std::span<const Body> kinds_;             // different footprints
   std::span<const std::uint32_t> kind_of_;  // by AGV
-  Turns turns_;
+  Sectors sectors_;
   std::span<const HullPart> parts_;
   std::span<const Shape> shapes_;
   PartsNear near_;

@@ -78,7 +78,9 @@
 //   with the lane of a move that has been given already, or the standing body. This part of the floor is held without a
 //   gap, by the former self and by the new self from its first instant, because the new self answers no message
 //   before. So (1) is true of every s_i in [t_i, t_j], with or without a restart between them. The new self may also
-//   hold the turn before the lane without having locked it. That only makes it defer more often.
+//   hold the disc of the turn before the lane, without having locked more than its sector or none of it. No request of
+//   it ever contains that disc, and it goes with the lane: it only makes the new self defer more often. The proof is
+//   about what was locked.
 // - A GRANT of the former self for f may still be in the air, or j may have it. It stays true, because s_i lies before
 //   every epoch of the new self. When the new self requests e, there are two cases. If f is over, the GRANT has no
 //   effect. If j is still inside f, the new self must ask j, in an epoch of the new boot. To grant it, j ends f, and

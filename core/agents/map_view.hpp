@@ -14,9 +14,7 @@ namespace fleetproof::agents {
 
 // Headings that are closer than this need no turn on the spot. The floor that the body sweeps between them is within
 // the tolerance of every hull.
-inline bool same_heading(Vec a, Vec b) {
-  return dot(a, b) > 1.0 - 1e-6;
-}  // 1.4 mrad: 1.4 mm at the corner of a 2 m long AGV
+inline bool same_heading(Vec a, Vec b) { return dot(a, b) > kCosineOfSameHeading; }
 inline bool opposite_heading(Vec a, Vec b) { return dot(a, b) < -0.9; }  // about
 
 // The name of a station, if it is short: copied without a call, because AGVs name stations in every message.

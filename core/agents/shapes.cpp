@@ -7,7 +7,9 @@ namespace {
 
 constexpr double kSmallAngle_rad = 0.25;
 constexpr double kPieceAngle_rad = 0.1;  // of a bend or a turn that one rectangle covers
-constexpr double kBeyond_rad = 1.5e-3;   // headings that are closer than this count as the same
+constexpr double kBeyond_rad = 1.5e-3;   // the true headings lie so far outside of those of a turn, at most
+static_assert(1.0 - 0.49 * kBeyond_rad * kBeyond_rad < kCosineOfSameHeading,
+              "a turn also covers headings that count as the same, and that messages have rounded");
 constexpr double kRounding_m = 1e-6;
 
 struct Rotation {
@@ -15,7 +17,7 @@ struct Rotation {
 };
 
 // Taylor, exact to rounding for |angle| <= kSmallAngle_rad.
-Rotation small_turn(double angle_rad) {
+Rotation small_rotation(double angle_rad) {
   const double q = angle_rad * angle_rad;
   const double sine =
       angle_rad * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0)))));
@@ -85,7 +87,7 @@ void append_pieces(Vec at_m, Vec from, Vec to, const Body& body, std::vector<Sha
 Vec turned(Vec v, double angle_rad) {
   const double steps = std::ceil(std::abs(angle_rad) / kSmallAngle_rad);
   if (steps < 1.0) return v;
-  const Rotation t = small_turn(angle_rad / steps);
+  const Rotation t = small_rotation(angle_rad / steps);
   for (double i = 0.0; i < steps; i += 1.0) v = apply(t, v);
   return v;
 }
@@ -130,8 +132,8 @@ void append_sweep(const fp_arc& arc, bool tail_first, const Body& body, std::vec
   const double pieces = std::ceil(angle_rad / kPieceAngle_rad);
   const double radius_m = 1.0 / std::abs(arc.curvature_per_m);
   const double quarter_rad = angle_rad / pieces / 4.0;
-  const Rotation quarter = small_turn(arc.curvature_per_m > 0.0 ? quarter_rad : -quarter_rad);
-  const Rotation half = small_turn(2.0 * quarter_rad);
+  const Rotation quarter = small_rotation(arc.curvature_per_m > 0.0 ? quarter_rad : -quarter_rad);
+  const Rotation half = small_rotation(2.0 * quarter_rad);
   const double half_chord_m = radius_m * half.sine, sagitta_m = radius_m * (1.0 - half.cosine);
   const Shape swung = body_swung(body, half);
   const double half_length_m = swung.half_length_m + half_chord_m, half_width_m = swung.half_width_m + sagitta_m;

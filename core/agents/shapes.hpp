@@ -14,6 +14,9 @@ struct Vec {
   friend Vec operator*(Vec a, double k) { return {a.x * k, a.y * k}; }
 };
 
+// Headings whose cosine is larger need no turn on the spot: of 1.41 mrad.
+inline constexpr double kCosineOfSameHeading = 1.0 - 1e-6;
+
 inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y; }
 inline Vec left_of(Vec v) { return {-v.y, v.x}; }
 inline double length(Vec v) { return std::sqrt(dot(v, v)); }
@@ -56,7 +59,8 @@ bool closer_than(const Shape& a, const Shape& b, double distance_m);
 void append_sweep(const fp_arc& arc, bool tail_first, const Body& body, std::vector<Shape>& shapes);
 
 // Appends shapes that together cover the floor that a body sweeps while it turns on the spot, about its reference
-// point and by the shorter way, between these headings or a little beyond them. Too large by a few centimetres.
+// point and by the shorter way, between these headings or others that count as the same. Too large by up to a twentieth
+// of the reach.
 // Requires: the headings are at most three eighths of a turn apart.
 void append_turn(Vec at_m, Vec from, Vec to, const Body& body, std::vector<Shape>& shapes);
 

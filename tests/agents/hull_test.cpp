@@ -176,50 +176,87 @@ TEST_F(Crossing, TurnNeedsNoFloorThatItDoesNotSweep) {
   EXPECT_TRUE(hulls.conflict(0, back, 1, beside)) << "half a turn may go either way";
 }
 
-// The oracle: bodies at 200 headings of the turn, and the lane after it.
-TEST(HullGeometry, TurnsConflictWithWhatTheBodyMeets) {
-  std::mt19937_64 draws(5);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  int conflicts = 0, free = 0, close = 0;
-  for (int i = 0; i < 600; ++i) {
-    const double from = 2.0 * M_PI * unit(draws), turn = (i % 2 == 0 ? 1.0 : -1.0) * (0.02 + 3.1 * unit(draws));
-    DrawnMap drawn;
-    drawn.station(0, 0);
-    drawn.segment(drawn.station(-9.0 * std::cos(from), -9.0 * std::sin(from)), 0);
-    drawn.segment(0, drawn.station(0.3 * std::cos(from + turn), 0.3 * std::sin(from + turn)));
-    const double away_m = 0.9 + 1.8 * unit(draws), side = 2.0 * M_PI * unit(draws);
-    drawn.station(away_m * std::cos(side), away_m * std::sin(side));
+// Two AGVs of two kinds, each of which turns at its station and drives a little, or stands.
+class Turning : public ::testing::Test {
+ protected:
+  struct Agv {
+    double x, y, from, turn;
+    Body body;
+  };
+
+  double unit() { return std::uniform_real_distribution<double>(0.0, 1.0)(draws); }
+  Agv any(double away_m, const Body& body) {
+    const double side = 6.3 * unit(), turn = unit() < 0.3 ? 0.0 : (unit() < 0.5 ? 1.0 : -1.0) * (0.02 + 3.1 * unit());
+    return {away_m * std::cos(side), away_m * std::sin(side), 6.3 * unit(), turn, body};
+  }
+  static constexpr double kDriven_m = 0.3;
+
+  // The corners of the body wherever it is.
+  static auto sweep_of(const Agv& agv) {
+    std::vector<decltype(corners_of(fp_pose{}, false, agv.body))> sweep;
+    const double last = agv.from + agv.turn;
+    for (double t = 0.0; t <= 1.0; t += 1.0 / 64)
+      sweep.push_back(corners_of(pose(agv.x, agv.y, agv.from + t * agv.turn), false, agv.body));
+    if (agv.turn == 0.0) return sweep;
+    for (double on_m = 0.0; on_m <= kDriven_m; on_m += kDriven_m / 4)
+      sweep.push_back(
+          corners_of(pose(agv.x + on_m * std::cos(last), agv.y + on_m * std::sin(last), last), false, agv.body));
+    return sweep;
+  }
+
+  // Of its station, with lanes that give both headings.
+  static Path add_to(DrawnMap& drawn, const Agv& agv) {
+    const double last = agv.from + agv.turn;
+    Path path;
+    path.station = drawn.station(agv.x, agv.y);
+    path.heading = {std::cos(agv.from), std::sin(agv.from)};
+    drawn.segment(drawn.station(agv.x - 9.0 * std::cos(agv.from), agv.y - 9.0 * std::sin(agv.from)), path.station);
+    const auto to = drawn.station(agv.x + kDriven_m * std::cos(last), agv.y + kDriven_m * std::sin(last));
+    drawn.segment(path.station, to);
+    if (agv.turn != 0.0) path.append(drawn.lane_between(path.station, to));
+    return path;
+  }
+
+  static fp_agv with(const Body& body) {
     fp_agv agv = testing::kTestAgv;
-    agv.centre_ahead_m = i % 3 == 0 ? 0.6 * unit(draws) - 0.3 : 0.0;
-    const TestFleet pair(drawn.map(), 2, agv);
+    agv.length_m = agv.loaded_length_m = body.length_m, agv.width_m = agv.loaded_width_m = body.width_m;
+    agv.centre_ahead_m = body.ahead_m;
+    return agv;
+  }
+
+  std::mt19937_64 draws{5};
+};
+
+// The oracle: the clearance between the bodies at many instants of both motions.
+TEST_F(Turning, AgvsConflictIfTheirBodiesComeClose) {
+  int conflicts = 0, free = 0, close = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const Agv agvs[2] = {any(0.0, {1.2, 0.8, 0.0}), any(1.2 + 2.4 * unit(), {2.8, 1.0, 1.4 * unit() - 0.7})};
+    DrawnMap drawn;
+    const Path paths[2] = {add_to(drawn, agvs[0]), add_to(drawn, agvs[1])};
+    TestFleet fleet(drawn.map(), 2, with(agvs[0].body));
+    fleet.agvs[1] = with(agvs[1].body);
     const MapView map(drawn.map());
-    HullGeometry geometry(map, pair.briefing(0, 0));
-    Path turning, standing;
-    turning.heading = {std::cos(from), std::sin(from)};
-    turning.append(drawn.lane_between(0, 2));
-    standing.station = 3;
-    standing.heading = {std::cos(5.0 * side), std::sin(5.0 * side)};
-    const Body body{agv.length_m, agv.width_m, agv.centre_ahead_m};
-    const auto corners = [&](double x, double y, double angle) { return corners_of(pose(x, y, angle), false, body); };
-    const auto other = corners(map.position_m(3).x, map.position_m(3).y, 5.0 * side);
+    HullGeometry geometry(map, fleet.briefing(0, 0));
     double nearest_m = INFINITY;
-    for (double t = 0.0; t <= 1.0; t += 1.0 / 200) {
-      const double on_m = 0.3 * t, last = from + turn;
-      nearest_m = std::min({nearest_m, testing::clearance_m(corners(0, 0, from + t * turn), other),
-                            testing::clearance_m(corners(on_m * std::cos(last), on_m * std::sin(last), last), other)});
+    const auto second = sweep_of(agvs[1]);
+    for (const auto& first : sweep_of(agvs[0])) {
+      for (const auto& other : second) nearest_m = std::min(nearest_m, testing::clearance_m(first, other));
     }
-    const bool found = geometry.conflict(0, turning, 1, standing);
-    if (nearest_m < geometry.clearance_m() - 0.002) {
+    const bool found = geometry.conflict(0, paths[0], 1, paths[1]);
+    EXPECT_EQ(geometry.conflict(1, paths[1], 0, paths[0]), found) << i;
+    const bool sectors_only = std::abs(agvs[0].turn) < 2.3 && std::abs(agvs[1].turn) < 2.3;
+    if (nearest_m < geometry.clearance_m()) {
       EXPECT_TRUE(found) << i << ": " << nearest_m;
-    } else if (std::abs(turn) < 2.3 && nearest_m > geometry.clearance_m() + 0.08) {
+    } else if (sectors_only && nearest_m > geometry.clearance_m() + 0.16) {
       EXPECT_FALSE(found) << i << ": " << nearest_m;
     }
     conflicts += found, free += !found;
     close += std::abs(nearest_m - geometry.clearance_m()) < 0.1;
   }
-  EXPECT_GT(conflicts, 150);
-  EXPECT_GT(free, 150);
-  EXPECT_GT(close, 60);
+  EXPECT_GT(conflicts, 400);
+  EXPECT_GT(free, 200);
+  EXPECT_GT(close, 100);
 }
 
 TEST_F(Crossing, StandingAgvHoldsItsBody) {
