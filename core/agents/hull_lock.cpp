@@ -95,7 +95,7 @@ void HullLock::start_again(const Path& standing) {
   controller_.sometimes("restarted");
   Path driving = standing;
   const bool drives = append_lane(driving, start_segment_), drives_next = append_lane(driving, next_segment_);
-  // The AGV may still be turning to the first lane, from an unknown heading.
+  // The AGV may still be turning to the first lane, from anywhere: the hull of half a turn is a disc.
   const double away = options_.holding.turns_over_restarts ? -1.0 : 1.0;
   if (!driving.empty()) driving.heading = map_.start_heading(driving.lane_ids[0]) * away;
   protocol_.stand(driving);

@@ -10,7 +10,8 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr double kZonesOfClaim = 3.0;  // along the longest claim
-// Hulls that others work out from a message differ by this: headings are rounded on the way.
+// Hulls that others work out from a message differ by this, because headings are rounded on the way; at the limit of
+// what counts as the same heading, by a whole turn. That does no harm: each contains the floor that its AGV covers.
 constexpr double kRounding_m = 0.05;
 // Every AGV tells each registrar once that it exists; a registrar that is down holds up a part of the floor.
 constexpr std::uint32_t kAgvsPerRegistrar = 64;
