@@ -21,8 +21,9 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-// Where the fault showed: a rate, with which radio; otherwise, in which cell.
+// Where the fault showed: a violation in a cell, a rate with a radio or everywhere.
 std::string place_of(const FaultFinding& finding) {
+  if (finding.by_rate && !finding.radio) return "over all runs";
   if (finding.radio) return factor_spans(finding.radio->lowest, finding.radio->highest);
   const CellRecord& cell = finding.cell;
   return fmt::format("{}, {} AGVs, {}", cell.layout, cell.fleet_size, factor_spans(cell.lowest, cell.highest));

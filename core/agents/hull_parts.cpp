@@ -39,12 +39,11 @@ std::uint32_t HullParts::of_turn(std::uint32_t agv, std::uint32_t station, Vec f
   return sector == FP_NONE ? of_turn(agv, station) : numbers_.of_sector(tables_.kind_of(agv), sector);
 }
 
-std::vector<Shape> HullParts::shapes_of(std::uint32_t number) const {
-  if (!numbers_.is_sector(number)) return {tables_.shapes(number).begin(), tables_.shapes(number).end()};
+std::vector<Shape> HullParts::shapes_of_sector(std::uint32_t number) const {
   const Sector& sector = tables_.sectors()[numbers_.sector(number)];
   const Body body = turning_body(tables_.body(numbers_.kind(number)), key_.options);
   std::vector<Shape> shapes;
-  shapes.reserve(32);
+  shapes.reserve(kMostTurnPieces);
   append_turn(map_.position_m(sector.station), sector.from, sector.to, body, shapes);
   return shapes;
 }
@@ -67,11 +66,12 @@ std::vector<std::uint32_t> HullParts::find_conflicts(std::uint32_t number) const
   return found;
 }
 
-// With all other parts. The rectangles of a sector reach beyond the disc of whatever turn, which no corner leaves, and
-// its floor lies in both. So if it comes close to another floor, each of the two comes close to both of the other's.
+// With all other parts. The rectangles of a sector reach a little beyond its disc, which no corner of the body leaves.
+// What the body covers lies in both, so two sectors conflict only if rectangles and disc of one are close to both of
+// the other.
 std::vector<std::uint32_t> HullParts::find_conflicts_of_sector(std::uint32_t number) const {
   const auto disc = tables_.shapes(whole_of(number));
-  const std::vector<Shape> shapes = shapes_of(number);
+  const std::vector<Shape> shapes = shapes_of_sector(number);
   std::vector<std::uint32_t> found;
   for (const std::uint32_t other : tables_.near().around(whole_of(number))) {
     const auto whole = tables_.shapes(other);
@@ -81,7 +81,7 @@ std::vector<std::uint32_t> HullParts::find_conflicts_of_sector(std::uint32_t num
     const std::uint32_t station = numbers_.station(other), end = tables_.sectors().begin_at(station + 1);
     for (std::uint32_t i = tables_.sectors().begin_at(station); i < end; ++i) {
       const std::uint32_t sector = numbers_.of_sector(numbers_.kind(other), i);
-      const std::vector<Shape> others = shapes_of(sector);
+      const std::vector<Shape> others = shapes_of_sector(sector);
       if (come_close(disc, others) && come_close(shapes, others)) found.push_back(sector);
     }
   }
@@ -126,7 +126,7 @@ bool HullParts::conflicts_with_body(std::uint32_t number, const Shape& body) con
   const double far_m = whole.reach_m + body.reach_m() + clearance_m();
   const Vec d = body.centre_m - whole.centre_m;
   if (dot(d, d) >= far_m * far_m || !come_close(tables_.shapes(whole_of(number)), {&body, 1})) return false;
-  return !numbers_.is_sector(number) || come_close(shapes_of(number), {&body, 1});
+  return !numbers_.is_sector(number) || come_close(shapes_of_sector(number), {&body, 1});
 }
 
 }  // namespace fleetproof::agents

@@ -33,7 +33,7 @@ class HullParts {
   std::uint32_t of_lane(std::uint32_t agv, std::uint32_t lane) const {
     return numbers_.of_lane(tables_.kind_of(agv), lane);
   }
-  // Of whatever turn at the station: a disc.
+  // Of turning at the station by any angle: a disc.
   std::uint32_t of_turn(std::uint32_t agv, std::uint32_t station) const {
     return numbers_.of_disc(tables_.kind_of(agv), station);
   }
@@ -61,13 +61,13 @@ class HullParts {
   };
   static constexpr std::size_t kRemembered = 256;
 
-  // The disc of whatever turn there, if this is a sector; otherwise the part itself.
+  // The disc at its station, if this is a sector; otherwise the part itself.
   std::uint32_t whole_of(std::uint32_t number) const {
     if (!numbers_.is_sector(number)) return number;
     return numbers_.of_disc(numbers_.kind(number), tables_.sectors()[numbers_.sector(number)].station);
   }
   const HullPart& part(std::uint32_t number) const { return tables_.part(whole_of(number)); }
-  std::vector<Shape> shapes_of(std::uint32_t number) const;
+  std::vector<Shape> shapes_of_sector(std::uint32_t number) const;
   bool come_close(std::span<const Shape> a, std::span<const Shape> b) const;
   std::span<const std::uint32_t> conflicts_of(std::uint32_t number) const;
   std::span<const std::uint32_t> remembered_conflicts_of(std::uint32_t number);

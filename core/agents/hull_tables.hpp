@@ -43,9 +43,9 @@ struct HullPart {
   double reach_m = 0.0;
 };
 
-// The lanes and discs of all hulls in a plant, by number: for every kind of body in the fleet, the sweep of each lane,
-// then for each station the disc of whatever turn there. And the sectors, without the floor that they cover, because
-// few of them are ever asked for. Requires: the facts outlive the object.
+// The floor that each part of a hull covers, for every kind of body in the fleet: first the sweep of each lane, then at
+// each station the disc of turning by any angle. Which sectors there are stands here, too; their floor is worked out
+// when it is asked for, because that happens to few of them. Requires: the facts outlive the object.
 class HullTables {
  public:
   HullTables(const fp_facts& facts, const HullKey& key);

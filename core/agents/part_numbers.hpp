@@ -6,8 +6,8 @@ namespace fleetproof::agents {
 
 enum class Rank : std::uint8_t { Lane, Disc, Sector };
 
-// The numbers of the parts of hulls: for every kind of body its lanes, then the discs of its stations; after those of
-// all kinds, for every kind its sectors.
+// How the parts of hulls are numbered. First come lanes and discs: those of one kind of body, then those of the next
+// one. After them come the sectors, again by kind.
 class PartNumbers {
  public:
   PartNumbers(std::uint32_t lanes, std::uint32_t stations, std::uint32_t kinds, std::uint32_t sectors)
@@ -20,7 +20,7 @@ class PartNumbers {
   }
 
   Rank rank(std::uint32_t number) const {
-    if (number >= first_sector_) return Rank::Sector;
+    if (is_sector(number)) return Rank::Sector;
     return number % per_kind_ < lanes_ ? Rank::Lane : Rank::Disc;
   }
   bool is_sector(std::uint32_t number) const { return number >= first_sector_; }

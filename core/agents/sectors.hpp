@@ -16,9 +16,9 @@ struct Sector {
   std::uint32_t station = 0;
 };
 
-// The turns of less than three eighths between two headings that the lanes of a station have there, by number. Half a
-// turn is no sector, because it may go either way; hull-lock relies on that after a restart. Requires: the map outlives
-// the object.
+// All pairs of headings between which an AGV may turn at a station: those with which lanes end or begin there, if they
+// are less than about three eighths of a full turn apart. Half a turn is no sector, because it may go either way;
+// hull-lock relies on that after a restart. Requires: the map outlives the object.
 class Sectors {
  public:
   explicit Sectors(const MapView& map);

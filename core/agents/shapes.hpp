@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "core/sdk/fleetproof/agent.h"
@@ -60,8 +61,8 @@ void append_sweep(const fp_arc& arc, bool tail_first, const Body& body, std::vec
 
 // Appends shapes that together cover the floor that a body sweeps while it turns on the spot, about its reference
 // point and by the shorter way, between these headings or others that count as the same. Too large by up to a twentieth
-// of the reach.
-// Requires: the headings are at most three eighths of a turn apart.
+// of the reach; at most kMostTurnPieces. Requires: the headings are at most three eighths of a full turn apart.
+inline constexpr std::size_t kMostTurnPieces = 32;
 void append_turn(Vec at_m, Vec from, Vec to, const Body& body, std::vector<Shape>& shapes);
 
 }  // namespace fleetproof::agents

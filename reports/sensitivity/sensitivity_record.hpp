@@ -17,7 +17,7 @@ struct PlantedFault {
   bool by_rate = false;                    // accused more often than the sound agent, not by its first violation
   std::optional<double> median_runs;       // until the first violation; absent: by rate, or missed in half of the seeds
   std::optional<std::uint64_t> most_runs;  // absent: by rate, or missed in a seed
-  // Of the first such run of the first seed that detected it. Of a rate that shows with one radio, this radio.
+  // Of the first such run of the first seed that detected it. Of a rate: with which radio, or over all runs.
   std::string cell, probe;
   bool tried = true;  // false: in each run of each seed it did the same as the sound agent
 };

@@ -27,7 +27,7 @@ class HullComparison : public ::testing::Test {
     return path;
   }
 
-  // The parts of a hull, one after the other.
+  // In the order in which the AGV covers them.
   std::vector<std::uint32_t> parts_of(const HullParts& parts, std::uint32_t agv, const Path& path) const {
     std::vector<std::uint32_t> numbers;
     Vec heading = path.heading;

@@ -2,6 +2,8 @@
 // does not see it. The faulty agents that break one are the campaigns' yardstick.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/agents/hull.hpp"
 #include "tests/agents/drawn_map.hpp"
 
@@ -11,7 +13,7 @@ namespace {
 using testing::DrawnMap;
 using testing::kTestAgv;
 
-// AGV 0 drives `lanes` from the first station; AGV 1 stands at the last one. Bodies are 1.6 m x 1 m if not said
+// AGV 0 drives the first lane, from the first station; AGV 1 stands at the last one. Bodies are 1.6 m x 1 m if not said
 // otherwise.
 struct Scene {
   DrawnMap map;

@@ -96,6 +96,7 @@ TEST(AgentShapes, TurnCoversTheBodyAtEveryHeading) {
     const Body body{1.0 + 1.6 * unit(draws), 0.6 + 0.7 * unit(draws), i < 200 ? 0.0 : 2.0 * unit(draws) - 1.0};
     std::vector<Shape> shapes;
     append_turn({start.x_m, start.y_m}, {std::cos(from), std::sin(from)}, {std::cos(to), std::sin(to)}, body, shapes);
+    EXPECT_LE(shapes.size(), kMostTurnPieces);
     for (const Shape& s : shapes)
       EXPECT_LT(s.half_width_m - body.width_m / 2.0, 0.052 * (body.length_m / 2.0 + std::abs(body.ahead_m)));
     const double beyond = to > from ? 0.0014 : -0.0014;
@@ -191,7 +192,7 @@ class Turning : public ::testing::Test {
   }
   static constexpr double kDriven_m = 0.3;
 
-  // The corners of the body wherever it is.
+  // The corners of the body at many instants, from the turn to the end of the lane.
   static auto sweep_of(const Agv& agv) {
     std::vector<decltype(corners_of(fp_pose{}, false, agv.body))> sweep;
     const double last = agv.from + agv.turn;
