@@ -164,7 +164,7 @@ void shorten(Json& value) {
   for (auto& [key, item] : value.items()) {
     if (key == "content") {
       const Json& map = part(item, "layout");
-      item = fmt::format("{} stations, {} segments, in the campaign file", part(map, "stations").size(),
+      item = fmt::format("{} stations, {} segments, in the results file", part(map, "stations").size(),
                          part(map, "segments").size());
     } else {
       shorten(item);
@@ -224,7 +224,7 @@ std::string plan_listing(const std::string& plan_json, std::size_t most_bytes) {
   std::string text = printable_lines(plan.dump(1, ' ', false, Json::error_handler_t::replace));
   if (text.size() <= most_bytes) return text;
   text.resize(text.rfind('\n', most_bytes));
-  return text + "\n... (the rest stands in the campaign file)";
+  return text + "\n... (the rest stands in the results file)";
 }
 
 }  // namespace fleetproof

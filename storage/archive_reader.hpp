@@ -23,10 +23,10 @@ struct VisitFolded {
   VisitQuiet quiet;
 };
 
-// Reads a published (or live) campaign file. Threads: one.
+// Reads a published (or live) results file. Threads: one.
 class ArchiveReader {
  public:
-  // Throws InputError if there is no such file, if it is not a campaign file, or if its schema is newer than ours or
+  // Throws InputError if there is no such file, if it is not a results file, or if its schema is newer than ours or
   // older than kOldestReadable. Throws EngineError if the file is damaged.
   explicit ArchiveReader(const std::string& path, Checksums checksums = Checksums::Verify);
   ~ArchiveReader();

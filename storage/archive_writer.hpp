@@ -11,7 +11,7 @@
 
 namespace fleetproof {
 
-// What happens to a campaign file that already exists. It stays until the new file is published; the new file then
+// What happens to a results file that already exists. It stays until the new file is published; the new file then
 // replaces it at one instant. Resume: its runs are taken over, or those of the live file that a killed program left.
 enum class Existing : std::uint8_t { Refuse, Replace, Resume };
 
@@ -37,7 +37,7 @@ class ArchiveWriter {
  public:
   // Throws InputError, with a remedy, if another run writes this file, if the place cannot be written, or if a file is
   // in the way. Refuse: `path` and its live file are in the way. Replace and Resume: a file with one of these names is
-  // in the way if it is not a campaign file of this program; so is, in any case, a foreign file with the name of one
+  // in the way if it is not a results file of this program; so is, in any case, a foreign file with the name of one
   // that is made on the way. Throws MachineError if the disk fails, EngineError if a
   // stored run is damaged. Throws what the check of the resumption throws; then all files are as they were.
   ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells,

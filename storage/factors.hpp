@@ -12,7 +12,7 @@
 namespace fleetproof {
 
 // The numeric factors of a campaign: what varies between cells beside agent, layout and fleet size. None of them shapes
-// the world. This list drives the cells of a plan, the columns of a campaign file and the texts of reports. The bounds
+// the world. This list drives the cells of a plan, the columns of a results file and the texts of reports. The bounds
 // and the explanation of a factor are those of the scenario's field with the same key.
 enum class Factor : std::uint8_t { Loss, Delay, MeanOutage, CallCost };
 
@@ -27,7 +27,7 @@ struct FactorInfo {
   // A page names the factor only if it is above 0 somewhere. The table then says "none" for 0 and explains the column.
   bool only_above_zero;
   std::string_view legend;
-  // Campaign files of an earlier schema have no column of this factor. Then every run had one value, which the plan
+  // Results files of an earlier schema have no column of this factor. Then every run had one value, which the plan
   // holds under this path. 0 if the plan does not hold it either.
   std::int32_t first_schema = 0;
   std::string_view plan_path = {};

@@ -32,7 +32,7 @@ void append_lines(const std::string& path, const std::string& lines) {
   }
   if (file >= 0 && ::close(file) != 0 && error == 0) error = errno;
   if (error == 0) return;
-  throw MachineError(fmt::format("{}: cannot be written ({}); the campaign file itself is as it was", path,
+  throw MachineError(fmt::format("{}: cannot be written ({}); the results file itself is as it was", path,
                                  error == ENOTSUP ? "it is no regular file" : std::strerror(error)));
 }
 

@@ -41,7 +41,7 @@ void require_alone(const std::string& path) {
   std::error_code error;
   for (const auto* suffix : {"-wal", "-journal"}) {
     if (fs::exists(path + suffix, error))
-      throw InputError(path + suffix, "this file does not belong to the campaign file beside it; move it away");
+      throw InputError(path + suffix, "this file does not belong to the results file beside it; move it away");
   }
 }
 
@@ -58,7 +58,7 @@ std::int32_t schema_of(SQLite::Database& db, const std::string& path) {
     if (e.getErrorCode() != SQLITE_NOTADB) throw;
   }
   if (application != kApplicationId)
-    throw InputError(path, "this is not a campaign file of fleetproof; name a file that `fleetproof run` wrote");
+    throw InputError(path, "this is not a results file of fleetproof; name a file that `fleetproof run` wrote");
   if (version > kSchemaVersion) {
     throw InputError(
         path,
@@ -86,8 +86,8 @@ void throw_damaged(const std::string& path, const std::string& what) {
 // it in this process.
 void require_readable(const std::string& path) {
   std::error_code error;
-  if (path.empty()) throw InputError("", "name a campaign file");
-  if (fs::is_directory(path, error)) throw InputError(path, "this is a folder; name a campaign file in it");
+  if (path.empty()) throw InputError("", "name a results file");
+  if (fs::is_directory(path, error)) throw InputError(path, "this is a folder; name a results file in it");
   if (!fs::exists(path, error)) {
     if (error == std::errc::permission_denied) not_allowed(path);
     if (fs::exists(path + ".partial", error)) {
@@ -98,14 +98,14 @@ void require_readable(const std::string& path) {
     throw InputError(path, "there is no such file");
   }
   if (!fs::is_regular_file(path, error))
-    throw InputError(path, "this is a pipe, a device or a socket; name a campaign file");
+    throw InputError(path, "this is a pipe, a device or a socket; name a results file");
   if (::access(path.c_str(), R_OK) != 0) not_allowed(path);
   for (const auto* suffix : {"-wal", "-shm", "-journal"}) {  // SQLite opens these files, and would wait at a pipe
     const auto status = fs::status(path + suffix, error);
     if (fs::exists(status) && !fs::is_regular_file(status))
-      throw InputError(path + suffix, "this is no regular file; remove it, it stands beside a campaign file");
+      throw InputError(path + suffix, "this is no regular file; remove it, it stands beside a results file");
   }
-  if (fs::file_size(path, error) == 0) throw InputError(path, "this file is empty; name a campaign file");
+  if (fs::file_size(path, error) == 0) throw InputError(path, "this file is empty; remove it, or name a results file");
 }
 
 OpenedFile open_to_read(const std::string& path) {

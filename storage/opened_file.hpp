@@ -13,14 +13,14 @@ namespace fleetproof {
 // Throws InputError, with a remedy, if there is no file of this name or it may not be read.
 void require_readable(const std::string& path);
 
-// A campaign file, opened for reading only.
+// A results file, opened for reading only.
 struct OpenedFile {
   std::unique_ptr<SQLite::Database> db;
   std::int32_t schema = 0;  // one that this program reads
   bool published = false;   // not a live file
 };
 
-// Throws InputError if the file is not a campaign file, if its schema is newer or too old, or if a journal of another
+// Throws InputError if the file is not a results file, if its schema is newer or too old, or if a journal of another
 // file stands beside it. Throws EngineError if it is damaged, SQLite::Exception if SQLite cannot read it.
 // Requires: require_readable.
 OpenedFile open_to_read(const std::string& path);

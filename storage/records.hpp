@@ -11,7 +11,7 @@
 
 namespace fleetproof {
 
-// What a campaign file stores of its plan, in the words of the plan. It never contains a path, a host, a time or a
+// What a results file stores of its plan, in the words of the plan. It never contains a path, a host, a time or a
 // number of jobs.
 
 // One combination of a campaign's factors. A numeric factor has one value, or each replicate draws it between two

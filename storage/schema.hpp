@@ -5,7 +5,7 @@
 
 namespace fleetproof {
 
-inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an SQLite file as a campaign file
+inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an SQLite file as a results file
 
 // What each version added: 2 incidents and probes, 3 bounds of factors, 4 exempt pairs and external sources, 5 the call
 // cost as a factor, 6 the seal, 7 audits, recordings and chunks, 8 gates with their method and tables, 9 the normal

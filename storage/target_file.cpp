@@ -29,16 +29,16 @@ std::optional<Header> header_of(const std::string& path) {
   return file.read(header.data(), header.size()) ? std::optional(header) : std::nullopt;
 }
 
-bool is_campaign_header(const Header& header) {
+bool is_results_header(const Header& header) {
   std::uint32_t id = 0;
   for (std::size_t i = 0; i < 4; ++i) id = id << 8 | static_cast<unsigned char>(header[kApplicationIdAt + i]);
   return std::string_view(header.data(), 15) == "SQLite format 3" && id == static_cast<std::uint32_t>(kApplicationId);
 }
 
-// Judged by the header, so that a damaged campaign file still counts as a campaign file.
-bool is_campaign_file(const std::string& path) {
+// Judged by the header, so that a damaged results file still counts as a results file.
+bool is_results_file(const std::string& path) {
   const auto header = header_of(path);
-  return header && is_campaign_header(*header);
+  return header && is_results_header(*header);
 }
 
 // A link is not followed: the rename would replace the link, not the file behind it.
@@ -50,7 +50,7 @@ fs::file_status status_of(const std::string& path) {
 }
 
 [[noreturn]] void throw_not_ours(const std::string& path) {
-  throw InputError(path, "this is not a campaign file of fleetproof; it is not overwritten; give another name");
+  throw InputError(path, "this is not a results file of fleetproof; it is not overwritten; give another name");
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ std::string absolute_name(const std::string& path) {
 }
 
 void require_place(const std::string& path) {
-  if (path.empty()) throw InputError("", "the campaign file needs a name");
+  if (path.empty()) throw InputError("", "the results file needs a name");
   std::error_code error;
   if (fs::is_directory(path, error)) throw InputError(path, "this is a folder; name a file in it");
   const auto folder = fs::path(absolute_name(path)).parent_path();
@@ -82,7 +82,7 @@ void require_free_name(const std::string& path, Existing existing) {
   if (!fs::exists(status)) return;
   if (existing == Existing::Refuse)
     throw InputError(path, "this file exists already; give another name, or remove it to start again");
-  if (!fs::is_regular_file(status) || !is_campaign_file(path)) throw_not_ours(path);
+  if (!fs::is_regular_file(status) || !is_results_file(path)) throw_not_ours(path);
 }
 
 bool is_empty_file(const std::string& path) {
@@ -97,7 +97,7 @@ void require_free_live_name(const std::string& live_path, Existing existing) {
     throw InputError(live_path,
                      "a campaign of this name was interrupted; remove this file to start again, or give another name");
   if (is_empty_file(live_path)) return;  // the program was killed before it wrote a header
-  if (!fs::is_regular_file(status) || !is_campaign_file(live_path)) throw_not_ours(live_path);
+  if (!fs::is_regular_file(status) || !is_results_file(live_path)) throw_not_ours(live_path);
 }
 
 // SQLite writes the first page last: until then it is all zeros.
@@ -105,10 +105,10 @@ void require_own_rest(const std::string& path) {
   const auto status = status_of(path);
   if (!fs::exists(status) || is_empty_file(path)) return;
   const auto header = fs::is_regular_file(status) ? header_of(path) : std::nullopt;
-  if (header && (is_campaign_header(*header) || *header == Header{})) return;
+  if (header && (is_results_header(*header) || *header == Header{})) return;
   throw InputError(path,
-                   "fleetproof needs this name beside the campaign file, and this file is not of fleetproof; move it "
-                   "away, or give the campaign file another name");
+                   "fleetproof needs this name beside the results file, and this file is not of fleetproof; move it "
+                   "away, or give the results file another name");
 }
 
 void throw_cannot_make(const std::string& path, int error) {
@@ -131,9 +131,9 @@ void throw_cannot_make(const std::string& path, int error) {
     case ELOOP:
     case EEXIST:
       throw InputError(
-          path, fmt::format(
-                    "something of this name stands in the way ({}); remove it, or give the campaign file another name",
-                    cause));
+          path,
+          fmt::format("something of this name stands in the way ({}); remove it, or give the results file another name",
+                      cause));
     case ENOSPC:
     case EDQUOT:
       throw MachineError(

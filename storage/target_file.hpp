@@ -6,7 +6,7 @@
 
 namespace fleetproof {
 
-// Checks of the place where a campaign file will be written. These functions change no file.
+// Checks of the place where a results file will be written. These functions change no file.
 
 // Some names have a special meaning in SQLite (":memory:", "file:..."). An absolute path is always a path.
 std::string absolute_name(const std::string& path);

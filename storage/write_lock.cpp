@@ -54,7 +54,7 @@ bool WriteLock::try_lock(const std::string& path) {
   if (still_named)
     throw InputError(
         lock_path_,
-        "this file is not of fleetproof and stands in the way; remove it, or give the campaign file another name");
+        "this file is not of fleetproof and stands in the way; remove it, or give the results file another name");
   return false;
 }
 

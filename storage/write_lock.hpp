@@ -4,12 +4,12 @@
 
 namespace fleetproof {
 
-// Only one program at a time writes a campaign file: the program that holds PATH.lock. The lock ends with the process,
+// Only one program at a time writes a results file: the program that holds PATH.lock. The lock ends with the process,
 // even if the process is killed. A PATH.lock file that remains then blocks no program.
 // Threads: one.
 class WriteLock {
  public:
-  // `path` is the campaign file. Throws InputError if another run holds the lock, or if the place cannot be written.
+  // `path` is the results file. Throws InputError if another run holds the lock, or if the place cannot be written.
   // Throws MachineError if the disk fails.
   explicit WriteLock(const std::string& path);
   ~WriteLock() { release(); }

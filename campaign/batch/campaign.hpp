@@ -20,7 +20,7 @@ struct RunOptions {
   int workers = 1;
   std::string worker_logs;    // prefix of the files that take what plug-ins print; empty: it is dropped
   std::string audit_program;  // is started for audits (campaign/workers/fresh_program.hpp); empty: no audits
-  bool overwrite = false;     // replace an existing campaign file, once the new one is complete; else it goes on
+  bool overwrite = false;     // replace an existing results file, once the new one is complete; else it goes on
   bool allow_drift = false;   // go on in a file that another engine wrote, and record it
   // Stop cleanly then; the time before the first run counts, too.
   std::optional<std::chrono::steady_clock::time_point> deadline;
@@ -42,7 +42,7 @@ struct CampaignResult {
   std::uint64_t loss_count = 0;
   std::uint64_t audits_differing = 0;  // of the audits of this session
   std::string audit_failure;           // why audits ended before their time; empty: they did not
-  std::uint64_t stored = 0;            // the number of runs in the gap-free prefix that the campaign file contains
+  std::uint64_t stored = 0;            // the number of runs in the gap-free prefix that the results file contains
   int threads = 0;
   bool complete() const { return stored == progress.planned; }
   // Counts them, and keeps the first of them.
@@ -60,7 +60,7 @@ struct CampaignListener {
   std::function<void(const std::string&)> warned = [](const std::string&) {};  // before the file is opened
 };
 
-// Runs the plan and leaves its campaign file at `path`. Agents of plug-ins run in worker processes
+// Runs the plan and leaves its results file at `path`. Agents of plug-ins run in worker processes
 // (campaign/workers); reference agents run on the threads of the pool. A share of the runs is audited beside them. Rows
 // are stored when their runs finish. The published file contains the gap-free prefix of run indices. The same runs
 // therefore give the same bytes with any number of workers, in any order of finishing, in one session or several. A

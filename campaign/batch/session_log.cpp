@@ -51,10 +51,10 @@ std::string file_in(const std::string& line, const std::string& agent) {
 
 SessionLog::SessionLog(const std::string& archive_path) : path_(session_log_path(archive_path)) {
   require_log(path_, kFirstWords,
-              "this is no session log of fleetproof, and nothing is appended to it; give the campaign file another "
+              "this is no session log of fleetproof, and nothing is appended to it; give the results file another "
               "name, or move this file away");
-  if (std::filesystem::exists(path_))  // else it is made beside the campaign file, whose place is looked at by itself
-    require_appendable(path_, "change the permissions, or give the campaign file another name");
+  if (std::filesystem::exists(path_))  // else it is made beside the results file, whose place is looked at by itself
+    require_appendable(path_, "change the permissions, or give the results file another name");
 }
 
 void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs, const SessionFacts& facts) const {

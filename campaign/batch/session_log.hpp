@@ -9,7 +9,7 @@
 namespace fleetproof {
 
 // What a session log keeps beside the options: the ledger of attempts, the options that changed the plan of the
-// campaign file, as typed. Of a shard also: which ("3/8"), how it was found, and what the ledger will need.
+// results file, as typed. Of a shard also: which ("3/8"), how it was found, and what the ledger will need.
 struct SessionFacts {
   std::string ledger, overrides, shard{}, shard_source{};
   std::string release{};  // campaign/run/release.hpp
@@ -21,8 +21,8 @@ struct ShardChunks {
   std::uint64_t owned = 0, published = 0;
 };
 
-// NAME.sessions.jsonl beside the campaign file says where, when and with which files runs were made: one line when a
-// session begins, one when it ends, one for each worker process that it lost. The campaign file itself then has the
+// NAME.sessions.jsonl beside the results file says where, when and with which files runs were made: one line when a
+// session begins, one when it ends, one for each worker process that it lost. The results file itself then has the
 // same bytes on every machine.
 class SessionLog {
  public:
@@ -30,7 +30,7 @@ class SessionLog {
   explicit SessionLog(const std::string& archive_path);
   // Both throw MachineError if the log cannot be written.
   void begin(const RunOptions& options, const AgentPrograms& programs, const SessionFacts& facts) const;
-  // A shard stores no runs in a campaign file; it says what it published.
+  // A shard stores no runs in a results file; it says what it published.
   void end(const CampaignResult& result, int signal_number, const std::optional<ShardChunks>& chunks = {}) const;
 
  private:

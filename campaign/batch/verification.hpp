@@ -32,7 +32,7 @@ struct Verification {
   std::vector<Disagreement> differing;  // in order of run index
 };
 
-// Simulates these runs of the campaign file again, on `workers` threads, and compares each with its row. Agents of
+// Simulates these runs of the results file again, on `workers` threads, and compares each with its row. Agents of
 // plug-ins run in worker processes. Requires: `plan` is the plan in the file. Throws what ArchiveReader and RunHost
 // throw.
 Verification verify_runs(const std::string& path, const CampaignPlan& plan, const AgentPrograms& programs,

@@ -40,7 +40,7 @@ AttemptLog::AttemptLog(const std::string& ledger, const Campaign& campaign)
   attempt_.release = campaign.release;
   attempt_.planned_runs = campaign.planned_runs;
   attempt_.fresh_seed = campaign.fresh_seed;
-  // One that is not named and not there yet is made beside the campaign file, whose place is looked at by itself.
+  // One that is not named and not there yet is made beside the results file, whose place is looked at by itself.
   if (is_claim_ && (!ledger.empty() || std::filesystem::exists(ledger_.path())))
     require_appendable(ledger_.path(), "change the permissions, or name another ledger by --ledger");
 }

@@ -18,11 +18,11 @@ class AttemptLog {
     std::string archive, release;  // release: see campaign/run/release.hpp
     bool fresh_seed = false, overwrite = false;
   };
-  // `ledger`: as the user named it; empty: attempts.jsonl beside the campaign file. Throws InputError if the file is no
+  // `ledger`: as the user named it; empty: attempts.jsonl beside the results file. Throws InputError if the file is no
   // ledger.
   AttemptLog(const std::string& ledger, const Campaign& campaign);
 
-  // The campaign file is open, no run of this session has begun. A campaign that goes on is the same attempt.
+  // The results file is open, no run of this session has begun. A campaign that goes on is the same attempt.
   void begin();
   void end(const ReportInput& input);
   const std::string& path() const { return ledger_.path(); }
@@ -33,7 +33,7 @@ class AttemptLog {
   bool is_claim_, goes_on_, overwrites_;
 };
 
-// What the ledger, the session log and a measured sensitivity tell about the campaign file: see ReportInput. `ledger`
+// What the ledger, the session log and a measured sensitivity tell about the results file: see ReportInput. `ledger`
 // empty: the one that the last session wrote to, else attempts.jsonl beside the file.
 void add_history(ReportInput& input, const std::string& ledger);
 

@@ -36,7 +36,7 @@ std::string page_of(const ReportInput& input) {
   std::string page = render(input, "markdown");
   if (page.size() <= kMostBytes) return page;
   page.resize(page.rfind('\n', kMostBytes));
-  return page + "\n\nThe rest is left out here: see the report of the campaign file.\n";
+  return page + "\n\nThe rest is left out here: see the report of the results file.\n";
 }
 
 }  // namespace

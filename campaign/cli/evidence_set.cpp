@@ -108,7 +108,7 @@ std::string identity_text(const ReportInput& input) {
   return printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n";
 }
 
-// The file beside the campaign file as it is; empty if there is none.
+// The file beside the results file as it is; empty if there is none.
 std::string copied(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};

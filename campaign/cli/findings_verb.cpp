@@ -37,7 +37,7 @@ struct FindingsWords {
 
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::now())); }
 
-// One campaign file and the findings in it.
+// One results file and the findings in it.
 class FindingsDesk {
  public:
   explicit FindingsDesk(const FindingsWords& words)

@@ -27,7 +27,7 @@ struct MergeWords {
   bool overwrite = false, until_verdict = false, exit_zero = false, json = false;
 };
 
-// What the shards noted goes on beside the campaign file.
+// What the shards noted goes on beside the results file.
 void copy_session_logs(const PublishedChunks& chunks, const std::string& archive) {
   for (const std::string& session : chunks.sessions()) {
     std::ostringstream text;

@@ -66,7 +66,7 @@ std::optional<std::chrono::steady_clock::time_point> deadline_of(const RunWords&
   return budget ? std::optional(std::chrono::steady_clock::now() + *budget) : std::nullopt;
 }
 
-// `worker_logs` follows when the campaign file has its name.
+// `worker_logs` follows when the results file has its name.
 RunOptions run_options(const RunWords& words) {
   RunOptions options;
   options.deadline = deadline_of(words);

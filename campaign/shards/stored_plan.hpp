@@ -8,7 +8,7 @@
 
 namespace fleetproof {
 
-// The campaign of a folder of shards, as its plan.db holds it: a campaign file without runs. SQLite locks the files
+// The campaign of a folder of shards, as its plan.db holds it: a results file without runs. SQLite locks the files
 // that it opens, which a network disk may not be able to; so it works on copies in the local folder for temporary
 // files ($TMPDIR).
 struct StoredPlan {

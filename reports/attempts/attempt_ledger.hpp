@@ -14,7 +14,7 @@ struct Attempt {
   std::string id;                    // random, of this attempt alone
   std::string begun_utc, ended_utc;  // no begin: runs were there before the ledger knew of it; no end: it was aborted,
                                      // or is still under way
-  std::string campaign, archive;     // the name, and the path of the campaign file
+  std::string campaign, archive;     // the name, and the path of the results file
   std::string release;               // digest of the software under test
   std::string software;              // digest of everything that computed the runs
   std::string worlds;                // digest of the plan without its name and its number of replicates
@@ -22,7 +22,7 @@ struct Attempt {
   std::uint64_t planned_runs = 0;  // when it began
   std::string verdict;
   bool fresh_seed = false;  // the seed follows from release and plan: nobody chose it
-  bool replaced = false;    // a later attempt overwrote its campaign file
+  bool replaced = false;    // a later attempt overwrote its results file
 };
 
 // The ledger of a folder, or of a release: one line of JSON when an attempt begins, and one when a session of it ends.
@@ -49,10 +49,10 @@ class AttemptLedger {
   std::uint64_t broken_lines_ = 0;
 };
 
-// "attempts.jsonl" beside the campaign file.
+// "attempts.jsonl" beside the results file.
 std::string default_ledger(const std::string& archive_path);
 
-// The digests of an attempt that the campaign file itself tells: `software`, `worlds`, plan, seed and numbers.
+// The digests of an attempt that the results file itself tells: `software`, `worlds`, plan, seed and numbers.
 Attempt attempt_of(const CampaignRecord& campaign);
 
 }  // namespace fleetproof

@@ -8,7 +8,7 @@ namespace fleetproof {
 
 // How often somebody looked at a campaign while it grew. The end of each session shows its results, and so does a
 // report on a campaign that is not complete; looking twice at the same runs counts once. The session log beside the
-// campaign file has the record; absent without it.
+// results file has the record; absent without it.
 std::optional<std::uint64_t> looks_at(const std::string& archive_path);
 
 // A report shows the first `runs` runs of a campaign that is not complete. Only an existing session log takes the

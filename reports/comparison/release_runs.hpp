@@ -24,7 +24,7 @@ struct ComparedRun {
   bool is_clean() const;  // no end point failed or stayed unknown
 };
 
-// The runs of one agent in one campaign file: complete replicates, each with one run for each of the agent's cells, in
+// The runs of one agent in one results file: complete replicates, each with one run for each of the agent's cells, in
 // the order of the file.
 struct ReleaseRuns {
   std::string path, agent;

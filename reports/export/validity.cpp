@@ -47,7 +47,7 @@ std::string validity_text(const ReportInput& input, const DuplicateCheck& duplic
   std::string text = "Checks of the tool and of the data, done when this file was written\n\n";
   text += line(generator_gives_known_answers(), "the random generator gives the published answers (Philox4x32-10)");
   text += line(estimators_give_known_answers(), "the exact bounds agree with published values to 1e-10");
-  text += line(true, "every row of the campaign file has the checksum that it was stored with");
+  text += line(true, "every row of the results file has the checksum that it was stored with");
   text += line(input.evidence.engine_errors() == 0,
                fmt::format("{} ended in an error of the simulator", count_text(input.evidence.engine_errors(), "run")));
   text +=

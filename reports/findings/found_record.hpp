@@ -23,7 +23,7 @@ struct FoundFinding {
 
 // The findings of a campaign, as `fleetproof findings` found them.
 struct FoundRecord {
-  std::uint64_t plan_hash = 0, stored_runs = 0;   // of the campaign file
+  std::uint64_t plan_hash = 0, stored_runs = 0;   // of the results file
   std::uint64_t failing_runs = 0, looked_at = 0;  // all, and those that were simulated again
   std::vector<std::uint64_t> not_again;           // of these: runs that did not fail when they were simulated again
   std::vector<FoundFinding> findings;             // with most failures first
@@ -35,10 +35,10 @@ struct FoundRecord {
 std::string findings_text(const FoundRecord& record);
 std::optional<FoundRecord> parse_findings(const std::string& text);
 
-// NAME.findings.json beside the campaign file NAME.db.
+// NAME.findings.json beside the results file NAME.db.
 std::string findings_path(const std::string& archive_path);
 
-// What stands beside a campaign file. `trouble`: why the file there tells nothing of this campaign.
+// What stands beside a results file. `trouble`: why the file there tells nothing of this campaign.
 struct FoundFile {
   std::optional<FoundRecord> record;
   std::string trouble;

@@ -103,7 +103,7 @@ Element plan_part(const ReportInput& input) {
   Element details("details");
   details.add(text_element("summary", "The resolved plan"));
   const auto plan = plan_listing(input.campaign.plan_json, kMostPlanBytes);
-  if (plan.empty()) return details.add(paragraph("The campaign file holds no plan text."));
+  if (plan.empty()) return details.add(paragraph("The results file holds no plan text."));
   return details.add(Element("pre").add(Element("code").lines(plan)));
 }
 

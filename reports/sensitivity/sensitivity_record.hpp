@@ -45,10 +45,10 @@ std::string worlds_of(const std::string& plan_json);
 std::string sensitivity_text(const SensitivityRecord& record);
 std::optional<SensitivityRecord> parse_sensitivity(const std::string& text);
 
-// NAME.sensitivity.json beside the campaign file NAME.db.
+// NAME.sensitivity.json beside the results file NAME.db.
 std::string sensitivity_path(const std::string& archive_path);
 
-// What stands beside a campaign file. `trouble`: why the file there tells nothing of this campaign.
+// What stands beside a results file. `trouble`: why the file there tells nothing of this campaign.
 struct SensitivityFile {
   std::optional<SensitivityRecord> record;
   std::string trouble;

@@ -78,7 +78,7 @@ Section sensitivity_section(const ReportInput& input) {
     section.remarks.push_back(
         {trouble.empty()
              ? fmt::format("Not measured. Agents with known faults can be tried in these worlds (fleetproof "
-                           "sensitivity CAMPAIGN); a report looks for {} beside its campaign file.",
+                           "sensitivity CAMPAIGN); a report looks for {} beside its results file.",
                            printable(name.string(), 200))
              : "Not known: " + printable(trouble, 400),
          ""});

@@ -86,8 +86,8 @@ TEST_F(BadInput, AFleetThatFindsNoPlace) {
 TEST_F(BadInput, Archives) {
   expect_refused("report none.db", "none.db: there is no such file");
   write("text.db", "this is no database, only a text that is long enough to be read as one page of something\n");
-  expect_refused("report text.db", "not a campaign file");
-  expect_refused("replay text.db 0", "not a campaign file");
+  expect_refused("report text.db", "not a results file");
+  expect_refused("replay text.db 0", "not a results file");
   ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && cp /dev/null empty.db").c_str()), 0);
   expect_refused("report empty.db", "empty");
 }

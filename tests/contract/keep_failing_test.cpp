@@ -1,4 +1,4 @@
-// keep = "failing": a campaign file without rows of the runs in which nothing went wrong, and with the same pages.
+// keep = "failing": a results file without rows of the runs in which nothing went wrong, and with the same pages.
 #include <gmock/gmock.h>
 
 #include <filesystem>

@@ -160,7 +160,7 @@ TEST_F(MergeRefusals, WhatIsNoFolderOfShards) {
 TEST_F(MergeRefusals, AnExistingFileStays) {
   write("m.db", "mine");
   EXPECT_EQ(run("merge out --db m.db").exit_code, 2);
-  EXPECT_EQ(run("merge out --db m.db --overwrite").exit_code, 2) << "no campaign file";
+  EXPECT_EQ(run("merge out --db m.db --overwrite").exit_code, 2) << "no results file";
   EXPECT_EQ(read(path("m.db")), "mine");
   fs::remove(path("m.db"));
   merge("out", "m.db");

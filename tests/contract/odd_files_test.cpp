@@ -73,7 +73,7 @@ TEST_F(OddFiles, AsArchives) {
     EXPECT_EQ(shell("timeout 20 \"$FLEETPROOF\" run a.toml --db " + name).exit_code, 2);
     const auto finished = shell("timeout 20 \"$FLEETPROOF\" run a.toml --overwrite --db " + name);
     EXPECT_EQ(finished.exit_code, 2) << finished.err;
-    EXPECT_THAT(finished.err, HasSubstr("not a campaign file"));
+    EXPECT_THAT(finished.err, HasSubstr("not a results file"));
   }
 }
 

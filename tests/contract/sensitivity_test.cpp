@@ -133,7 +133,7 @@ TEST_F(Sensitive, SeveralSeedsGiveTheMedianOfEachAlone) {
   EXPECT_LT(all[1], 1e9) << "two of three seeds detect it";
 }
 
-// The report finds the file beside the campaign file, whatever agents, seed and number of replicates were tried.
+// The report finds the file beside the results file, whatever agents, seed and number of replicates were tried.
 TEST_F(Sensitive, StandsInTheReportOfThePlan) {
   write("a.toml", kCorridor);
   ASSERT_TRUE(test::has_verdict(run("run a.toml")));

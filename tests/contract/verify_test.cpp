@@ -1,4 +1,4 @@
-// A campaign file is checked against the runs themselves: rows that cannot be reproduced are found, and the cause is
+// A results file is checked against the runs themselves: rows that cannot be reproduced are found, and the cause is
 // named.
 #include <gmock/gmock.h>
 

@@ -39,11 +39,11 @@ TEST(ArchiveReader, refuses_what_is_not_a_campaign_file) {
   samples::write_bytes(folder / "empty.fp", "");
   EXPECT_THAT(refusal(folder / "empty.fp"), HasSubstr("empty"));
   samples::write_bytes(folder / "text.fp", std::string(5000, 'x'));
-  EXPECT_THAT(refusal(folder / "text.fp"), HasSubstr("not a campaign file"));
+  EXPECT_THAT(refusal(folder / "text.fp"), HasSubstr("not a results file"));
   samples::write_bytes(folder / "short.fp", "x");
-  EXPECT_THAT(refusal(folder / "short.fp"), HasSubstr("not a campaign file"));
+  EXPECT_THAT(refusal(folder / "short.fp"), HasSubstr("not a results file"));
   tamper(folder / "other.db", "CREATE TABLE t(x); INSERT INTO t VALUES (1)");
-  EXPECT_THAT(refusal(folder / "other.db"), HasSubstr("not a campaign file"));
+  EXPECT_THAT(refusal(folder / "other.db"), HasSubstr("not a results file"));
   EXPECT_THAT(refusal("/dev/null"), HasSubstr("a pipe, a device or a socket"));
 }
 
@@ -299,7 +299,7 @@ TEST(ArchiveWriter, replaces_nothing_that_is_not_a_campaign_file) {
   for (const auto* name : {"text.fp", "empty.fp", "other.fp", "link.fp"}) {
     const auto before = samples::bytes_of(folder / name);
     EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / name, Existing::Replace); }),
-                HasSubstr("this is not a campaign file of fleetproof; it is not overwritten"))
+                HasSubstr("this is not a results file of fleetproof; it is not overwritten"))
         << name;
     EXPECT_TRUE(samples::bytes_of(folder / name) == before) << name;
     EXPECT_FALSE(std::filesystem::exists((folder / name) + ".partial")) << name;

@@ -1,4 +1,4 @@
-// A campaign file whose quiet runs are folded.
+// A results file whose quiet runs are folded.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Campaign files of earlier versions of this program: archives/schema4.fp to schema10.fp. The programs of
+// Results files of earlier versions of this program: archives/schema4.fp to schema10.fp. The programs of
 // their time wrote them, from one campaign file with a call cost of 10 ms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Audits, recordings and chunks in a campaign file.
+// Audits, recordings and chunks in a results file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>

@@ -1,4 +1,4 @@
-// Two programs at one campaign file: two writers, or a writer and its readers.
+// Two programs at one results file: two writers, or a writer and its readers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
