@@ -28,6 +28,9 @@ class Flow:
         self.tokens = TOKEN.findall(text)
         self.at = 0
 
+    def is_open(self):
+        return sum((token in "[{") - (token in "]}") for token in self.tokens) > 0
+
     def take(self):
         self.at += 1
         return self.tokens[self.at - 1]
@@ -54,9 +57,17 @@ class Flow:
         return scalar(token)
 
 
+def without_comment(line):
+    for found in re.finditer(r"(^|\s)#", line):
+        before = line[:found.start()]
+        if before.count('"') % 2 == 0 and before.count("'") % 2 == 0:
+            return before
+    return line
+
+
 def lines_of(text):
-    for line in text.splitlines():
-        if line.strip() and not line.lstrip().startswith("#") and line.strip() not in ("---", "..."):
+    for line in map(without_comment, text.splitlines()):
+        if line.strip() and line.strip() not in ("---", "..."):
             yield len(line) - len(line.lstrip()), line.strip()
 
 
@@ -77,8 +88,16 @@ class Blocks:
         deeper, text = self.lines[self.at]
         # A list may stand as far left as its key.
         if deeper > indent or (not in_list and deeper == indent and text.startswith("-")):
-            return Flow(self.rest()).value() if text[0] in "[{" else self.block(deeper)
+            return self.flow(self.rest()) if text[0] in "[{" else self.block(deeper)
         return None
+
+    def flow(self, text):
+        """The flow value that begins with `text` and ends in the line that closes its brackets."""
+        flow = Flow(text)
+        while flow.is_open():
+            text += " " + self.rest()
+            flow = Flow(text)
+        return flow.value()
 
     def rest(self):
         self.at += 1
@@ -98,7 +117,7 @@ class Blocks:
                 items.append(self.block(inner))
             else:
                 self.at += 1
-                items.append(Flow(text).value())
+                items.append(self.flow(text))
         return items
 
     def map(self, indent):
@@ -106,7 +125,7 @@ class Blocks:
         while self.at < len(self.lines) and self.lines[self.at][0] == indent:
             key, value = re.match(r'("[^"]*"|\'[^\']*\'|[^:]+?)\s*:(?:\s+(.*))?$', self.rest()).groups()
             items[scalar(key)] = self.below(indent, False) if not value else \
-                Flow(value).value() if value[0] in "[{" else scalar(value)
+                self.flow(value) if value[0] in "[{" else scalar(value)
         return items
 
 

@@ -105,6 +105,8 @@ def read(path, drawn=False):
     model = xml.parse(path).getroot()
     plant, drawing, purposes = Plant(), Drawing(model), purposes_by_point(model)
     for point in model.iterfind("point"):
+        if point.get("name") in plant.stations:
+            plant.faults.append(f'"{point.get("name")}"')
         x, y = position(point)
         angle = float(point.get("vehicleOrientationAngle", "NaN"))
         station = Station(point.get("name"), x, y, purposes.get(point.get("name"), ()),

@@ -37,7 +37,7 @@ class Plant:
     def __init__(self):
         self.stations, self.drives = {}, []
         self.drawn = {}     # other positions that the file gives for its stations, by name
-        self.faults = []    # names of what no AGV can drive, one of which a refusal must name
+        self.faults = []    # names of what no AGV can drive or what stands there twice; a refusal names one
 
     def add(self, station):
         self.stations[station.name] = station

@@ -117,7 +117,7 @@ class Survey:
         mine = None
         try:
             mine = read(path, **options)
-        except (ValueError, KeyError, TypeError, StopIteration) as error:
+        except (ValueError, LookupError, TypeError, StopIteration) as error:
             if imported.returncode == 0:
                 self.differences.append(f"{path}: the survey cannot read it ({error!r}), and it is imported")
             return [imported.stderr.strip().split("\n")[-1]]
@@ -131,7 +131,7 @@ class Survey:
         if found and mine.drawn:
             drawn = read(path, drawn=True)
             found, mine = min((found, mine), (compare(drawn, theirs), drawn), key=lambda pair: len(pair[0]))
-        found += [f"{fault} cannot be driven, and is imported" for fault in mine.faults]
+        found += [f"{fault} is a fault, and is imported" for fault in mine.faults]
         self.differences += [f"{path}: {sentence}" for sentence in found]
         return row_of(mine) + [self.usable(path, mine)]
 
