@@ -132,6 +132,67 @@ TEST(Restart, HoldsTheTurnThatTheAgvMayBeMaking) {
   EXPECT_LT(least_of_faulty_m, 0.1) << "or this tests nothing";
 }
 
+// An AGV turns on the spot, from the heading of the lane to the east to a lane that leads `turn` to the left. Another
+// AGV passes it in the direction `side` and at the distance `beside_m`, both from the station of the turn. The first
+// one's computer restarts in the middle of the turn. Both orders must be done.
+struct BesideATurn {
+  double turn, side, beside_m, order_s;
+
+  struct Seen {
+    double least_clearance_m = 0.0;
+    bool both_held = false;  // after the restart, the first one its turn and the other one its lane
+  };
+  Seen run(const fp_agent_type& type, double restart_s) const;
+};
+
+BesideATurn::Seen BesideATurn::run(const fp_agent_type& type, double restart_s) const {
+  DrawnMap drawn;
+  const auto at = [&](double along_m, double across_m, double angle) {
+    return drawn.station(along_m * std::cos(angle) - across_m * std::sin(angle),
+                         along_m * std::sin(angle) + across_m * std::cos(angle), FP_STORAGE);
+  };
+  const auto from = at(0, 0, 0), to = at(14, 0, turn), west = at(-14, 0, 0);
+  const auto beside = at(beside_m, 2.0, side), away = at(beside_m, -12.0, side);
+  drawn.segment(west, from), drawn.segment(from, to), drawn.segment(beside, away);
+  const TestFleet fleet(drawn.map(), 2);
+  FakeWarehouse warehouse(drawn, fleet, {from, beside}, type, FakeRadio{0.0, 0.01, false, 0.0}, 1);
+  warehouse.heading(1, std::sin(side), -std::cos(side));
+  warehouse.order(0, 0.1, from, to);  // 5 s of picking
+  warehouse.order(1, order_s, away, beside);
+  warehouse.restart(0, restart_s, 0.1);
+  bool both_held = false;
+  warehouse.after_activation = [&](std::uint32_t id) {
+    if (id != 0 || warehouse.boot_of(0) != 1) return;
+    both_held |= held_by(warehouse, 0).station == from && !held_by(warehouse, 0).empty() &&
+                 held_by(warehouse, 1).station == beside && !held_by(warehouse, 1).empty();
+  };
+  warehouse.run(120.0);
+  EXPECT_EQ(warehouse.drops(), 2U) << restart_s;
+  return {warehouse.least_clearance_m(), both_held};
+}
+
+// Before and after the turn, the AGV is out of the other one's way; in between, its corner is in it.
+TEST(Restart, HoldsTheSectorOfTheTurnThatTheAgvIsMaking) {
+  const BesideATurn scene{130.0 / 180.0 * M_PI, 245.0 / 180.0 * M_PI, 1.42, 1.0};
+  double least_of_faulty_m = INFINITY;
+  for (double restart_s = 5.1; restart_s < 8.0; restart_s += 0.25) {
+    EXPECT_GE(scene.run(kHullLock, restart_s).least_clearance_m, 0.1) << restart_s;
+    least_of_faulty_m = std::min(least_of_faulty_m, scene.run(kRestartForgetsTurn, restart_s).least_clearance_m);
+  }
+  EXPECT_LT(least_of_faulty_m, 0.1) << "or this tests nothing";
+}
+
+// A small turn leaves much of the disc free, and another AGV drives there meanwhile. The new self does not know where
+// its turn began, and both must go on.
+TEST(Restart, InATurnBesideAnAgvInTheDiscLetsBothGoOn) {
+  const BesideATurn scene{30.0 / 180.0 * M_PI, 285.0 / 180.0 * M_PI, 1.42, 4.0};
+  for (double restart_s = 5.2; restart_s < 6.5; restart_s += 0.2) {
+    const auto seen = scene.run(kHullLock, restart_s);
+    EXPECT_TRUE(seen.both_held) << restart_s;
+    EXPECT_GE(seen.least_clearance_m, 0.1) << restart_s;
+  }
+}
+
 // A long AGV stands across, beside the lane of another one. Its computer restarts, and sees the heading of before.
 TEST(Restart, NobodyTakesAnAgvForOutOfTheWayThatDoesNotKnowItsHeading) {
   for (const char* config : {"", "zones_from=2"}) {
