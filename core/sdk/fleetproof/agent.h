@@ -114,7 +114,8 @@ typedef struct fp_briefing {
    * is the segment of the action under way until the AGV has reached its end, also while it turns towards it, or
    * FP_NONE. next_segment is the segment that the AGV will drive next, because of a call before the restart, or
    * FP_NONE; both with FP_BACKWARD, if the AGV drives backward. All this is as of the instant at which the agent gets
-   * FP_EVENT_START; a freeze may delay that. For the actions under way then, FP_EVENT_ACTION_DONE still follows. */
+   * FP_EVENT_START; a freeze may delay that. The heading is what get_position perceives: late, so perhaps that from
+   * before a turn. For the actions under way then, FP_EVENT_ACTION_DONE still follows. */
   uint32_t boot;
   uint32_t start_segment;
   uint32_t next_segment;

@@ -26,7 +26,7 @@ typedef struct fp_station {
   const uint32_t* lanes; /* indices of the lanes that leave this station */
   /* Since minor 2. */
   uint32_t turning_forbidden;  /* 1: no AGV turns on the spot here */
-  double heading_x, heading_y; /* that an AGV must have to pick, drop, park or charge here; (0, 0): any */
+  double heading_x, heading_y; /* that an AGV must have, to 1e-7 rad, to pick, drop, park or charge here; (0, 0): any */
 } fp_station;
 
 /* A straight line (curvature 0) or a circular arc (positive curvature turns left) from `start` along its heading. */
