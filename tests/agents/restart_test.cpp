@@ -132,11 +132,11 @@ TEST(Restart, HoldsTheTurnThatTheAgvMayBeMaking) {
   EXPECT_LT(least_of_faulty_m, 0.1) << "or this tests nothing";
 }
 
-// An AGV turns on the spot, from the heading of the lane to the east to a lane that leads `turn` to the left. Another
-// AGV passes it in the direction `side` and at the distance `beside_m`, both from the station of the turn. The first
-// one's computer restarts in the middle of the turn. Both orders must be done.
+// An AGV turns on the spot, from the heading of the lane to the east to a lane that leads `turn_rad` to the left.
+// Another AGV passes it in the direction `side_rad` and at the distance `beside_m`, both from the station of the turn.
+// The first one's computer restarts in the middle of the turn. Both orders must be done.
 struct BesideATurn {
-  double turn, side, beside_m, order_s;
+  double turn_rad, side_rad, beside_m, order_s;
 
   struct Seen {
     double least_clearance_m = 0.0;
@@ -147,16 +147,16 @@ struct BesideATurn {
 
 BesideATurn::Seen BesideATurn::run(const fp_agent_type& type, double restart_s) const {
   DrawnMap drawn;
-  const auto at = [&](double along_m, double across_m, double angle) {
-    return drawn.station(along_m * std::cos(angle) - across_m * std::sin(angle),
-                         along_m * std::sin(angle) + across_m * std::cos(angle), FP_STORAGE);
+  const auto at = [&](double along_m, double across_m, double angle_rad) {
+    return drawn.station(along_m * std::cos(angle_rad) - across_m * std::sin(angle_rad),
+                         along_m * std::sin(angle_rad) + across_m * std::cos(angle_rad), FP_STORAGE);
   };
-  const auto from = at(0, 0, 0), to = at(14, 0, turn), west = at(-14, 0, 0);
-  const auto beside = at(beside_m, 2.0, side), away = at(beside_m, -12.0, side);
+  const auto from = at(0, 0, 0), to = at(14, 0, turn_rad), west = at(-14, 0, 0);
+  const auto beside = at(beside_m, 2.0, side_rad), away = at(beside_m, -12.0, side_rad);
   drawn.segment(west, from), drawn.segment(from, to), drawn.segment(beside, away);
   const TestFleet fleet(drawn.map(), 2);
   FakeWarehouse warehouse(drawn, fleet, {from, beside}, type, FakeRadio{0.0, 0.01, false, 0.0}, 1);
-  warehouse.heading(1, std::sin(side), -std::cos(side));
+  warehouse.heading(1, std::sin(side_rad), -std::cos(side_rad));
   warehouse.order(0, 0.1, from, to);  // 5 s of picking
   warehouse.order(1, order_s, away, beside);
   warehouse.restart(0, restart_s, 0.1);

@@ -29,7 +29,7 @@ void read_everything(const std::string& path) {
   ArchiveReader(path).for_each_run([](const RunRecord&) {});
 }
 
-TEST(ArchiveReader, refuses_what_is_not_a_campaign_file) {
+TEST(ArchiveReader, refuses_what_is_not_a_results_file) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& path) {
     return sentence_of<InputError>([&] { ArchiveReader reader(path); });
@@ -254,7 +254,7 @@ TEST(ArchiveWriter, a_lock_left_behind_holds_nobody_up_but_a_foreign_file_of_its
   EXPECT_THAT(sentence_of<InputError>([&] { open_writer(folder / "c.fp"); }), HasSubstr("c.fp.lock"));
 }
 
-TEST(ArchiveWriter, replaces_a_campaign_file_only_when_the_new_one_is_published) {
+TEST(ArchiveWriter, replaces_a_results_file_only_when_the_new_one_is_published) {
   const TemporaryFolder folder;
   const auto path = folder / "a.fp";
   write_archive(path, 60);
@@ -289,7 +289,7 @@ TEST(ArchiveWriter, replaces_a_damaged_campaign_file_and_makes_one_where_none_is
   }
 }
 
-TEST(ArchiveWriter, replaces_nothing_that_is_not_a_campaign_file) {
+TEST(ArchiveWriter, replaces_nothing_that_is_not_a_results_file) {
   const TemporaryFolder folder;
   write_archive(folder / "ours.fp");
   samples::write_bytes(folder / "text.fp", std::string(5000, 'x'));
