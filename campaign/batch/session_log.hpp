@@ -22,8 +22,8 @@ struct ShardChunks {
 };
 
 // NAME.sessions.jsonl beside the results file says where, when and with which files runs were made: one line when a
-// session begins, one when it ends, one for each worker process that it lost. The results file itself then has the
-// same bytes on every machine.
+// session begins, one when it ends, one for each worker process that it lost. The results file does not say where
+// and when, so it has the same bytes on every machine.
 class SessionLog {
  public:
   // Throws InputError if a file of this name is no session log.

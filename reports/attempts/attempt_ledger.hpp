@@ -52,7 +52,7 @@ class AttemptLedger {
 // "attempts.jsonl" beside the results file.
 std::string default_ledger(const std::string& archive_path);
 
-// The digests of an attempt that the results file itself tells: `software`, `worlds`, plan, seed and numbers.
+// What a results file holds of its attempt: the digests `software`, `worlds` and plan, the seed and the numbers.
 Attempt attempt_of(const CampaignRecord& campaign);
 
 }  // namespace fleetproof

@@ -24,8 +24,8 @@ struct ComparedRun {
   bool is_clean() const;  // no end point failed or stayed unknown
 };
 
-// The runs of one agent in one results file: complete replicates, each with one run for each of the agent's cells, in
-// the order of the file.
+// The runs of one agent in a results file, in the order of the file: of each complete replicate, one run for each of
+// the agent's cells.
 struct ReleaseRuns {
   std::string path, agent;
   CampaignRecord campaign;
