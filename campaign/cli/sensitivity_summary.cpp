@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -35,32 +36,40 @@ Value usual(const std::map<Value, std::uint64_t>& counts) {
   return std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; })->first;
 }
 
-PlantedFault summary_of(const std::vector<SeededSensitivity>& measured, std::size_t place) {
-  PlantedFault fault;
-  fault.agent = measured.front().found.faults[place].tally.agent;
+// The findings of one kind: by rate, or by a violation.
+std::vector<const FaultFinding*> detections(const std::vector<const FaultFinding*>& findings, bool by_rate) {
+  std::vector<const FaultFinding*> alike;
+  std::ranges::copy_if(findings, std::back_inserter(alike), [&](const FaultFinding* finding) {
+    return !finding->seen_as.empty() && finding->by_rate == by_rate;
+  });
+  return alike;
+}
+
+void take_runs(PlantedFault& fault, const std::vector<const FaultFinding*>& findings) {
   std::vector<double> runs;
-  std::map<std::string, std::uint64_t> seen_as;
-  std::uint64_t by_rate = 0;
-  fault.tried = false;
-  for (const auto& [seed, found] : measured) {
-    const FaultFinding& finding = found.faults[place];
-    fault.tried = fault.tried || finding.tried;
-    runs.push_back(finding.seen_as.empty() ? kMissed : static_cast<double>(finding.runs));
-    if (finding.seen_as.empty()) continue;
-    if (fault.seeds++ == 0) {
-      fault.cell = place_of(finding);
-      fault.probe = finding.probe;
-    }
-    ++seen_as[finding.seen_as];
-    by_rate += finding.by_rate ? 1 : 0;
-  }
-  if (seen_as.empty()) return fault;
-  fault.seen_as = usual(seen_as);
-  fault.by_rate = 2 * by_rate > fault.seeds;
-  if (fault.by_rate) return fault;
+  for (const FaultFinding* finding : findings)
+    runs.push_back(finding->seen_as.empty() ? kMissed : static_cast<double>(finding->runs));
   if (const double middle = median(runs); middle < kMissed) fault.median_runs = middle;
   if (const double most = *std::ranges::max_element(runs); most < kMissed)
     fault.most_runs = static_cast<std::uint64_t>(most);
+}
+
+// `findings`: one for each seed.
+PlantedFault summary_of(const std::vector<const FaultFinding*>& findings) {
+  PlantedFault fault;
+  fault.agent = findings.front()->tally.agent;
+  fault.tried = std::ranges::any_of(findings, &FaultFinding::tried);
+  const auto rates = detections(findings, true), violations = detections(findings, false);
+  fault.seeds = rates.size() + violations.size();
+  if (fault.seeds == 0) return fault;
+  fault.by_rate = rates.size() > violations.size();
+  const auto& alike = fault.by_rate ? rates : violations;
+  std::map<std::string, std::uint64_t> seen_as;
+  for (const FaultFinding* finding : alike) ++seen_as[finding->seen_as];
+  fault.seen_as = usual(seen_as);
+  fault.cell = place_of(*alike.front());
+  fault.probe = alike.front()->probe;
+  if (!fault.by_rate) take_runs(fault, findings);
   return fault;
 }
 
@@ -90,7 +99,9 @@ SensitivityRecord summary_of(const CampaignPlan& plan, const AgentPrograms& prog
     record.sound_violations += found.sound.all.with(kAccusedOfViolation);
   }
   for (std::size_t place = 0; place < measured.front().found.faults.size(); ++place) {
-    record.faults.push_back(summary_of(measured, place));
+    std::vector<const FaultFinding*> findings;
+    for (const auto& [seed, found] : measured) findings.push_back(&found.faults[place]);
+    record.faults.push_back(summary_of(findings));
     record.faults.back().text = fault_of(programs, record.faults.back().agent);
   }
   return record;

@@ -13,11 +13,11 @@ namespace fleetproof {
 struct PlantedFault {
   std::string agent, text;                 // name, and what it does otherwise than the sound agent
   std::uint64_t seeds = 0;                 // in so many seeds it was detected
-  std::string seen_as;                     // what it was accused of, in most of them; empty: of nothing
-  bool by_rate = false;                    // accused more often than the sound agent, not by its first violation
-  std::optional<double> median_runs;       // until the first violation; absent: by rate, or missed in half of the seeds
+  std::string seen_as;                     // what it was accused of in most seeds of its kind; empty: of nothing
+  bool by_rate = false;                    // its kind: by a rate in more seeds than by a violation
+  std::optional<double> median_runs;       // until it was detected; absent: by rate, or missed in half of the seeds
   std::optional<std::uint64_t> most_runs;  // absent: by rate, or missed in a seed
-  // Of the first such run of the first seed that detected it. Of a rate: with which radio, or over all runs.
+  // Of the first such run of the first seed of its kind. Of a rate: with which radio, or over all runs.
   std::string cell, probe;
   bool tried = true;  // false: in each run of each seed it did the same as the sound agent
 };

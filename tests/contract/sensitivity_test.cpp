@@ -133,6 +133,29 @@ TEST_F(Sensitive, SeveralSeedsGiveTheMedianOfEachAlone) {
   EXPECT_LT(all[1], 1e9) << "two of three seeds detect it";
 }
 
+// Of these seeds, 4 has bodies in the way of the sound agent, so that only a rate counts; 5 and 6 have none.
+TEST_F(Sensitive, SeedsThatDisagreeAreToldAsMostOfThemAre) {
+  write("a.toml", kCorridor + "[faults]\nobstacles_per_hour = 6\n");
+  const auto fault_of = [&](const std::string& words) {
+    return nlohmann::json::parse(run("sensitivity a.toml --json --agent grants-for-good " + words).out)["faults"][0];
+  };
+  const auto rate = fault_of("--seed 4"), violation = fault_of("--seed 5");
+  ASSERT_TRUE(rate["by_rate"]);
+  ASSERT_FALSE(violation["by_rate"]);
+  const auto mostly_violations = fault_of("--seed 4 --seeds 3"), tied = fault_of("--seed 4 --seeds 2");
+  for (const auto& fault : {mostly_violations, tied}) {
+    EXPECT_FALSE(fault["by_rate"]);
+    EXPECT_EQ(fault["seen_as"], violation["seen_as"]);
+    EXPECT_EQ(fault["cell"], violation["cell"]);
+    EXPECT_EQ(fault["most_runs"], 10) << "a rate takes all runs";
+  }
+  const auto mostly_rates = fault_of("--seed 3 --seeds 3");
+  EXPECT_TRUE(mostly_rates["by_rate"]);
+  EXPECT_EQ(mostly_rates["seen_as"], rate["seen_as"]);
+  EXPECT_EQ(mostly_rates["cell"], rate["cell"]);
+  EXPECT_TRUE(mostly_rates["median_runs"].is_null());
+}
+
 // The report finds the file beside the results file, whatever agents, seed and number of replicates were tried.
 TEST_F(Sensitive, StandsInTheReportOfThePlan) {
   write("a.toml", kCorridor);
