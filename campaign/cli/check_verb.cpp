@@ -3,35 +3,25 @@
 #include <memory>
 
 #include "campaign/batch/campaign.hpp"
+#include "campaign/batch/pilot.hpp"
+#include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/case_file.hpp"
-#include "campaign/workers/run_host.hpp"
 #include "generators/formats/importer.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/worlds/world_maker.hpp"
+#include "reports/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
 constexpr std::uint64_t kReplicatesDrawn = 20;
 
-// One run for each cell, until a second is over. This is enough for an estimate, and it builds the worlds of these
-// cells.
-double mean_run_s(const CampaignPlan& plan, const AgentPrograms& programs) {
-  using Clock = std::chrono::steady_clock;
-  RunHost runs(plan, programs, {});
-  const auto begin = Clock::now();
-  std::uint64_t count = 0;
-  double elapsed_s = 0.0;
-  while (count < plan.cell_count() && elapsed_s < 1.0) {
-    runs(count++);
-    elapsed_s = std::chrono::duration<double>(Clock::now() - begin).count();
-  }
-  return elapsed_s / static_cast<double>(count);
-}
+// Enough for an estimate; `plan` measures for longer.
+constexpr std::chrono::seconds kPilotTime{1};
 
 // Draws the worlds of the first replicates, one for each layout and fleet size, and prints how many draws were refused
 // and why.
@@ -59,9 +49,10 @@ void check_campaign(const std::string& path) {
   const CampaignFile file = load_campaign(path, programs);
   const CampaignPlan& plan = file.plan;
   try_first_worlds(plan);
-  const double total_s = mean_run_s(plan, programs) * static_cast<double>(plan.run_count());
-  put("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {:.0f} s of one core\n", path, plan.cell_count(),
-      plan.replicates, plan.run_count(), plan.horizon_s, total_s);
+  const Pilot pilot = run_pilot(plan, programs, 1, {.time = kPilotTime, .runs = plan.cell_count()});
+  put("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {} of one core, as {} took {:.1f} s\n", path,
+      plan.cell_count(), plan.replicates, plan.run_count(), plan.horizon_s,
+      duration_text(pilot.forecast_s(plan.replicates)), count_text(pilot.runs, "run"), pilot.elapsed_s);
   tell_rejections(plan);
 }
 

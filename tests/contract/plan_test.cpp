@@ -102,6 +102,13 @@ TEST_F(Plan, SaysWhatTheFileAndTheTimeGive) {
     EXPECT_NE(entry.path().extension(), ".db") << "a pilot stores nothing";
 }
 
+TEST_F(Plan, CheckEstimatesFromOneRunOfEachCell) {
+  const auto checked = run("check a.toml");
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("2 cells x 30 replicates = 60 runs of 20 s; about "));
+  EXPECT_THAT(checked.out, HasSubstr(" of one core, as 2 runs took "));
+}
+
 TEST_F(Plan, ASearchAndAGateWithoutCellsHaveNoBounds) {
   write("s.toml", campaign("search", "reckless"));
   EXPECT_THAT(run("plan s.toml").out, HasSubstr("a search gives counts, no bounds"));
