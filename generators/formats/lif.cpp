@@ -92,6 +92,14 @@ class LifReader {
     if (told_.of_types > 0)
       tell(fmt::format("{} edges have a speed limit for each type of vehicle; the lowest is taken for all",
                        told_.of_types));
+    if (!told_.drawn_by_type.empty())
+      tell(
+          fmt::format("{} edges have another trajectory for some types of vehicles, or none ({}); the first counts for "
+                      "all",
+                      told_.drawn_by_type.size(), name_list(told_.drawn_by_type)));
+    if (!told_.act.empty())
+      tell(fmt::format("{} edges have actions to pick, drop or charge ({}); here their end nodes are for that",
+                       told_.act.size(), name_list(told_.act)));
     for (const auto& sentence : travel_.sentences()) tell(sentence);
     if (!told_.torn.empty())
       tell(fmt::format("{} nodes ask each type of vehicle for another heading ({}); here an AGV stands as it arrives",
@@ -163,8 +171,10 @@ class LifReader {
     segment.from = *from;
     segment.to = *to;
     const auto types = rules_by_type(edge);
+    const auto acts = purposes_of_actions(types, choice_.purposes);
     auto& purposes = layout_.stations[to->index()].purposes;
-    purposes = purposes | purposes_of_actions(types, choice_.purposes);
+    purposes = purposes | acts;
+    if (acts != Purposes::from_bits(0)) told_.act.push_back(segment.name);
     auto permissions = types_.permissions(edge, nodes_[from->index()], nodes_[to->index()]);
     if (!permissions)
       return warn(edge, fmt::format("no AGV may drive edge {}: no type of vehicle has a rule at it and at both of its "
@@ -178,14 +188,13 @@ class LifReader {
       edge.at("endNodeId").refuse("the edge leads from a node back to itself; put another node on its trajectory");
     types_.count(*permissions);
     segment.permissions = std::move(*permissions);
-    std::optional<JsonReader> trajectory;
-    for (const auto& type : types) {
-      if (!trajectory) trajectory = type.find("trajectory");
-    }
+    if (const auto trajectory = trajectory_in(types, segment.name)) bend(*trajectory, segment);
     limit_speed(types, segment);
     segment.width_m = corridor_width_m(types);
-    turns_.add(edge, segment.from, segment.to, travel_.add(types, segment));
-    if (trajectory) bend(*trajectory, segment);
+    std::optional<Vec2> straight;
+    if (segment.control_points_m.empty())
+      straight = layout_.stations[to->index()].position_m - layout_.stations[from->index()].position_m;
+    turns_.add(edge, segment.from, segment.to, travel_.add(types, straight, segment));
     layout_.segments.push_back(std::move(segment));
     edges_.push_back(edge);
   }
@@ -212,11 +221,27 @@ class LifReader {
     told_.of_types += lowest < highest ? 1 : 0;
   }
 
+  // The first of all rules.
+  std::optional<JsonReader> trajectory_in(const std::vector<JsonReader>& rules, const std::string& edge) {
+    std::optional<JsonReader> first;
+    std::set<bool> drawn;
+    bool differ = false;
+    for (const auto& rule : rules) {
+      const auto trajectory = rule.find("trajectory");
+      drawn.insert(trajectory.has_value());
+      if (first && trajectory) differ |= nurbs_of(*trajectory) != nurbs_of(*first);
+      if (!first) first = trajectory;
+    }
+    if (differ || drawn.size() > 1) told_.drawn_by_type.push_back(edge);
+    return first;
+  }
+
   static Nurbs nurbs_of(const JsonReader& trajectory) {
     Nurbs nurbs;
     if (const auto degree = trajectory.find("degree")) {
       const double value = degree->number();
-      if (!(value >= 1.0 && value <= 9.0)) degree->refuse("expected a degree of 1 to 9");
+      if (!(value >= 1.0 && value <= 9.0 && value == std::floor(value)))
+        degree->refuse("expected a degree of 1 to 9, a whole number");
       nurbs.degree = static_cast<std::size_t>(value);
     }
     for (const auto& knot : trajectory.at("knotVector").items()) nurbs.knots.push_back(knot.number());
@@ -304,8 +329,9 @@ class LifReader {
   LifTurns turns_;
   LifSpots spots_;
   struct {
-    std::size_t of_types = 0;       // edges
-    std::vector<std::string> torn;  // names of nodes
+    std::size_t of_types = 0;                     // edges
+    std::vector<std::string> torn;                // names of nodes
+    std::vector<std::string> drawn_by_type, act;  // names of edges
   } told_;
 };
 

@@ -11,11 +11,12 @@
 namespace fleetproof {
 namespace {
 
-// The layouts of all origins, in the order of the file.
+// Those of the file and of all its origins.
 std::vector<JsonReader> layouts_of(const JsonReader& root) {
   const auto origins = root.find("origins");
-  if (!origins || root.find("layouts")) return root.at("layouts").items();
+  if (!origins) return root.at("layouts").items();
   std::vector<JsonReader> all;
+  if (const auto layouts = root.find("layouts")) all = layouts->items();
   for (const auto& origin : origins->items()) {
     const auto layouts = origin.find("layouts");
     if (layouts) std::ranges::copy(layouts->items(), std::back_inserter(all));
@@ -34,22 +35,30 @@ std::string called(const JsonReader& layout) {
   return in_quotes(text_in(layout, "layoutId")) + (level.empty() ? "" : fmt::format(" (level {})", in_quotes(level)));
 }
 
-std::size_t place_of_choice(const JsonReader& holder, const std::vector<JsonReader>& all, const std::string& wanted) {
-  std::string known;
-  std::vector<std::size_t> matching;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    known += (known.empty() ? "" : ", ") + called(all[i]);
-    if (wanted.empty() || text_in(all[i], "layoutId") == wanted || text_in(all[i], "layoutLevelId") == wanted)
-      matching.push_back(i);
+// An id is unique, a level is not: what is an id does not count as a level.
+std::vector<std::size_t> matching(const std::vector<JsonReader>& all, const std::string& wanted) {
+  for (const char* key : {"layoutId", "layoutLevelId"}) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (wanted.empty() || text_in(all[i], key) == wanted) found.push_back(i);
+    }
+    if (!found.empty()) return found;
   }
-  if (matching.size() == 1) return matching[0];
+  return {};
+}
+
+std::size_t place_of_choice(const JsonReader& holder, const std::vector<JsonReader>& all, const std::string& wanted) {
+  const auto found = matching(all, wanted);
+  if (found.size() == 1) return found[0];
+  std::string known;
+  for (const JsonReader& layout : all) known += (known.empty() ? "" : ", ") + called(layout);
   if (wanted.empty())
     holder.refuse(
         fmt::format("there are {} layouts; choose one by its id or level (--level, or level = \"...\" in a "
                     "campaign): {}",
                     all.size(), known));
   holder.refuse(fmt::format("{} layouts have the id or level {}; choose one of: {}",
-                            matching.empty() ? "no" : std::to_string(matching.size()), in_quotes(wanted), known));
+                            found.empty() ? "no" : std::to_string(found.size()), in_quotes(wanted), known));
 }
 
 }  // namespace

@@ -22,10 +22,9 @@ constexpr Topic kCorridors{
     "{0} nodes and edges let an AGV leave the lane ({1}); leaving the lane is not modelled: it stays on the lane"};
 constexpr Topic kDrawn{
     "{0} edges have corridors ({1}); leaving the lane is not modelled: an AGV stays on it, and the floor is drawn as "
-    "wide"};
+    "wide, at most 100 m"};
 constexpr Topic kGuides{"{0} edges are lines on the floor that guide AGVs ({1}); here this changes nothing"};
 constexpr Topic kPlaces{"{0} stations stand beside the nodes ({1}); here an AGV serves them at their nodes"};
-constexpr Topic kSecond{"{0} edges have more than one trajectory ({1}); the first counts"};
 constexpr Topic kForbidden{"{0} nodes and edges forbid types of actions ({1}); here AGVs pick, drop and charge alone"};
 constexpr Topic kVersion{"the file says that it is LIF {1}; it is read as LIF 2.0"};
 constexpr Topic kUnknown{"{0} keys are unknown here and left out ({1})"};
@@ -58,11 +57,12 @@ constexpr Rule kRules[] = {
     {"nodes/nodePosition/y"},
     {"nodes/types"},
     {"nodes/types/typeId"},
-    {"nodes/types/typeId/manufacturer", &kNotes, Named::ByKey},
+    {"nodes/types/typeId/manufacturer"},
     {"nodes/types/typeId/seriesName"},
     {"nodes/types/theta"},
     {"nodes/types/allowedDeviationXY", &kCorridors},
     {"nodes/types/allowedDeviationTheta", &kCorridors},
+    {"nodes/types/maximumAllowedDeviation", &kCorridors},
     {"nodes/types/actions"},
     {"nodes/types/requiredActions"},
     {"nodes/types/feasibleActions"},
@@ -80,7 +80,7 @@ constexpr Rule kRules[] = {
     {"edges/edgeDescriptor", &kNotes, Named::ByKey},
     {"edges/types"},
     {"edges/types/typeId"},
-    {"edges/types/typeId/manufacturer", &kNotes, Named::ByKey},
+    {"edges/types/typeId/manufacturer"},
     {"edges/types/typeId/seriesName"},
     {"edges/types/vehicleOrientation"},
     {"edges/types/vehicleOrientations"},
@@ -133,7 +133,9 @@ std::string spelled(std::string_view key) {
   if (key == "vehicleTypeNodeProperties" || key == "mobileRobotTypeNodeProperties" ||
       key == "vehicleTypeEdgeProperties" || key == "mobileRobotTypeEdgeProperties")
     return "types";
-  if (key == "vehicleTypeId" || key == "mobileRobotTypeId" || key == "mobileRobotTypes") return "typeId";
+  if (key == "vehicleTypeId" || key == "mobileRobotTypeId" || key == "vehicleTypeIds" || key == "mobileRobotTypeIds" ||
+      key == "mobileRobotTypes")
+    return "typeId";
   return std::string(key);
 }
 
@@ -163,7 +165,6 @@ class LifWalk {
     const auto rule = std::ranges::find(kRules, inner, &Rule::path);
     if (rule == std::end(kRules)) return things_.add(kUnknown, value.place(), inner);
     if (rule->topic != nullptr) return left_out(*rule, value, key, owner);
-    if (inner.ends_with("/types")) one_trajectory(value, owner);
     if (inner.ends_with("/actions") || inner.ends_with("Actions")) return actions(value);
     if (value.value().shape == JsonValue::Shape::Object) members(value, inner, owner);
     if (value.value().shape != JsonValue::Shape::Array) return;
@@ -179,12 +180,6 @@ class LifWalk {
     if (rule.path == "nodes/nodeDescription" && text.starts_with(kPurposesMark)) return;
     const bool by_value = rule.named == Named::ByValue && !text.empty();
     things_.add(*rule.topic, value.place(), by_value ? text : rule.named == Named::ByOwner ? owner : key);
-  }
-
-  void one_trajectory(const JsonReader& types, const std::string& owner) {
-    const auto all = types.items();
-    if (std::ranges::count_if(all, [](const JsonReader& t) { return t.find("trajectory").has_value(); }) > 1)
-      things_.add(kSecond, types.place(), owner);
   }
 
   void actions(const JsonReader& list) {

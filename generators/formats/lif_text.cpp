@@ -131,11 +131,21 @@ struct Edge {
   const Segment& segment;
 };
 
-void write_type(JsonWriter& writer, const Edge& edge, const std::string& type, bool backward, bool first) {
+// LIF 1.0 gives a type one orientation. Both are written as its successor does.
+void write_travel(JsonWriter& writer, Travel travel) {
+  if (travel == Travel::Backward) writer.key("vehicleOrientation").value(std::numbers::pi);
+  if (travel != Travel::Either) return;
+  writer.key("vehicleOrientations").open_array(Style::Line);
+  writer.value(0.0);
+  writer.value(std::numbers::pi);
+  writer.close();
+}
+
+void write_type(JsonWriter& writer, const Edge& edge, const std::string& type) {
   const LoadState load = load_of(edge.segment, type).value_or(LoadState::Any);
   writer.open_object();
   writer.key("vehicleTypeId").value(type);
-  if (backward) writer.key("vehicleOrientation").value(std::numbers::pi);
+  write_travel(writer, edge.travel);
   writer.key("rotationAllowed").value(false);
   if (!edge.from.turning) writer.key("rotationAtStartNodeAllowed").value("NONE");
   if (!edge.to.turning) writer.key("rotationAtEndNodeAllowed").value("NONE");
@@ -146,25 +156,18 @@ void write_type(JsonWriter& writer, const Edge& edge, const std::string& type, b
     writer.key("loaded").value(load == LoadState::Loaded);
     writer.close();
   }
-  if (first && edge.points.size() > 2) write_trajectory(writer, edge.points);
+  if (edge.points.size() > 2) write_trajectory(writer, edge.points);
   writer.close();
 }
 
-// An edge that is driven either way has its type of vehicle twice.
 void write_edge(JsonWriter& writer, const Edge& edge, const Types& types) {
   writer.open_object();
   writer.key("edgeId").value(edge.name);
   writer.key("startNodeId").value(edge.from.name);
   writer.key("endNodeId").value(edge.to.name);
   writer.key("vehicleTypeEdgeProperties").open_array();
-  bool first = true;
   for (const auto& type : all_of(types)) {
-    if (!load_of(edge.segment, type)) continue;
-    for (const bool backward : {false, true}) {
-      if (edge.travel == (backward ? Travel::Forward : Travel::Backward)) continue;
-      write_type(writer, edge, type, backward, first);
-      first = false;
-    }
+    if (load_of(edge.segment, type)) write_type(writer, edge, type);
   }
   writer.close();
   writer.close();

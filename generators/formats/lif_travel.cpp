@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "core/geometry/rotation.hpp"
 #include "generators/formats/heading.hpp"
 #include "generators/formats/lif_types.hpp"
 #include "generators/text/name_list.hpp"
@@ -26,6 +27,13 @@ std::optional<bool> is_forward(double rad) {
   const auto whole = static_cast<std::int64_t>(turns + 0.5);
   if (std::abs(turns - static_cast<double>(whole)) >= kHalfTurns) return std::nullopt;
   return whole % 2 == 0;
+}
+
+// The same of an orientation on the map, along a straight edge.
+std::optional<bool> is_forward_on_map(double rad, const Vec2& straight) {
+  const Vec2 nose = rotated(straight.normalized(), unit_vector(-rad));
+  if (std::abs(nose.y()) >= kHalfTurns * std::numbers::pi) return std::nullopt;
+  return nose.x() > 0.0;
 }
 
 std::optional<double> angle_of(const JsonReader& reader) {
@@ -79,14 +87,16 @@ std::vector<double> LifTravel::orientations(const JsonReader& rule, const std::s
   return found_rad;
 }
 
-bool LifTravel::add(const std::vector<JsonReader>& rules, Segment& segment) {
+bool LifTravel::add(const std::vector<JsonReader>& rules, const std::optional<Vec2>& straight, Segment& segment) {
   std::map<std::vector<std::string>, std::set<bool>> ways;  // by type: whether forward
   bool forward = false, backward = false, sideways = false, also_sideways = false;
   for (const auto& rule : rules) {
     const bool tangential = word_of(rule, "orientationType", kReferences, kReferences[0]) == kReferences[0];
     bool along = false, aside = false;
     for (const double rad : orientations(rule, segment.name)) {
-      const auto nose_first = tangential ? is_forward(rad) : std::nullopt;
+      const auto nose_first = tangential ? is_forward(rad)
+                              : straight ? is_forward_on_map(rad, *straight)
+                                         : std::nullopt;
       (nose_first ? along : aside) = true;
       if (!nose_first) continue;
       (*nose_first ? forward : backward) = true;
@@ -112,7 +122,8 @@ std::vector<std::string> LifTravel::sentences() const {
     if (count > 0) found.push_back(fmt::vformat(sentence, fmt::make_format_args(count, list)));
   };
   tell(sideways_,
-       "{0} edges turn the AGV sideways or by a heading on the map ({1}); sideways travel is not modelled: here AGVs "
+       "{0} edges turn the AGV sideways, or by a heading on the map along a curve ({1}); sideways travel is not "
+       "modelled: here AGVs "
        "drive them nose first");
   tell(also_sideways_,
        "{0} edges let AGVs drive sideways, too ({1}); sideways travel is not modelled: here AGVs drive them forward or "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,10 @@ namespace fleetproof {
 // (vehicleOrientation), its successor a list (vehicleOrientations, mobileRobotOrientations) from which one is chosen.
 class LifTravel {
  public:
-  // Sets Segment::travel. Returns whether AGVs drive the edge sideways alone, so that here they drive it nose first.
-  // Throws InputError if an orientation of LIF 1.0 is no angle, or relative to nothing that LIF knows.
-  bool add(const std::vector<JsonReader>& rules, Segment& segment);
+  // Sets Segment::travel. `straight`: the way of an edge without a curve, for orientations on the map (GLOBAL). Returns
+  // whether AGVs drive the edge sideways alone, so that here they drive it nose first. Throws InputError if an
+  // orientation of LIF 1.0 is no angle, or relative to nothing that LIF knows.
+  bool add(const std::vector<JsonReader>& rules, const std::optional<Vec2>& straight, Segment& segment);
 
   // What was guessed or left out, one sentence for each kind of thing.
   std::vector<std::string> sentences() const;

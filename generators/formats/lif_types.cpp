@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/base/catalogue.hpp"
 #include "generators/text/name_list.hpp"
@@ -56,24 +57,28 @@ std::string word_of(const JsonReader& rule, std::string_view key, std::span<cons
 }
 
 std::vector<JsonReader> rules_by_type(const JsonReader& element) {
-  for (const char* what : {"Node", "Edge"}) {
-    const auto found =
-        either(element, fmt::format("vehicleType{}Properties", what), fmt::format("mobileRobotType{}Properties", what));
-    if (found) return found->items();
+  std::vector<JsonReader> rules;
+  for (const char* key : {"vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties", "vehicleTypeEdgeProperties",
+                          "mobileRobotTypeEdgeProperties"}) {
+    if (const auto list = element.find(key)) std::ranges::copy(list->items(), std::back_inserter(rules));
   }
-  return {};
+  return rules;
 }
 
 std::vector<std::string> types_of(const JsonReader& rule) {
   if (const auto id = either(rule, "vehicleTypeId", "mobileRobotTypeId")) return {id->text()};
   std::vector<std::string> names;
-  if (const auto robots = rule.find("mobileRobotTypes")) {
-    for (const auto& robot : robots->items()) {
-      names.emplace_back();
-      robot.read("seriesName", names.back());
-    }
+  if (const auto ids = either(rule, "vehicleTypeIds", "mobileRobotTypeIds")) {
+    for (const auto& id : ids->items()) names.push_back(id.text());
+    return names;
   }
-  if (names.empty()) names.emplace_back();
+  const auto robots = rule.find("mobileRobotTypes");
+  if (!robots) return {""};
+  for (const auto& robot : robots->items()) {
+    std::string manufacturer;
+    robot.read("manufacturer", manufacturer);
+    names.push_back((manufacturer.empty() ? "" : manufacturer + ".") + robot.at("seriesName").text());
+  }
   return names;
 }
 

@@ -20,7 +20,8 @@ std::string word_of(const JsonReader& rule, std::string_view key, std::span<cons
 // What a node or edge of LIF says for each type of vehicle; empty if it says nothing.
 std::vector<JsonReader> rules_by_type(const JsonReader& element);
 
-// The types for which one of these rules holds. An empty name: every type.
+// The types for which one of these rules holds. An empty name: every type. The successor of LIF 1.0 lists types by
+// manufacturer and series, of which "MANUFACTURER.SERIES" is made, as LIF 1.0 suggests for its identifiers.
 std::vector<std::string> types_of(const JsonReader& rule);
 
 // Who may drive the edges of a LIF layout, and with which loads. A type needs a rule at the edge and at both of its

@@ -14,6 +14,7 @@ struct Nurbs {
   std::vector<double> knots;
   std::vector<Vec2> points_m;
   std::vector<double> weights;  // one per point
+  friend bool operator==(const Nurbs&, const Nurbs&) = default;
 };
 
 // What is wrong with the numbers of a curve, with a remedy; empty if the curve is valid.

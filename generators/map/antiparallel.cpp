@@ -13,6 +13,11 @@
 namespace fleetproof {
 namespace {
 
+bool is_same(const Segment& a, const Segment& b) {
+  return std::ranges::equal(a.control_points_m, b.control_points_m,
+                            [](const Vec2& p, const Vec2& q) { return (p - q).norm() <= kSameTrack_m; });
+}
+
 bool is_mirrored(const Segment& there, const Segment& back) {
   return std::ranges::equal(there.control_points_m.begin(), there.control_points_m.end(),
                             back.control_points_m.rbegin(), back.control_points_m.rend(),
@@ -28,6 +33,21 @@ void join(Segment& there, const Segment& back) {
   std::vector<std::uint32_t> blocks;
   std::ranges::set_union(there.blocks, back.blocks, std::back_inserter(blocks));
   there.blocks = std::move(blocks);
+}
+
+bool on_one_track(const Segment& a, const Segment& b) { return a.from == b.from ? is_same(a, b) : is_mirrored(a, b); }
+
+std::vector<std::string> names_on_a_track_again(const Layout& layout) {
+  std::vector<std::string> names;
+  std::multimap<std::pair<std::size_t, std::size_t>, const Segment*> before;  // by their ends
+  for (const Segment& segment : layout.segments) {
+    const auto [low, high] = std::minmax({segment.from.index(), segment.to.index()});
+    const auto [begin, end] = before.equal_range({low, high});
+    if (std::any_of(begin, end, [&](const auto& entry) { return on_one_track(*entry.second, segment); }))
+      names.push_back(segment.name);
+    before.emplace(std::pair(low, high), &segment);
+  }
+  return names;
 }
 
 }  // namespace
@@ -58,12 +78,16 @@ std::vector<std::string> merge_antiparallel(Layout& layout) {
 
 void settle_twins(Layout& layout, TwinPaths twins, std::string_view source, std::vector<std::string>& warnings) {
   if (twins == TwinPaths::Keep) return;
-  const auto names = merge_antiparallel(layout);
-  if (names.empty()) return;
-  warnings.push_back(
-      fmt::format("{}: {} pairs of one-way segments there and back on one track became two-way segments "
-                  "({})",
-                  source, names.size(), name_list(names)));
+  if (const auto names = merge_antiparallel(layout); !names.empty())
+    warnings.push_back(
+        fmt::format("{}: {} pairs of one-way segments there and back on one track became two-way segments "
+                    "({})",
+                    source, names.size(), name_list(names)));
+  if (const auto names = names_on_a_track_again(layout); !names.empty())
+    warnings.push_back(fmt::format(
+        "{}: {} segments lie on the track of another one and stay beside it, because both lead the same way, one is "
+        "two-way, or other AGVs may drive it ({})",
+        source, names.size(), name_list(names)));
 }
 
 }  // namespace fleetproof

@@ -16,7 +16,8 @@ enum class TwinPaths : std::uint8_t { Keep, Merge };
 // of these segments.
 std::vector<std::string> merge_antiparallel(Layout& layout);
 
-// The same if `twins` asks for it. If there are such segments, `warnings` receives a sentence on them.
+// The same if `twins` asks for it. `warnings` receives a sentence on such segments, and one on segments that lie on one
+// track with another one and stay: both lead the same way, one is bidirectional, or other AGVs may drive it.
 void settle_twins(Layout& layout, TwinPaths twins, std::string_view source, std::vector<std::string>& warnings);
 
 }  // namespace fleetproof

@@ -43,5 +43,26 @@ TEST(Antiparallel, TheSegmentBelongsToTheBlocksOfBoth) {
   EXPECT_EQ(layout.segments[0].blocks, (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
+TEST(Antiparallel, WhatStaysOnATrackIsTold) {
+  const auto sentences = [](const Layout& given) {
+    Layout layout = given;
+    std::vector<std::string> told;
+    settle_twins(layout, TwinPaths::Merge, "file", told);
+    return told;
+  };
+  const std::string stays =
+      "file: 1 segments lie on the track of another one and stay beside it, because both lead the same way, one is "
+      "two-way, or other AGVs may drive it (\"back\")";
+  Layout permitted = twins(), two_way = twins(), same_way = twins(), apart = twins();
+  permitted.segments[1].permissions = {{"fork", LoadState::Any}};
+  two_way.segments[0].bidirectional = true;
+  std::swap(same_way.segments[1].from, same_way.segments[1].to);
+  apart.segments[0].bidirectional = true;
+  apart.segments[1].control_points_m = {{4.0, 1.0}, {1.0, 1.0}};
+  for (const Layout& layout : {permitted, two_way, same_way}) EXPECT_EQ(sentences(layout), std::vector{stays});
+  EXPECT_TRUE(sentences(apart).empty());
+  EXPECT_EQ(sentences(twins()).size(), 1U) << "only that they became one";
+}
+
 }  // namespace
 }  // namespace fleetproof

@@ -12,7 +12,7 @@ namespace fleetproof {
 namespace {
 
 const std::string kFile = R"({"layouts": [{"layoutId": "L",
-"nodes": [{"nodeId": "a", "nodePosition": {"x": 0, "y": 0}, "vehicleTypeNodeProperties": [{"at": "a"}]},
+"nodes": [{"nodeId": "a", "nodePosition": {"x": 0, "y": 1}, "vehicleTypeNodeProperties": [{"at": "a"}]},
 {"nodeId": "b", "nodePosition": {"x": 6, "y": 0}},
 {"nodeId": "c", "nodePosition": {"x": 9, "y": 3}}],
 "edges": [{"edgeId": "ab", "startNodeId": "a", "endNodeId": "b", "vehicleTypeEdgeProperties": [{"at": "ab"}]},
@@ -55,6 +55,9 @@ const Thing kThings[] = {
     {kEdge, R"("edgeName": "n")"},
     {kEdge, R"("edgeDescription": "n")"},
     {kEdgeType, R"("vehicleTypeId": "v")"},
+    {kNodeType, R"("vehicleTypeIds": ["v"])"},
+    {kEdgeType, R"("vehicleTypeIds": ["v", "w"])"},
+    {kEdgeType, R"("mobileRobotTypeIds": [])"},
     {kEdgeType, R"("vehicleOrientation": 3.14)"},
     {kEdgeType, R"("vehicleOrientation": 1)"},
     {kEdgeType, R"("orientationType": "GLOBAL")"},
@@ -112,7 +115,7 @@ const Thing kThings[] = {
     {kNode, R"("traffic": {"light": 1})"},
     {kEdgeType, R"("traffic": 1)"},
     {kStation, R"("traffic": 1)"},
-    {R"("x": 0, "y": 0)", R"("z": 1)"},
+    {R"("x": 0, "y": 1)", R"("z": 1)"},
 };
 
 struct Import {

@@ -81,6 +81,45 @@ TEST(LifRules, ATypeNeedsARuleAtTheEdgeAndAtBothNodes) {
   EXPECT_THAT(import({"", "", "", "", "", ""}).sentences, Not(HasSubstr("have no rule"))) << "a file without types";
 }
 
+// LIF 2.0 lists types: by identifiers, or by manufacturer and series.
+TEST(LifRules, OneRuleCanBeForSeveralTypes) {
+  const std::string both = R"({"vehicleTypeIds": ["fork", "tug"]})", tug = R"({"vehicleTypeIds": ["tug"]})";
+  const auto plant = import({both, both, both, tug, both, R"({"vehicleTypeIds": []})"});
+  ASSERT_EQ(plant.layout.segments.size(), 2U);
+  EXPECT_THAT(permissions(plant, 0), ElementsAre("tug:any"));
+  EXPECT_THAT(permissions(plant, 1), IsEmpty());
+  EXPECT_THAT(plant.sentences, HasSubstr("no AGV may drive edge \"cb\"")) << "a rule for no type is for nobody";
+
+  const auto robot = [](const std::string& manufacturer) {
+    return R"({"mobileRobotTypes": [{"manufacturer": ")" + manufacturer + R"(", "seriesName": "A"}]})";
+  };
+  const auto two = robot("m") + ", " + robot("k");
+  EXPECT_THAT(permissions(import({two, two, two, robot("k"), two, two}), 0), ElementsAre("k.A:any"))
+      << "a series is unique in what its manufacturer makes";
+}
+
+// All types follow one curve here.
+TEST(LifRules, ATrajectoryForSomeTypesIsTold) {
+  const auto curved = [](const char* type, const char* y) {
+    return fmt::format(R"({{"vehicleTypeId": "{}", "trajectory": {{"degree": 2, "knotVector": [0, 0, 0, 1, 1, 1],
+"controlPoints": [{{"x": 0, "y": 0}}, {{"x": 2, "y": {}}}, {{"x": 5, "y": 0}}]}}}})",
+                       type, y);
+  };
+  const auto sentences = [&](const std::string& rules) {
+    return import({kBoth, kBoth, kBoth, rules, kBoth, kBoth}).sentences;
+  };
+  const std::string told = "1 edges have another trajectory for some types of vehicles, or none (\"ab\")";
+  EXPECT_THAT(sentences(curved("fork", "1") + ", " + kTug), HasSubstr(told));
+  EXPECT_THAT(sentences(curved("fork", "1") + ", " + curved("tug", "2")), HasSubstr(told));
+  EXPECT_THAT(sentences(curved("fork", "1") + ", " + curved("tug", "1")), Not(HasSubstr("trajectory")));
+}
+
+TEST(LifRules, AnActionOnAnEdgeIsForItsEnd) {
+  const auto plant = import({.ab = R"({"actions": [{"actionType": "pick"}]})"});
+  EXPECT_EQ(plant.layout.stations[1].purposes, Purposes(Purpose::Routing) | Purpose::Storage);
+  EXPECT_THAT(plant.sentences, HasSubstr("1 edges have actions to pick, drop or charge (\"ab\"); here their end"));
+}
+
 TEST(LifRules, ANodeMayRestrictLoads) {
   const std::string empty = R"({"vehicleTypeId": "fork", "loadRestriction": {"unloaded": true, "loaded": false}})";
   const auto plant = import({.a = kFork, .b = kFork, .c = empty, .ab = kFork, .bc = kFork, .cb = kFork});
@@ -237,6 +276,24 @@ TEST(LifLevels, OneOfSeveralLayoutsIsChosen) {
               AllOf(HasSubstr("there are 2 layouts; choose one by its id or level (--level"), HasSubstr(known)));
   EXPECT_THAT(independent::refusal(name_of_first, "cellar"),
               HasSubstr("no layouts have the id or level \"cellar\"; choose one of: " + known));
+}
+
+TEST(LifLevels, AnIdCountsBeforeALevel) {
+  std::string text = kFloors;
+  text.replace(text.find("\"hall\""), 6, "\"1\"");
+  std::vector<std::string> warnings;
+  EXPECT_EQ(parse_lif(text, "l.json", warnings, {TwinPaths::Merge, {}, "1"}).stations[0].name, "a");
+}
+
+TEST(LifLevels, LayoutsBesideOriginsCountToo) {
+  const std::string text = R"({"origins": [)" + kFloors + "], " + kFloors.substr(1);
+  std::vector<std::string> warnings;
+  EXPECT_THAT(independent::refusal(
+                  [&](const std::string& level) {
+                    return parse_lif(text, "l.json", warnings, {TwinPaths::Merge, {}, level});
+                  },
+                  ""),
+              HasSubstr("there are 4 layouts"));
 }
 
 }  // namespace

@@ -159,11 +159,6 @@ TEST(Lif, OneTypeBackwardAndOneForwardIsEitherWay) {
       sample(", \"vehicleOrientation\": 3.14159}, {\"vehicleTypeId\": \"w\"", ", \"vehicleOrientation\": -3.1416"));
   EXPECT_EQ(read.layout.segments[0].travel, Travel::Either);
   EXPECT_EQ(read.layout.segments[0].back_travel, Travel::Backward);
-  const auto global = import(sample(", \"orientationType\": \"GLOBAL\", \"vehicleOrientation\": 3.14159"));
-  EXPECT_EQ(global.layout.segments[0].travel, Travel::Forward);
-  EXPECT_TRUE(std::ranges::any_of(global.warnings, [](const std::string& warning) {
-    return warning.find("sideways travel is not modelled") != std::string::npos;
-  }));
 }
 
 TEST(Lif, EachDirectionHasItsSpeedLimitInEitherSpelling) {

@@ -82,14 +82,28 @@ TEST(LifTravel, SidewaysTravelIsNamed) {
   const auto alone = listed("[1.5708, -1.5708]");
   EXPECT_EQ(alone.travel, Travel::Forward);
   EXPECT_THAT(alone.sentences,
-              HasSubstr("l.json:1: 1 edges turn the AGV sideways or by a heading on the map (\"ab\")"));
+              HasSubstr("l.json:1: 1 edges turn the AGV sideways, or by a heading on the map along a curve (\"ab\")"));
   const auto also = listed("[1.5708, 3.14159]");
   EXPECT_EQ(also.travel, Travel::Backward);
   EXPECT_THAT(also.sentences, HasSubstr("1 edges let AGVs drive sideways, too (\"ab\")"));
   EXPECT_THAT(also.sentences, Not(HasSubstr("nose first")));
-  const auto global = listed("[3.14159]", R"(, "orientationType": "GLOBAL")");
-  EXPECT_EQ(global.travel, Travel::Forward);
-  EXPECT_THAT(global.sentences, HasSubstr("nose first"));
+}
+
+// The edge leads along the x axis of the map.
+TEST(LifTravel, AHeadingOnTheMapIsAWayOfTravelAlongAStraightEdge) {
+  const std::string on_map = R"(, "orientationType": "GLOBAL")";
+  const auto back = listed("[3.14159]", on_map);
+  EXPECT_EQ(back.travel, Travel::Backward);
+  EXPECT_EQ(back.sentences, "");
+  EXPECT_EQ(listed("[0.0, -3.14159]", on_map).travel, Travel::Either);
+  EXPECT_EQ(listed("[6.2832]", on_map).travel, Travel::Forward);
+  const auto aside = listed("[1.5708]", on_map);
+  EXPECT_EQ(aside.travel, Travel::Forward);
+  EXPECT_THAT(aside.sentences, HasSubstr("nose first"));
+  const auto curve = listed("[3.14159]", on_map + R"(, "trajectory": {"degree": 2, "knotVector": [0, 0, 0, 1, 1, 1],
+"controlPoints": [{"x": 0, "y": 0}, {"x": 2, "y": 1}, {"x": 5, "y": 0}]})");
+  EXPECT_EQ(curve.travel, Travel::Forward);
+  EXPECT_THAT(curve.sentences, HasSubstr("along a curve (\"ab\")"));
 }
 
 TEST(LifTravel, TypesThatDifferAreTold) {
