@@ -8,6 +8,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "generators/formats/factsheet.hpp"
 #include "generators/formats/importer.hpp"
 #include "generators/formats/opentcs_vehicles.hpp"
@@ -51,9 +52,16 @@ ImportChoice choice_of(const ImportWords& words) {
 }
 
 // The vehicles of the model, or of the factsheet beside a layout.
-std::vector<ForeignVehicle> read_vehicles(const ImportWords& words, std::vector<std::string>& warnings) {
+std::vector<ForeignVehicle> read_vehicles(const ImportWords& words, const Layout& layout,
+                                          std::vector<std::string>& warnings) {
   if (words.format == "opentcs") return read_opentcs_vehicles(words.file, warnings);
-  return {read_factsheet(words.factsheet, warnings)};
+  auto vehicle = read_factsheet(words.factsheet, warnings);
+  const auto name = name_as_permitted(vehicle.type.name, layout);
+  if (name != vehicle.type.name)
+    warnings.push_back(fmt::format("{}: the series {} is called {}, as the permissions of the layout call it",
+                                   words.factsheet, in_quotes(vehicle.type.name), in_quotes(name)));
+  vehicle.type.name = name;
+  return {vehicle};
 }
 
 void expect_vehicles(const ImportWords& words) {
@@ -65,9 +73,9 @@ void expect_vehicles(const ImportWords& words) {
     throw InputError("--vehicles", "LIF has no vehicles; name their VDA 5050 factsheet with --factsheet");
 }
 
-void write_vehicles(const ImportWords& words) {
+void write_vehicles(const ImportWords& words, const Layout& layout) {
   std::vector<std::string> warnings;
-  const auto vehicles = read_vehicles(words, warnings);
+  const auto vehicles = read_vehicles(words, layout, warnings);
   for (const std::string& warning : warnings) talk("warning: {}\n", warning);
   const std::string& source = words.factsheet.empty() ? words.file : words.factsheet;
   write_whole({words.vehicles, "--vehicles", OutputKind::Fleet}, fleet_text(vehicles, source));
@@ -94,7 +102,7 @@ int import_file(ImportWords words) {
   talk("{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(), layout.segments.size(),
        warnings.size());
   talk("purposes: {}\nreachability: {}\n", purposes_summary(layout), reachability_text(layout));
-  if (!words.vehicles.empty()) write_vehicles(words);
+  if (!words.vehicles.empty()) write_vehicles(words, layout);
   if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
   put_layout(layout, words.out);
   return kDemonstrated;

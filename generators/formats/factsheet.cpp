@@ -86,6 +86,8 @@ class FactsheetReader {
   void take(const JsonReader& size, const Parameter& parameter) {
     const auto found = either_spelling(size, parameter.old_key, parameter.new_key);
     double& target = parameter.of(vehicle_.type);
+    const bool may_follow = parameter.old_key == "length" || parameter.old_key == "width";  // from an envelope
+    if (!found && may_follow) return;
     if (!found)
       return warn(size, fmt::format("gives no {}; {} stays {:g}", parameter.new_key, parameter.field, target));
     vehicle_.give(parameter.field, target, number_within(*found, parameter.low, parameter.high));
@@ -110,9 +112,23 @@ class FactsheetReader {
     const double ahead_m = (box.low_m.x() + box.high_m.x()) / 2.0;
     const double long_m = box.high_m.x() - box.low_m.x(),
                  wide_m = 2.0 * std::max(std::abs(box.low_m.y()), std::abs(box.high_m.y()));
+    if (box.high_m.y() + box.low_m.y() != 0.0)
+      warn(
+          *points,
+          fmt::format("the envelope reaches {:g} m to the left and {:g} m to the right; here it reaches {:g} m to both",
+                      box.high_m.y(), -box.low_m.y(), wide_m / 2.0));
+    if (!std::ranges::all_of(points->items(), [&](const JsonReader& point) {
+          return is_corner(box, Vec2(coordinate(point, "x"), coordinate(point, "y")));
+        }))
+      warn(*points, "the envelope is no rectangle; the rectangle around it counts");
     widen(*points, "length_m", length_m, long_m);
     widen(*points, "width_m", width_m, wide_m);
     if (std::abs(ahead_m) > kSmallestBody_m) vehicle_.give("centre_ahead_m", centre_ahead_m, ahead_m);
+  }
+
+  static bool is_corner(const Box& box, const Vec2& point) {
+    return (point.x() == box.low_m.x() || point.x() == box.high_m.x()) &&
+           (point.y() == box.low_m.y() || point.y() == box.high_m.y());
   }
 
   void widen(const JsonReader& points, std::string_view key, double& size_m, double envelope_m) {
@@ -129,6 +145,27 @@ class FactsheetReader {
     const JsonReader loads = root_.at(kLoads);
     for (const auto& inner : loads.value().keys) {
       if (inner != "loadSets") things.add(kOther, loads.at(inner).place(), fmt::format("{}.{}", kLoads, inner));
+    }
+  }
+
+  // What the first envelope says beside the coordinates of its corners.
+  void note_envelope(const JsonReader& list, LeftOutThings& things) {
+    const auto all = list.items();
+    if (all.empty()) return;
+    for (const auto& key : all[0].value().keys) {
+      if (key == "polygonPoints" || key == "vertices") {
+        note_coordinates(all[0].at(key), things);
+      } else {
+        things.add(kOther, all[0].at(key).place(), "envelopes2d." + key);
+      }
+    }
+  }
+
+  void note_coordinates(const JsonReader& points, LeftOutThings& things) {
+    for (const auto& point : points.items()) {
+      for (const auto& key : point.value().keys) {
+        if (key != "x" && key != "y") things.add(kOther, point.at(key).place(), "envelopes2d.polygonPoints." + key);
+      }
     }
   }
 
@@ -152,7 +189,11 @@ class FactsheetReader {
       const auto geometry = root_.find(key);
       if (!geometry) continue;
       for (const auto& inner : geometry->value().keys) {
-        if (inner != "envelopes2d") things.add(kOther, geometry->at(inner).place(), fmt::format("{}.{}", key, inner));
+        if (inner == "envelopes2d") {
+          note_envelope(geometry->at(inner), things);
+        } else {
+          things.add(kOther, geometry->at(inner).place(), fmt::format("{}.{}", key, inner));
+        }
       }
     }
     things.tell(warnings_);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "core/base/outside_text.hpp"
@@ -98,6 +99,17 @@ class LoadSets {
     }
     for (const auto& key : set.value().keys) {
       if (std::ranges::find(kRead, key) == std::end(kRead)) things_.add(kOther, set.at(key).place(), key);
+    }
+    note_others(set, "loadDimensions", {"length", "width"});
+    note_others(set, "boundingBoxReference", {"x", "y", "theta"});
+  }
+
+  void note_others(const JsonReader& set, std::string_view key, std::initializer_list<std::string_view> read) {
+    const auto part = set.find(key);
+    if (!part) return;
+    for (const auto& inner : part->value().keys) {
+      if (std::ranges::find(read, inner) == read.end())
+        things_.add(kOther, part->at(inner).place(), fmt::format("{}.{}", key, inner));
     }
   }
 

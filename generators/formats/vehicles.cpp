@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/base/outside_text.hpp"
 #include "core/scenario/vehicle_fields.hpp"
@@ -45,6 +46,17 @@ std::vector<ForeignVehicle> joined(const std::vector<ForeignVehicle>& vehicles) 
     }
   }
   return types;
+}
+
+std::string name_as_permitted(const std::string& series, const Layout& layout) {
+  std::set<std::string> alike;
+  for (const Segment& segment : layout.segments) {
+    for (const Permission& permission : segment.permissions) {
+      if (permission.vehicle_type == series) return series;
+      if (permission.vehicle_type.ends_with("." + series)) alike.insert(permission.vehicle_type);
+    }
+  }
+  return alike.size() == 1 ? *alike.begin() : series;
 }
 
 std::string fleet_text(const std::vector<ForeignVehicle>& vehicles, std::string_view source) {

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/scenario/layout.hpp"
 #include "core/scenario/vehicle_type.hpp"
 
 namespace fleetproof {
@@ -22,6 +23,10 @@ struct ForeignVehicle {
 
 // Joins types that differ in nothing but their names. The first name stays.
 std::vector<ForeignVehicle> joined(const std::vector<ForeignVehicle>& vehicles);
+
+// What the permissions of a layout call a series of vehicles: "MANUFACTURER.SERIES" if they name one type with such an
+// end and none that is the series alone; else the series.
+std::string name_as_permitted(const std::string& series, const Layout& layout);
 
 // As [[vehicle]] tables of a campaign file, with the fields that the file gave. `source`: the name of that file.
 std::string fleet_text(const std::vector<ForeignVehicle>& vehicles, std::string_view source);

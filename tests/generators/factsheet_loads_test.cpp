@@ -29,9 +29,17 @@ Imported with_loads(const std::string& sets) {
   return {vehicle.type, fleet_text({vehicle}, "f.json"), fmt::format("{}", fmt::join(warnings, "\n"))};
 }
 
+TEST(FactsheetLoads, HeightsAreToldAsLeftOut) {
+  EXPECT_THAT(with_loads(R"([{"boundingBoxReference": {"x": 0.5, "y": 0, "z": 1},
+    "loadDimensions": {"length": 2, "width": 0.5, "height": 1}}])")
+                  .sentences,
+              HasSubstr("2 kinds of details of load sets are left out (\"loadDimensions.height\", "
+                        "\"boundingBoxReference.z\")"));
+}
+
 TEST(FactsheetLoads, ALoadMakesTheBodyLargerAndTheDriveSlower) {
-  const auto loaded = with_loads(R"([{"setName": "pallet", "boundingBoxReference": {"x": 0.5, "y": 0, "z": 1},
-    "loadDimensions": {"length": 2.4, "width": 1.0, "height": 1}, "agvSpeedLimit": 1.5, "agvAccelerationLimit": 0.4,
+  const auto loaded = with_loads(R"([{"setName": "pallet", "boundingBoxReference": {"x": 0.5, "y": 0},
+    "loadDimensions": {"length": 2.4, "width": 1.0}, "agvSpeedLimit": 1.5, "agvAccelerationLimit": 0.4,
     "agvDecelerationLimit": 0.8, "pickTime": 7, "dropTime": 6.5}])");
   EXPECT_NEAR(loaded.type.loaded.extra_length_m, 0.4, 1e-9);
   EXPECT_NEAR(loaded.type.loaded.extra_width_m, 0.2, 1e-9);

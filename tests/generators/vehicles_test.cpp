@@ -13,6 +13,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 struct Fleet {
   std::string text, sentences;
@@ -106,8 +107,8 @@ TEST(Factsheet, IsAVehicle) {
             "centre_ahead_m = 0.5\nspeed_mps = 1.8\nacceleration_mps2 = 0.6\ndeceleration_mps2 = 0.9\n");
   EXPECT_THAT(fleet.sentences,
               AllOf(HasSubstr("f.json:2: gives no maximumAngularSpeed; turn_speed_radps stays 1"),
-                    HasSubstr("4 parts of the factsheet are left out (\"headerId\", \"typeSpecification.agvClass\", "
-                              "\"physicalParameters.speedMin\" and 1 more)")));
+                    HasSubstr("5 parts of the factsheet are left out (\"headerId\", \"typeSpecification.agvClass\", "
+                              "\"physicalParameters.speedMin\" and 2 more)")));
 }
 
 TEST(Factsheet, HasTheSpellingOfVersion3) {
@@ -124,6 +125,57 @@ TEST(Factsheet, TheLargerOfBodyAndEnvelopeCounts) {
   const auto fleet = import_sheet(text.replace(text.find("\"y\": 0.4"), 8, "\"y\": 0.6"));
   EXPECT_THAT(fleet.text, HasSubstr("width_m = 1.2\n"));
   EXPECT_THAT(fleet.sentences, HasSubstr("width_m is 0.8 m, and the envelope has 1.2 m; the larger counts"));
+}
+
+TEST(Factsheet, OneSideAndOtherShapesAreTold) {
+  auto text = kSheet;
+  text.replace(text.find("\"width\": 0.8,\n\"length\": 2.0, "), 28, "");
+  const auto both = [&](const std::string& from, const std::string& to) {
+    auto other = text;
+    for (auto at = other.find(from); at != std::string::npos; at = other.find(from, at + to.size()))
+      other.replace(at, from.size(), to);
+    return import_sheet(other);
+  };
+  EXPECT_THAT(import_sheet(text).text, HasSubstr("length_m = 2\nwidth_m = 0.8\n"));
+  EXPECT_THAT(import_sheet(text).sentences, AllOf(Not(HasSubstr("length_m")), Not(HasSubstr("width_m"))))
+      << "the envelope gives them";
+  const auto left = both("\"y\": 0.4", "\"y\": 0.9");
+  EXPECT_THAT(left.text, HasSubstr("width_m = 1.8\n"));
+  EXPECT_THAT(
+      left.sentences,
+      HasSubstr("the envelope reaches 0.9 m to the left and 0.4 m to the right; here it reaches 0.9 m to both"));
+  EXPECT_THAT(left.sentences, Not(HasSubstr("no rectangle")));
+  EXPECT_THAT(both(R"({"x": 1.5, "y": 0.4})", R"({"x": 1.5, "y": 0.4}, {"x": 0.5, "y": 0.4})").sentences,
+              HasSubstr("the envelope is no rectangle; the rectangle around it counts"));
+}
+
+TEST(Factsheet, NothingIsDroppedSilently) {
+  const auto with = [&](const std::string& before, const std::string& key) {
+    auto text = kSheet;
+    return import_sheet(text.insert(text.find(before), key + ", ")).sentences;
+  };
+  const auto plain = import_sheet(kSheet).sentences;
+  for (const auto& [before, key] :
+       std::vector<std::pair<std::string, std::string>>{{"\"headerId\"", R"("protocolLimits": {})"},
+                                                        {"\"seriesName\"", R"("seriesDescription": "d")"},
+                                                        {"\"speedMin\"", R"("angularSpeedMin": 1)"},
+                                                        {"\"envelopes2d\"", R"("wheelDefinitions": [])"},
+                                                        {"\"set\"", R"("description": "d")"},
+                                                        {"\"x\": -0.5, \"y\": -0.4", R"("z": 1)"}})
+    EXPECT_NE(with(before, key), plain) << key;
+}
+
+TEST(Factsheet, IsCalledAsThePermissionsOfALayoutCallIt) {
+  Layout layout;
+  layout.segments.resize(2);
+  EXPECT_EQ(name_as_permitted("S", layout), "S");
+  layout.segments[0].permissions = {{"m.S", LoadState::Any}};
+  EXPECT_EQ(name_as_permitted("S", layout), "m.S");
+  EXPECT_EQ(name_as_permitted("T", layout), "T");
+  layout.segments[1].permissions = {{"k.S", LoadState::Any}};
+  EXPECT_EQ(name_as_permitted("S", layout), "S") << "either may be meant";
+  layout.segments[1].permissions = {{"S", LoadState::Any}};
+  EXPECT_EQ(name_as_permitted("S", layout), "S");
 }
 
 TEST(Factsheet, EachMalformedValueHasOneError) {
