@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "campaign/cli/archive_name.hpp"
@@ -8,8 +10,10 @@
 #include "campaign/cli/sensitivity_summary.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "generators/text/text_file.hpp"
 #include "reports/sensitivity/sensitivity_section.hpp"
 #include "reports/wording.hpp"
 
@@ -70,6 +74,24 @@ std::vector<SeededSensitivity> measure(CampaignPlan plan, const AgentPrograms& p
   return measured;
 }
 
+void expect_each_once(const std::vector<std::string>& agents) {
+  for (auto agent = agents.begin(); agent != agents.end(); ++agent) {
+    if (std::find(agents.begin(), agent, *agent) != agent)
+      throw InputError("--agent", fmt::format("{} is given twice; name each agent once", in_quotes(*agent)));
+  }
+}
+
+// A measurement of some faults does not silently take the place of one of more.
+void keep_fuller_measurement(const std::string& path, const std::vector<std::string>& agents, std::string_view worlds) {
+  std::error_code none;
+  if (agents.empty() || !std::filesystem::is_regular_file(path, none)) return;
+  const auto kept = parse_sensitivity(read_text_file(path));
+  if (!kept || kept->worlds != worlds || kept->faults.size() <= agents.size()) return;
+  throw InputError(path, fmt::format("holds {} planted faults measured in these worlds, and --agent names {}; name "
+                                     "another file with --output, or remove this one",
+                                     kept->faults.size(), agents.size()));
+}
+
 int sensitivity(const SensitivityWords& words) {
   AgentPrograms programs;
   CampaignPlan plan = load_campaign(words.campaign, programs).plan;
@@ -82,9 +104,11 @@ int sensitivity(const SensitivityWords& words) {
   const std::uint64_t seeds = words.seeds.value_or(1);
   if (seeds < 1 || seeds > kMostSeeds)
     throw InputError("--seeds", fmt::format("is {}; it is 1 to {}", seeds, kMostSeeds));
-  const OutputFile file{words.out.empty() ? sensitivity_path(archive_name_of(plan.name)) : words.out, "--output",
-                        OutputKind::Sensitivity};
+  expect_each_once(options.agents);
+  const std::string usual = sensitivity_path(archive_name_of(plan.name));
+  const OutputFile file{words.out.empty() ? usual : words.out, "--output", OutputKind::Sensitivity};
   require_writable(file);
+  if (words.out.empty()) keep_fuller_measurement(usual, options.agents, worlds_of(plan_text(plan)));
   try_first_worlds(plan);
   const auto measured = measure(plan, programs, options, seeds);
   const SensitivityRecord record = summary_of(plan, programs, measured);
@@ -94,7 +118,8 @@ int sensitivity(const SensitivityWords& words) {
     put_text_of(record, measured);
   }
   write_whole(file, sensitivity_text(record));
-  talk("{}: a report of this campaign beside it tells this, too\n", shell_word(file.path));
+  talk("{}: {}\n", shell_word(file.path),
+       file.path == usual ? "a report of this campaign beside it tells this, too" : "written");
   return kDemonstrated;
 }
 

@@ -1,6 +1,7 @@
 #include "reports/sensitivity/sensitivity_record.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -66,6 +67,7 @@ SensitivityRecord record_from(const Json& json) {
   record.sound_runs = json.at("sound").at("runs");
   record.sound_violations = json.at("sound").at("violating_runs");
   for (const Json& fault : json.at("faults")) record.faults.push_back(fault_from(fault));
+  record.known_faults = json.value("known_faults", std::uint64_t{record.faults.size()});
   return record;
 }
 
@@ -95,6 +97,7 @@ std::string sensitivity_text(const SensitivityRecord& record) {
       {"runs", record.runs},
       {"sound",
        {{"agent", record.sound_agent}, {"runs", record.sound_runs}, {"violating_runs", record.sound_violations}}},
+      {"known_faults", record.known_faults},
       {"detected", record.detected()},
       {"faults", Json::array()}};
   for (const PlantedFault& fault : record.faults) json["faults"].push_back(json_of(fault, record));
@@ -115,8 +118,11 @@ std::string sensitivity_path(const std::string& archive_path) { return beside(ar
 
 SensitivityFile sensitivity_beside(const std::string& archive_path, const CampaignRecord& campaign) {
   const std::string path = sensitivity_path(archive_path);
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) return {};
+  if (!std::filesystem::is_regular_file(path, none)) return {{}, path + " is no file that can be read."};
   std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
+  if (!file) return {{}, path + " cannot be read."};
   auto record = parse_sensitivity({std::istreambuf_iterator<char>(file), {}});
   if (!record) return {{}, path + " is damaged, or of another version of fleetproof: measure again."};
   if (record->worlds != worlds_of(campaign.plan_json))

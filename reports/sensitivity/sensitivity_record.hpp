@@ -31,6 +31,7 @@ struct SensitivityRecord {
   std::string sound_agent;
   std::uint64_t sound_runs = 0, sound_violations = 0;  // runs, and runs with a violation
   std::vector<PlantedFault> faults;                    // in the order of the catalogue
+  std::uint64_t known_faults = 0;                      // in the catalogue; the others were not measured
 
   // In at least nine of ten seeds.
   bool detects(const PlantedFault& fault) const { return fault.seeds > 0 && 10 * fault.seeds >= 9 * seeds.size(); }

@@ -33,8 +33,9 @@ std::string measured_text(const SensitivityRecord& record) {
                             printable(record.sound_agent, 40), record.sound_violations, record.sound_runs);
   if (!std::ranges::all_of(record.faults, &PlantedFault::tried))
     text += fmt::format(
-        " A fault was never tried if its agent did the same as {} in each run: nothing in these worlds "
-        "asks for the rule that it breaks.",
+        " A fault was never tried if its agent did the same as {} in each run: nothing in these runs asked for the "
+        "rule "
+        "that it breaks.",
         printable(record.sound_agent, 40));
   return text;
 }
@@ -46,9 +47,12 @@ std::string sensitivity_sentence(const SensitivityRecord& record) {
   for (const PlantedFault& fault : record.faults) {
     if (!record.detects(fault)) (fault.tried ? missed : untried).push_back(printable(fault.agent, 40));
   }
-  return fmt::format("detects {} of {}{}{}", record.detected(), count_text(record.faults.size(), "planted fault"),
+  const std::uint64_t unmeasured = record.known_faults - std::min(record.known_faults, record.faults.size());
+  return fmt::format("detects {} of {} within {}{}{}{}", record.detected(),
+                     count_text(record.faults.size(), "planted fault"), count_text(record.runs, "run"),
                      missed.empty() ? "" : "; misses " + joined(missed),
-                     untried.empty() ? "" : "; never tries " + joined(untried));
+                     untried.empty() ? "" : "; never tries " + joined(untried),
+                     unmeasured == 0 ? "" : fmt::format("; {} more were not measured", unmeasured));
 }
 
 Table sensitivity_table(const SensitivityRecord& record) {

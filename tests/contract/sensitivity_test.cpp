@@ -102,14 +102,33 @@ TEST_F(Sensitive, SaysWhatItDetectsAndWhatItMisses) {
   write("a.toml", kCorridor);
   const auto finished = run("sensitivity a.toml --agent grants-for-good --agent wraps-at-256");
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_THAT(finished.out, HasSubstr("detects 1 of 2 planted faults; never tries wraps-at-256\n"));
+  EXPECT_THAT(finished.out, HasSubstr("detects 1 of 2 planted faults within 10 runs; never tries wraps-at-256; 32 more "
+                                      "were not measured\n"));
   EXPECT_THAT(finished.out, HasSubstr("  wraps-at-256             never tried: in each run the same as the sound"));
   EXPECT_THAT(finished.out, HasSubstr("(corridor-sidings, 4 AGVs, 40 %, 2 s"));
   EXPECT_THAT(finished.err, Not(HasSubstr("warning")));
-  const auto unknown = run("sensitivity a.toml --agent reckless");
+  const auto unknown = run("sensitivity a.toml --agent reckless -o other.json");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("\"reckless\" is not an agent with a planted fault"));
   EXPECT_EQ(run("sensitivity a.toml --runs 0").exit_code, 2);
+  EXPECT_THAT(run("sensitivity a.toml --agent stale-grant --agent stale-grant").err,
+              HasSubstr("\"stale-grant\" is given twice; name each agent once"));
+}
+
+TEST_F(Sensitive, FewerFaultsDoNotTakeThePlaceOfMore) {
+  write("a.toml", kCorridor);
+  const std::string two = "sensitivity a.toml --runs 1 --agent grants-for-good --agent wraps-at-256";
+  ASSERT_EQ(run(two).exit_code, 0);
+  const std::string kept = read(path("a.sensitivity.json"));
+  const auto refused = run("sensitivity a.toml --runs 1 --agent asks-once");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("a.sensitivity.json: holds 2 planted faults measured in these worlds, and --agent "
+                                     "names 1; name another file with --output, or remove this one"));
+  EXPECT_EQ(read(path("a.sensitivity.json")), kept);
+  const auto elsewhere = run("sensitivity a.toml --runs 1 --agent asks-once -o b.json");
+  EXPECT_EQ(elsewhere.exit_code, 0);
+  EXPECT_THAT(elsewhere.err, HasSubstr("b.json: written\n"));
+  EXPECT_EQ(run(two).exit_code, 0) << "as many as before";
 }
 
 TEST_F(Sensitive, SeveralSeedsGiveTheMedianOfEachAlone) {
@@ -163,7 +182,8 @@ TEST_F(Sensitive, StandsInTheReportOfThePlan) {
   EXPECT_THAT(run("report a.db").out, HasSubstr("Not measured."));
   ASSERT_EQ(run("sensitivity a.toml --agent grants-for-good --agent wraps-at-256 --seeds 2 --seed 7").exit_code, 0);
   const std::string page = run("report a.db --format markdown").out;
-  EXPECT_THAT(page, HasSubstr("a campaign in these worlds detects 1 of 2 planted faults; never tries wraps-at-256."));
+  EXPECT_THAT(page, HasSubstr("a campaign in these worlds detects 1 of 2 planted faults within 10 runs; never tries "
+                              "wraps-at-256; 32 more were not measured."));
   EXPECT_THAT(page, HasSubstr("grants all requests of an AGV once it has granted one"));
   EXPECT_THAT(page, HasSubstr("hull-lock had no violation in 20 runs. A fault was never tried if its agent did the"));
   const auto json = nlohmann::json::parse(run("report a.db --json").out)["sensitivity"];
@@ -184,6 +204,10 @@ TEST_F(Sensitive, OfOtherWorldsOrDamagedIsNotShown) {
     write("a.sensitivity.json", text);
     EXPECT_THAT(page(), HasSubstr("Not known: a.sensitivity.json is damaged")) << text;
   }
+  std::filesystem::remove(path("a.sensitivity.json"));
+  std::filesystem::create_directory(path("a.sensitivity.json"));
+  EXPECT_THAT(page(), HasSubstr("Not known: a.sensitivity.json is no file that can be read"));
+  std::filesystem::remove(path("a.sensitivity.json"));
   write("a.sensitivity.json", "my notes");
   const auto refused = run("sensitivity a.toml --runs 1 --agent asks-once");
   EXPECT_EQ(refused.exit_code, 2);

@@ -16,6 +16,7 @@ SensitivityRecord sample() {
   record.runs = 100;
   record.sound_agent = "sound";
   record.sound_runs = 300;
+  record.known_faults = 34;
   record.faults.resize(3);
   record.faults[0] = {"early", "releases early", 3, "contact", false, 12.5, 40, "grid, 2 AGVs", "crossing"};
   record.faults[1] = {"slow", "waits", 3, "stuck", true, {}, {}, "grid, 5 AGVs", ""};
@@ -30,15 +31,26 @@ TEST(SensitivityRecord, IsReadAsItWasWritten) {
   EXPECT_EQ(sensitivity_text(*read), text);
   EXPECT_EQ(read->faults[2].median_runs, 80.0);
   EXPECT_EQ(read->faults[2].most_runs, std::nullopt);
+  EXPECT_EQ(read->known_faults, 34U);
+}
+
+TEST(SensitivityRecord, SaysHowManyFaultsWereNotMeasured) {
+  SensitivityRecord record = sample();
+  EXPECT_EQ(sensitivity_sentence(record),
+            "detects 2 of 3 planted faults within 100 runs; misses rare; 31 more were not measured");
+  record.known_faults = 3;
+  EXPECT_EQ(sensitivity_sentence(record), "detects 2 of 3 planted faults within 100 runs; misses rare");
 }
 
 TEST(SensitivityRecord, AFaultIsDetectedByNineOfTenSeeds) {
   SensitivityRecord record = sample();
-  EXPECT_EQ(sensitivity_sentence(record), "detects 2 of 3 planted faults; misses rare");
+  EXPECT_EQ(sensitivity_sentence(record),
+            "detects 2 of 3 planted faults within 100 runs; misses rare; 31 more were not measured");
   record.seeds.resize(20, 1);
   for (PlantedFault& fault : record.faults) fault.seeds = 18;
   record.faults[1].seeds = 17;
-  EXPECT_EQ(sensitivity_sentence(record), "detects 2 of 3 planted faults; misses slow");
+  EXPECT_EQ(sensitivity_sentence(record),
+            "detects 2 of 3 planted faults within 100 runs; misses slow; 31 more were not measured");
 }
 
 TEST(SensitivityRecord, SaysWhatWasNeverTried) {
@@ -46,7 +58,8 @@ TEST(SensitivityRecord, SaysWhatWasNeverTried) {
   PlantedFault& fault = record.faults.emplace_back();
   fault.agent = "boots";
   fault.tried = false;
-  EXPECT_EQ(sensitivity_sentence(record), "detects 2 of 4 planted faults; misses rare; never tries boots");
+  EXPECT_EQ(sensitivity_sentence(record),
+            "detects 2 of 4 planted faults within 100 runs; misses rare; never tries boots; 30 more were not measured");
   EXPECT_EQ(sensitivity_table(record).rows[3][5], "never tried");
   const auto read = parse_sensitivity(sensitivity_text(record));
   ASSERT_TRUE(read);
