@@ -280,9 +280,13 @@ class ModelReader {
       warn(location, fmt::format("location {} is linked to no point; no AGV can serve it", in_quotes(name)));
     for (const auto link : location.children("link")) {
       auto& purposes = layout_.stations[station_in(link, "point").index()].purposes;
-      // The operations of a link are those of the type that are allowed there.
       const auto words = words_of(found->second, link.child("allowedOperation") ? link : found->second);
-      if (!locked) purposes = purposes | purpose_of(words, choice_.purposes).purposes;
+      const auto allowed = purpose_of_link(words_of(found->second, found->second), words, choice_.purposes);
+      if (!locked) purposes = purposes | allowed.purposes;
+      if (allowed.source == kNothingAllowed)
+        warn(link, fmt::format("the link of location {} to point {} allows no operation that is known here ({}); the "
+                               "point keeps its purposes",
+                               in_quotes(name), in_quotes(xml_.text(link, "point")), name_list(words.operations)));
     }
   }
 

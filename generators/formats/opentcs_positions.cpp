@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/base/tolerances.hpp"
 #include "generators/map/layout_check.hpp"
@@ -52,12 +53,16 @@ bool has_curves(const Layout& layout) {
 std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& drawn_m) {
   if (!is_sound(layout)) return "";
   Layout drawing = layout;
+  std::set<std::ptrdiff_t> on_a_path;
+  for (const Segment& segment : layout.segments) {
+    for (const StationId end : {segment.from, segment.to}) on_a_path.insert(static_cast<std::ptrdiff_t>(end.index()));
+  }
   double farthest_m = 0.0;
   std::size_t elsewhere = 0, undrawn = 0;
   for (auto& station : drawing.stations) {
     const auto found = drawn_m.find(station.name);
     if (found == drawn_m.end()) {
-      ++undrawn;
+      undrawn += on_a_path.contains(&station - drawing.stations.data()) ? 1 : 0;
       continue;
     }
     const double off_m = (found->second - station.position_m).norm();
@@ -70,7 +75,11 @@ std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& 
       fmt::format("{} of {} points stand elsewhere in the drawing than in the plant, by up to {:.2f} m; ", elsewhere,
                   layout.stations.size(), farthest_m);
   if (undrawn > 0)
-    return begin + fmt::format("{} points are not drawn, so all have their positions of the plant", undrawn);
+    return begin + fmt::format("{} points are not drawn, so all have their positions of the plant{}", undrawn,
+                               has_curves(layout)
+                                   ? "; curves keep the control points of the drawing, which may not fit: "
+                                     "draw these points"
+                                   : "");
   if (!is_sound(drawing)) return begin + "the drawing is too large, so all have their positions of the plant";
   const Extent plant = extent_of(layout), drawn = extent_of(drawing);
   if (!has_curves(layout)) {

@@ -15,7 +15,7 @@ namespace fleetproof {
 // * A model with curves takes the drawing. It keeps the plant if the curves become much shorter that way.
 // * A model without curves keeps the plant. It takes the drawing if two stations of a segment are on one spot in the
 //   plant and apart in the drawing.
-// * If a station has no position in the drawing, all keep the plant.
+// * If a station on a segment has no position in the drawing, all keep the plant. Other stations keep theirs.
 //
 // Returns a sentence that says which positions were taken, and why; empty if there was no choice.
 std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& drawn_m);

@@ -14,15 +14,18 @@ struct KnownWord {
   std::string_view word;
   Purpose purpose;
 };
-// Beginnings of words.
+// Beginnings of words, but for those of kWholeWords.
 constexpr KnownWord kKnownWords[] = {
     {"charg", Purpose::Charging},   {"recharg", Purpose::Charging}, {"load", Purpose::Storage},
     {"unload", Purpose::Storage},   {"offload", Purpose::Storage},  {"reload", Purpose::Storage},
     {"transfer", Purpose::Storage}, {"storage", Purpose::Storage},  {"store", Purpose::Storage},
     {"pick", Purpose::Storage},     {"drop", Purpose::Storage},     {"deliver", Purpose::Storage},
-    {"fetch", Purpose::Storage},    {"jacking", Purpose::Storage},  {"pack", Purpose::Storage},
-    {"work", Purpose::Storage},     {"park", Purpose::Parking},
+    {"fetch", Purpose::Storage},    {"jacking", Purpose::Storage},  {"park", Purpose::Parking},
 };
+// A package or a worker says nothing.
+constexpr std::string_view kWholeWords[] = {"pack", "packing", "work", "working", "workstation", "workplace"};
+
+bool names_storage(const std::string& said) { return std::ranges::find(kWholeWords, said) != std::end(kWholeWords); }
 
 // "Load cargo", "LOAD_CARGO", "load:2", "LoadCargo" and "AGVLoad": in small letters; digits are words, too. All else
 // parts words.
@@ -52,6 +55,7 @@ std::optional<Purposes> known_in(std::string_view text) {
     for (const auto& [word, purpose] : kKnownWords) {
       if (!denied && said.starts_with(word)) purposes = purposes.value_or(Purpose::Routing) | purpose;
     }
+    if (!denied && names_storage(said)) purposes = purposes.value_or(Purpose::Routing) | Purpose::Storage;
     denied = said == "no" || said == "not" || said == "non" || said == "without";
   }
   return purposes;
@@ -82,6 +86,16 @@ LocationPurpose purpose_of(const LocationWords& words, const PurposeWords& own) 
   if (by_name) return {*by_name, "name"};
   if (by_symbol) return {*by_symbol, "symbol"};
   return {Purpose::Routing, nullptr};
+}
+
+LocationPurpose purpose_of_link(const LocationWords& type, const LocationWords& link, const PurposeWords& own) {
+  const auto says = [](const LocationPurpose& purpose, std::string_view source) {
+    return purpose.source != nullptr && purpose.source == source;
+  };
+  const auto of_link = purpose_of(link, own);
+  const bool by_type = says(purpose_of(type, own), "operations");
+  if (!by_type || says(of_link, "operations") || says(of_link, "user")) return of_link;
+  return {Purpose::Routing, kNothingAllowed};
 }
 
 }  // namespace fleetproof

@@ -29,4 +29,10 @@ bool says_purpose(const std::string& operation, const PurposeWords& own);
 // "Unload cargo".
 LocationPurpose purpose_of(const LocationWords& words, const PurposeWords& own);
 
+inline constexpr const char* kNothingAllowed = "no operation";
+
+// The same of a link to a location, which may allow some operations of the type only. If the type tells by its
+// operations what it is for, name and symbol say nothing of a link that allows others: the source is kNothingAllowed.
+LocationPurpose purpose_of_link(const LocationWords& type, const LocationWords& link, const PurposeWords& own);
+
 }  // namespace fleetproof

@@ -178,6 +178,17 @@ TEST(OpenTcsPositions, APointThatIsNotDrawnKeepsAllInThePlant) {
   EXPECT_EQ(import.layout.stations[0].position_m, Vec2(0.3, 0.0));
   EXPECT_NE(import.sentences.find("1 points are not drawn, so all have their positions of the plant"),
             std::string::npos);
+  EXPECT_NE(
+      import.sentences.find("curves keep the control points of the drawing, which may not fit: draw these points"),
+      std::string::npos);
+}
+
+TEST(OpenTcsPositions, APointOnNoPathNeedsNoDrawing) {
+  auto text = newer_spelling(shifted(300, 0, 1.0), false);
+  text.insert(text.find("<path "), R"(<point name="far" xPosition="50000" yPosition="0"/>)");
+  const Import import(text);
+  EXPECT_EQ(import.layout.stations[0].position_m, Vec2(0.0, 0.0)) << "of the drawing";
+  EXPECT_EQ(import.layout.stations[3].position_m, Vec2(50.0, 0.0)) << "of the plant";
 }
 
 TEST(OpenTcsPositions, CurvesThatLeadFarAwayAreNamed) {

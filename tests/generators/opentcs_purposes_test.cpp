@@ -86,6 +86,20 @@ TEST(OpenTcsPurposes, ALinkMayAllowLess) {
   const Case& both = kCases[6];
   EXPECT_EQ(import(both, "<allowedOperation name='LOAD'/>").purposes, "routing storage");
   EXPECT_EQ(import(both, "<allowedOperation name='Charge:50'/>").purposes, "routing charging");
+  const auto other = import(kCases[0], "<allowedOperation name='NOP'/>");
+  EXPECT_EQ(other.purposes, "routing") << "the symbol of the type says nothing of this link";
+  ASSERT_EQ(other.warnings.size(), 1U);
+  EXPECT_NE(other.warnings[0].find("to point \"a\" allows no operation that is known here (\"NOP\")"),
+            std::string::npos)
+      << other.warnings[0];
+}
+
+TEST(OpenTcsPurposes, PackagesAndWorkersSayNothing) {
+  for (const char* operation : {"PACKAGE_SCAN", "WORKER_SAFETY_CHECK", "Packet:1"}) {
+    const auto list = fmt::format("<allowedOperation name='{}'/>", operation);
+    EXPECT_EQ(import({"7", list.c_str(), "", "", ""}).purposes, "routing") << operation;
+  }
+  EXPECT_EQ(import({"7", "<allowedOperation name='Packing:1'/>", "", "", ""}).purposes, "routing storage");
 }
 
 TEST(OpenTcsPurposes, WordsOfTheUserComeFirst) {
@@ -99,6 +113,9 @@ TEST(OpenTcsPurposes, WordsOfTheUserComeFirst) {
   EXPECT_EQ(with(kCases[1], "\u5145\u7535=parking").purposes, "routing parking");
   EXPECT_EQ(with(kCases[0], "UNLOAD=charging,NOP=parking").purposes, "routing charging parking");
   EXPECT_EQ(with(kCases[0], "LOAD_TRANSFER_GENERIC=parking").purposes, "routing parking");
+  EXPECT_EQ(with({"Dock, left", "", "", "", ""}, "Dock, left=storage").purposes, "routing storage");
+  EXPECT_EQ(with({"Dock, left", "", "", "", ""}, "7=parking,Dock, left=storage").purposes, "routing storage");
+  EXPECT_EQ(with({"8", "<allowedOperation name='op=2'/>", "", "", ""}, "op=2=charging").purposes, "routing charging");
   EXPECT_EQ(with(kCases[0], "PAC=parking,oad=parking").purposes, "routing storage") << "a word is the whole name";
 }
 
