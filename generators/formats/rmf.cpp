@@ -15,6 +15,7 @@
 #include "core/scenario/vehicle_fields.hpp"
 #include "generators/formats/rmf_joined.hpp"
 #include "generators/formats/rmf_left_out.hpp"
+#include "generators/formats/rmf_scale.hpp"
 #include "generators/formats/rmf_words.hpp"
 #include "generators/map/antiparallel.hpp"
 #include "generators/map/layout_check.hpp"
@@ -56,8 +57,12 @@ class LevelReader {
                               "first, without a turn",
                               told_.other_end_back.size(), name_list(told_.other_end_back)));
     if (!told_.joined.empty())
-      warn(level, fmt::format("{} lanes have no length; the vertices that they join are one station each ({})",
-                              told_.no_length, name_list(told_.joined)));
+      warn(level, fmt::format("{} lanes have no length; the vertices that they join are one station each ({}){}",
+                              read_.lanes_of_no_length.size(), name_list(told_.joined),
+                              told_.other_names.empty()
+                                  ? ""
+                                  : fmt::format("; {} more names of theirs are left out ({})", told_.other_names.size(),
+                                                name_list(told_.other_names))));
     if (told_.other_graphs > 0) warn(lanes, fmt::format("{} lanes of other graphs are left out", told_.other_graphs));
     note_left_out(yaml_, root_, level, read_, warnings_);
     fit_floor(layout_, kFloorMargin_m);
@@ -131,26 +136,12 @@ class LevelReader {
     return value.IsDefined() && !value.IsNull() && yaml_.truth(value, word);
   }
 
-  // The attributes of a vertex or lane: its last item, if that is a map. An item after them, or in their place, is
-  // refused: it would hide them. `what` shows all items.
-  YAML::Node words_of(const YAML::Node& list, std::size_t most, std::string_view what) const {
-    if (!list.IsSequence() || list.size() <= 2) return YAML::Node(YAML::NodeType::Undefined);
-    const std::size_t last = list.size() - 1;
-    for (std::size_t i = 2; i <= last; ++i) {
-      if (list[i].IsMap() ? i == last : i + 1 < most || (i + 1 == most && list[i].IsNull())) continue;
-      const std::size_t wrong = list[i].IsMap() ? i + 1 : i;
-      yaml_.refuse(list,
-                   fmt::format("item {} is {}; expected {}, and nothing else", wrong + 1, shown(list[wrong]), what));
-    }
-    yaml_.refuse_second_keys(list[last]);
-    return list[last];
-  }
   YAML::Node words_of_lane(const YAML::Node& lane) const {
-    return words_of(lane, 3, "a lane [FROM, TO, {ATTRIBUTES}]");
+    return attributes_of(yaml_, lane, 3, "a lane [FROM, TO, {ATTRIBUTES}]");
   }
   YAML::Node words_of_vertex(const YAML::Node& vertex) const {
-    return read_.is_nav_graph ? words_of(vertex, 3, "a vertex [X, Y, {ATTRIBUTES}]")
-                              : words_of(vertex, 5, "a vertex [X, Y, Z, NAME, {ATTRIBUTES}]");
+    return read_.is_nav_graph ? attributes_of(yaml_, vertex, 3, "a vertex [X, Y, {ATTRIBUTES}]")
+                              : attributes_of(yaml_, vertex, 5, "a vertex [X, Y, Z, NAME, {ATTRIBUTES}]");
   }
 
   void read_scale(const YAML::Node& level) {
@@ -169,27 +160,10 @@ class LevelReader {
       yaml_.refuse(system, fmt::format("coordinate_system is {}; here it is reference_image or cartesian_meters",
                                        in_quotes(name)));
     down_ = true;
-    double sum = 0.0;
-    std::size_t count = 0;
-    const auto measurements = level["measurements"];
-    if (measurements.IsDefined() && measurements.IsSequence()) {
-      for (const auto measurement : measurements) {
-        const auto a = vertex_index(measurement, 0, "a measurement"), b = vertex_index(measurement, 1, "a measurement");
-        const double pixels = (raw_position(a) - raw_position(b)).norm();
-        const auto words = words_of(measurement, 3, "a measurement [FROM, TO, {ATTRIBUTES}]");
-        const auto distance = parameter(words, "distance");
-        if (!distance.IsDefined())
-          yaml_.refuse(measurement, "the measurement has no distance; add {distance: [3, METRES]}");
-        const double metres = yaml_.number(distance, "distance");
-        if (!(metres > 0.0 && pixels > 0.0))
-          yaml_.refuse(measurement,
-                       fmt::format("{} m for {} pixels give no scale; correct the measurement", metres, pixels));
-        sum += metres / pixels;
-        ++count;
-      }
-    }
-    if (count == 0) return warn(level, "there are no measurements; a pixel is taken as 1 m");
-    scale_m_ = sum / static_cast<double>(count);
+    const auto scale = scale_of_level(yaml_, root_, read_.name);
+    scale_m_ = scale.m_per_pixel;
+    read_.by_fiducials = scale.by_fiducials;
+    if (!scale.sentence.empty()) warn(level, scale.sentence);
   }
 
   Vec2 raw_position(std::size_t vertex) const {
@@ -219,6 +193,8 @@ class LevelReader {
     station.position_m = {position.x(), down_ ? 0.0 - position.y() : position.y()};
     for (const std::size_t member : joined_.members_of(vertex)) {
       add_purposes(vertices_[member], station);
+      const auto name = given_name(vertices_[member], read_.is_nav_graph);
+      if (!name.empty() && name != station.name) told_.other_names.push_back(name);
       read_.vertices.insert(member);
     }
     if (joined_.members_of(vertex).size() > 1) told_.joined.push_back(station.name);
@@ -268,7 +244,7 @@ class LevelReader {
     Segment segment;
     segment.from = station_of(joined_.first_of(from));
     segment.to = station_of(joined_.first_of(to));
-    if (segment.from == segment.to) return void(++told_.no_length);
+    if (segment.from == segment.to) return void(read_.lanes_of_no_length.insert(place));
     segment.bidirectional = is_set(words, "bidirectional");
     segment.name = fmt::format("lane {}", lanes_.size());
     if (const auto limit = parameter(words, "speed_limit"); limit.IsDefined()) {
@@ -354,10 +330,10 @@ class LevelReader {
   std::set<std::string> names_;
   ReadLevel read_;
   struct {
-    std::size_t other_graphs = 0, no_length = 0;  // lanes
-    std::vector<std::string> joined;              // names of stations
-    std::set<std::string> graphs;                 // other ones, by number
-    std::vector<std::string> other_end_back;      // names of segments
+    std::size_t other_graphs = 0;                  // lanes
+    std::vector<std::string> joined, other_names;  // names of stations, and of vertices that are part of one
+    std::set<std::string> graphs;                  // other ones, by number
+    std::vector<std::string> other_end_back;       // names of segments
   } told_;
 };
 

@@ -28,6 +28,7 @@ constexpr Topic kPassing{
     "is_passthrough_point of {0} vertices ({1}) is left out; here an AGV may stop at every station"};
 constexpr Topic kMarks{"{0} kinds of marks on vertices are left out ({1})"};
 constexpr Topic kMocks{"{0} kinds of marks on lanes are left out ({1})"};
+constexpr Topic kOfNoLength{"{0} kinds of attributes of lanes without a length are left out ({1})"};
 constexpr Topic kUnknown{"{0} attributes are unknown here and left out ({1})"};
 
 enum class Named : std::uint8_t { ByOwner, ByKey, ByValue };
@@ -67,6 +68,7 @@ constexpr Rule kVertexRules[] = {{"name"},
                                  {"merge_radius", &kMarks, Named::ByKey}};
 constexpr std::string_view kReadRoot[] = {"levels", "name", "building_name", "coordinate_system"};
 constexpr std::string_view kReadLevel[] = {"vertices", "lanes", "measurements"};
+constexpr std::string_view kScale[] = {"reference_level_name", "fiducials"};  // of levels but the reference
 
 bool contains(const auto& words, std::string_view word) { return std::ranges::find(words, word) != std::end(words); }
 
@@ -99,6 +101,7 @@ class LevelWalk {
     for (const auto entry : map) {
       const auto key = word_of(entry.first);
       if (contains(read_keys, key) || is_empty(entry.second)) continue;
+      if (read_.by_fiducials && contains(kScale, key)) continue;
       if (key == "doors") {
         doors(entry.second);
       } else if (key == "lifts" && entry.second.IsMap()) {
@@ -127,10 +130,22 @@ class LevelWalk {
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (const auto lane = read_.lanes.find(i); lane != read_.lanes.end())
         attributes(list[i], kLaneRules, lane->second);
+      if (!read_.lanes_of_no_length.contains(i)) continue;
+      attributes(list[i], kLaneRules, fmt::format("lane {} of the file", i));
+      of_no_length(list[i]);
     }
   }
 
  private:
+  // What is read of other lanes. That AGVs go there and back is kept: they need no way.
+  void of_no_length(const YAML::Node& lane) {
+    const auto words = lane.size() > 2 ? lane[lane.size() - 1] : YAML::Node();
+    for (const char* key : {"mutex", "speed_limit", "orientation", "orientation_constraint"}) {
+      const auto value = words.IsMap() && words[key].IsDefined() ? value_of(words[key]) : "";
+      if (!value.empty() && value != "none") things_.add(kOfNoLength, yaml_.place(lane), key);
+    }
+  }
+
   void doors(const YAML::Node& list) {
     if (list.IsMap()) {
       for (const auto door : list) things_.add(kDoors, yaml_.place(list), word_of(door.first));

@@ -17,9 +17,10 @@ class YamlText;
 // What of an Open-RMF level was read: vertices and lanes by their places in their lists.
 struct ReadLevel {
   std::string name{};
-  bool is_nav_graph = false;
+  bool is_nav_graph = false, by_fiducials = false;  // by_fiducials: they say how large a pixel is
   std::set<std::size_t> vertices;
   std::map<std::size_t, std::string> lanes;  // with the names of their segments
+  std::set<std::size_t> lanes_of_no_length;  // their ends are one station
 };
 
 // Adds one sentence for each kind of thing in an Open-RMF building or nav graph that the import does not use: how many

@@ -1,5 +1,6 @@
 #include "generators/formats/rmf_words.hpp"
 
+#include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include "generators/text/yaml_text.hpp"
@@ -21,6 +22,18 @@ bool names_something(const YAML::Node& words, const char* word) {
   const auto value = parameter(words, word);
   if (!value.IsDefined() || value.IsNull()) return false;
   return !value.IsScalar() || (!value.Scalar().empty() && said_truth(value.Scalar()).value_or(true));
+}
+
+YAML::Node attributes_of(const YamlText& yaml, const YAML::Node& list, std::size_t most, std::string_view what) {
+  if (!list.IsSequence() || list.size() <= 2) return YAML::Node(YAML::NodeType::Undefined);
+  const std::size_t last = list.size() - 1;
+  for (std::size_t i = 2; i <= last; ++i) {
+    if (list[i].IsMap() ? i == last : i + 1 < most || (i + 1 == most && list[i].IsNull())) continue;
+    const std::size_t wrong = list[i].IsMap() ? i + 1 : i;
+    yaml.refuse(list, fmt::format("item {} is {}; expected {}, and nothing else", wrong + 1, shown(list[wrong]), what));
+  }
+  yaml.refuse_second_keys(list[last]);
+  return list[last];
 }
 
 std::string given_name(const YAML::Node& vertex, bool is_nav_graph) {

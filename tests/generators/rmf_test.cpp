@@ -110,12 +110,64 @@ levels:
   ASSERT_EQ(layout.segments.size(), 2U);
   EXPECT_EQ(layout.segments[1].from, StationId{1U});
   EXPECT_EQ(layout.segments[1].to, StationId{2U});
-  ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_EQ(warnings[0],
-            "b.yaml:4: 2 lanes have no length; the vertices that they join are one station each (\"CH_01\")");
+  ASSERT_EQ(warnings.size(), 3U);
+  EXPECT_EQ(
+      warnings[0],
+      "b.yaml:4: 2 lanes have no length; the vertices that they join are one station each (\"CH_01\"); 1 more names "
+      "of theirs are left out (\"CH_02\")");
+  EXPECT_EQ(warnings[2], "b.yaml:7: 1 kinds of attributes of lanes without a length are left out (\"speed_limit\")");
   EXPECT_EQ(warnings[1],
             "b.yaml:16: 1 chargers, parking spots, dispensers and ingestors lie on no lane that is read and are left "
             "out (\"CH_03\")");
+}
+
+TEST(Rmf, DoorsAndLiftsOfLanesWithoutALengthAreTold) {
+  auto text =
+      replaced(kNavGraph, "[1, 2, {}]\n", "[1, 2, {}]\n      - [2, 3, {door_name: gate, lift: up, mutex: m}]\n");
+  text += "      - [4.0, -6.0, {name: lost}]\n";
+  const auto sentences = fmt::format("{}", fmt::join(import(text).warnings, "\n"));
+  for (const char* told : {"doors are left out (\"gate\")", "lifts are left out (\"up\")", "(\"mutex\")", "(\"lost\")"})
+    EXPECT_NE(sentences.find(told), std::string::npos) << told << " in " << sentences;
+}
+
+// Twice as many pixels between the fiducials of L2 as between those of L1, where a pixel has 0.1 m.
+TEST(Rmf, ALevelIsScaledByTheFiducialsThatItSharesWithTheReference) {
+  const auto plant = [](const std::string& reference, const std::string& of_l2) {
+    return "name: depot\n" + reference + R"(levels:
+  L1:
+    fiducials: [[0, 0, a], [30, 40, b], [0, 0, other]]
+    measurements: [[0, 1, {distance: [3, 5]}]]
+    lanes: [[0, 1, {}]]
+    vertices: [[0, 0, 0, ""], [50, 0, 0, ""]]
+  L2:
+    fiducials: )" +
+           of_l2 + R"(
+    measurements: [[0, 1, {distance: [3, 100]}]]
+    lanes: [[0, 1, {}]]
+    vertices: [[0, 0, 0, ""], [100, 0, 0, ""]]
+)";
+  };
+  const auto read = [](const std::string& text, const std::string& level) {
+    return import_graph(text, {.level = level});
+  };
+  const std::string twice = "[[10, 10, b], [90, 70, a]]";
+  const auto [layout, warnings] = read(plant("", twice), "L2");
+  EXPECT_NEAR(layout.stations[1].position_m.x(), 5.0, 1e-12);
+  EXPECT_EQ(warnings[1],
+            "b.yaml:9: by the fiducials that the level shares with reference level \"L1\", a pixel has 0.05 m; by its "
+            "measurements, which do not count, 1 m");
+  EXPECT_EQ(warnings.size(), 2U) << "fiducials are not left out";
+  EXPECT_NEAR(read(plant("reference_level_name: L2\n", twice), "L2").layout.stations[1].position_m.x(), 100.0, 1e-12);
+  const auto alone = read(plant("", "[[10, 10, b]]"), "L2");
+  EXPECT_NEAR(alone.layout.stations[1].position_m.x(), 100.0, 1e-12);
+  EXPECT_NE(alone.warnings[1].find("shares no two fiducials with reference level \"L1\""), std::string::npos);
+  const auto refused = [&](const std::string& text) {
+    return independent::refusal([&](const std::string& t) { read(t, "L2"); }, text);
+  };
+  EXPECT_NE(refused(plant("reference_level_name: L3\n", twice)).find("b.yaml:2: reference_level_name is \"L3\", but"),
+            std::string::npos);
+  EXPECT_NE(refused(plant("", "[[10, 10, b], [10, 10, a]]")).find("two fiducials are on one spot"), std::string::npos);
+  EXPECT_NE(refused(plant("", "[[10, 10, b], [10]]")).find("b.yaml:9"), std::string::npos);
 }
 
 TEST(Rmf, TheFirstLevelWithLanesIsRead) {
