@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
@@ -65,6 +66,7 @@ class LifReader {
     fit_floor(layout_, kFloorMargin_m);
     refuse_problems(layout);
     note_headings(layout);
+    reunite_ways_back();
     settle_twins(layout_, choice_.twins, source_, warnings_);
     return std::move(layout_);
   }
@@ -298,6 +300,20 @@ class LifReader {
                    "no action is named at node {}, which belongs to a station; {}", in_quotes(id.text()),
                    may_transfer ? "it is taken to be for storage" : "it forbids to pick or drop, so AGVs only pass"));
     }
+  }
+
+  // The two-way segments of a file that to_lif() wrote.
+  void reunite_ways_back() {
+    std::map<std::string, std::size_t> by_name;
+    for (std::size_t i = 0; i < layout_.segments.size(); ++i) by_name.emplace(layout_.segments[i].name, i);
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const auto note = edges_[i].find("edgeDescription");
+      if (!note || !note->is_text() || !note->text().starts_with(kBackMark)) continue;
+      const auto there = by_name.find(note->text().substr(kBackMark.size()));
+      if (there != by_name.end() && there->second != i) pairs.emplace_back(there->second, i);
+    }
+    merge_pairs(layout_, pairs);
   }
 
   // Refuses the first fault of the finished layout, at the place in the file that caused it.

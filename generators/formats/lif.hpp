@@ -23,4 +23,7 @@ Layout parse_lif(std::string_view text, std::string_view source, std::vector<std
 // The words for purposes in a description, as to_lif writes and parse_lif reads them: "purposes: storage charging".
 inline constexpr std::string_view kPurposesMark = "purposes:";
 
+// The same for the edge that is the way back of a two-way segment: "back of: NAME".
+inline constexpr std::string_view kBackMark = "back of: ";
+
 }  // namespace fleetproof

@@ -176,8 +176,9 @@ class LifWalk {
   void left_out(const Rule& rule, const JsonReader& value, const std::string& key, const std::string& owner) {
     const auto text = text_of(value.value());
     if (!rule.says_nothing.empty() && text == rule.says_nothing) return;
-    // The importer reads purposes that it wrote itself.
+    // The importer reads what it wrote itself.
     if (rule.path == "nodes/nodeDescription" && text.starts_with(kPurposesMark)) return;
+    if (rule.path == "edges/edgeDescription" && text.starts_with(kBackMark)) return;
     const bool by_value = rule.named == Named::ByValue && !text.empty();
     things_.add(*rule.topic, value.place(), by_value ? text : rule.named == Named::ByOwner ? owner : key);
   }

@@ -129,6 +129,7 @@ struct Edge {
   Travel travel;
   double speed_limit_mps;
   const Segment& segment;
+  bool is_back = false;
 };
 
 // LIF 1.0 gives a type one orientation. Both are written as its successor does.
@@ -163,6 +164,7 @@ void write_type(JsonWriter& writer, const Edge& edge, const std::string& type) {
 void write_edge(JsonWriter& writer, const Edge& edge, const Types& types) {
   writer.open_object();
   writer.key("edgeId").value(edge.name);
+  if (edge.is_back) writer.key("edgeDescription").value(std::string(kBackMark) + edge.segment.name);
   writer.key("startNodeId").value(edge.from.name);
   writer.key("endNodeId").value(edge.to.name);
   writer.key("vehicleTypeEdgeProperties").open_array();
@@ -189,7 +191,8 @@ void write_edges(JsonWriter& writer, const Layout& layout, const Types& types) {
       back += '~';
     } while (!taken.insert(back).second);
     std::ranges::reverse(points);
-    write_edge(writer, {back, to, from, points, segment.back_travel, segment.back_speed_limit_mps, segment}, types);
+    write_edge(writer, {back, to, from, points, segment.back_travel, segment.back_speed_limit_mps, segment, true},
+               types);
   }
 }
 

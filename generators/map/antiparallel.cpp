@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/base/tolerances.hpp"
@@ -74,6 +75,22 @@ std::vector<std::string> merge_antiparallel(Layout& layout) {
   }
   layout.segments = std::move(kept);
   return names;
+}
+
+void merge_pairs(Layout& layout, const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
+  std::set<std::size_t> merged;
+  for (const auto& [first, second] : pairs) {
+    Segment &there = layout.segments[first], &back = layout.segments[second];
+    const bool is_twin = there.from == back.to && there.to == back.from && !there.bidirectional &&
+                         !back.bidirectional && there.permissions == back.permissions && is_mirrored(there, back);
+    if (!is_twin || merged.contains(first) || !merged.insert(second).second) continue;
+    join(there, back);
+  }
+  std::vector<Segment> kept;
+  for (std::size_t i = 0; i < layout.segments.size(); ++i) {
+    if (!merged.contains(i)) kept.push_back(std::move(layout.segments[i]));
+  }
+  layout.segments = std::move(kept);
 }
 
 void settle_twins(Layout& layout, TwinPaths twins, std::string_view source, std::vector<std::string>& warnings) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scenario/layout.hpp"
@@ -16,8 +18,12 @@ enum class TwinPaths : std::uint8_t { Keep, Merge };
 // of these segments.
 std::vector<std::string> merge_antiparallel(Layout& layout);
 
-// The same if `twins` asks for it. `warnings` receives a sentence on such segments, and one on segments that lie on one
-// track with another one and stay: both lead the same way, one is bidirectional, or other AGVs may drive it.
+// The same of these pairs of segments alone, there and back, by index. A pair that is no such twin stays as it is.
+void merge_pairs(Layout& layout, const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
+
+// The same as merge_antiparallel if `twins` asks for it. `warnings` receives a sentence on such segments, and one on
+// segments that lie on one track with another one and stay: both lead the same way, one is bidirectional, or other AGVs
+// may drive it.
 void settle_twins(Layout& layout, TwinPaths twins, std::string_view source, std::vector<std::string>& warnings);
 
 }  // namespace fleetproof

@@ -54,6 +54,7 @@ const Thing kThings[] = {
     {kNodeType, R"("actions": [{"actionType": "drop", "actionParameters": [{"key": "k", "value": "v"}]}])"},
     {kEdge, R"("edgeName": "n")"},
     {kEdge, R"("edgeDescription": "n")"},
+    {kEdge, R"("edgeDescription": "back: n")"},
     {kEdgeType, R"("vehicleTypeId": "v")"},
     {kNodeType, R"("vehicleTypeIds": ["v"])"},
     {kEdgeType, R"("vehicleTypeIds": ["v", "w"])"},

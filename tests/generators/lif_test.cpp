@@ -139,6 +139,25 @@ TEST(Lif, TheFamiliesComeBackAsTheyWere) {
   }
 }
 
+// Also beside a lane on the same track, and if twins are to stay two.
+TEST(Lif, ATwoWaySegmentComesBackWithItsOwnWayBack) {
+  Layout layout = import(sample()).layout;
+  ASSERT_TRUE(layout.segments[0].bidirectional);
+  Segment lane = layout.segments[0];
+  lane.bidirectional = false;
+  lane.name = "lane";
+  std::swap(lane.from, lane.to);
+  std::ranges::reverse(lane.control_points_m);
+  lane.speed_limit_mps = 1.5;
+  lane.back_speed_limit_mps = 0.0;
+  lane.back_travel = Travel::Forward;
+  layout.segments.insert(layout.segments.begin(), lane);
+  for (const TwinPaths twins : {TwinPaths::Merge, TwinPaths::Keep}) {
+    std::vector<std::string> told;
+    EXPECT_EQ(to_text(parse_lif(to_lif(layout), "l.json", told, {twins, {}, ""})), to_text(layout));
+  }
+}
+
 TEST(Lif, OrientationsAndLoadsComeBack) {
   Layout layout = import(sample()).layout;
   for (const Travel there : kValuesOf<Travel>) {
