@@ -11,6 +11,7 @@
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/case_file.hpp"
 #include "generators/formats/importer.hpp"
+#include "generators/map/permitted_types.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/worlds/world_maker.hpp"
 #include "reports/wording.hpp"
@@ -35,7 +36,7 @@ void tell_rejections(const CampaignPlan& plan) {
   }
   const auto text = rejection_text(counts);
   put("worlds of the first {} replicates: {} drawn, {} more refused{}{}", replicates, counts.worlds,
-      counts.worlds_rejected, text.empty() ? "" : ": ", text);
+      counts.worlds_rejected, text.empty() ? "" : "; refused in them and in their starts: ", text);
   if (counts.pairs_wanted > 0) put("; {} of {} pairs made to meet", counts.pairs_made, counts.pairs_wanted);
   put("\n");
   if (counts.worlds_without_storage > 0)
@@ -56,9 +57,20 @@ void check_campaign(const std::string& path) {
   tell_rejections(plan);
 }
 
+// Of a scenario, the validator refuses names that are slips. Others may be meant for another fleet.
+void warn_of_foreign_types(const Scenario& scenario, const std::string& path) {
+  std::vector<std::string> fleet;
+  for (const VehicleType& type : scenario.vehicle_types) fleet.push_back(type.name);
+  const Layout& layout = scenario.map->layout();
+  if (const auto foreign = foreign_types(layout, fleet); !foreign.empty())
+    talk("warning: {}: {}\n", path, sentence_on(foreign[0], layout, fleet));
+}
+
 void check_scenario(const std::string& path) {
   const Scenario scenario = read_case_file(path);
-  for (const auto& problem : problems_of(scenario)) talk("warning: {}: {}\n", path, problem.sentence);
+  for (const auto& problem : problems_of(scenario))
+    talk("warning: {}: {}: {}\n", path, problem.pointer, problem.sentence);
+  warn_of_foreign_types(scenario, path);
   put("{}: ok, {} stations, {} segments, {} AGVs, {:g} s\n", path, scenario.map->station_count(),
       scenario.map->segment_count(), scenario.agvs.size(), to_seconds(scenario.horizon));
 }

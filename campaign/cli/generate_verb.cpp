@@ -53,6 +53,9 @@ Layout drawn(const GenerateWords& words) {
   if (words.family == kMutatedImport) return mutation(words, key);
   if (!words.from.empty()) throw InputError("--from", fmt::format("belongs to {} alone", kMutatedImport));
   FamilyRange choice = family_range(words.family);
+  if (words.stress && choice.provocation)
+    throw InputError("--stress",
+                     fmt::format("has no meaning for {}, which names another range of plants", words.family));
   if (words.stress) choice.range = Range::Stress;
   Draws draws(key);
   return draw_layout(choice, draws);

@@ -34,6 +34,8 @@ int new_file(const NewWords& words) {
   if (words.what != "campaign")
     throw InputError("WHAT",
                      fmt::format("{} cannot be begun; write: fleetproof new campaign FILE", in_quotes(words.what)));
+  if (fs::path(words.path).extension() == ".json")
+    throw InputError(words.path, "ends in .json, and a campaign file is TOML; name it as in night.toml");
   const std::string layout = (fs::path(words.path).parent_path() / kLongHaulFile).string();
   const std::string_view text = words.is_short ? short_standard_campaign() : standard_campaign();
   const bool campaign_missing = is_missing(words.path, text), layout_missing = is_missing(layout, long_haul_layout());

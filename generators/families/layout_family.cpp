@@ -52,7 +52,7 @@ constexpr Entry<MakeLayout> kFamilies[] = {
      make_close_pass},
     {"plant",
      "zones of aisles inside rings of two one-way lanes, with docks, buffer lanes and charger rows; 20-10000 stations, "
-     "as in plant/2000, else 40 for each AGV",
+     "as in plant/2000, else 40 for each AGV and at most 5000",
      make_plant},
 };
 
@@ -69,11 +69,16 @@ void read_plant_word(std::string_view word, FamilyRange& choice) {
   std::uint32_t stations = 0;
   const char* const end = word.data() + word.size();
   const auto [rest, fault] = std::from_chars(word.data(), end, stations);
-  if (is_first_knob && word == "stress") {
+  const bool is_knob = word == "stress" || provocation;
+  if (is_knob && !is_first_knob)
+    throw InputError("layout", fmt::format("plant has no range {} beside another one; name one of them, or one layout "
+                                           "with each",
+                                           in_quotes(word)));
+  if (word == "stress") {
     choice.range = Range::Stress;
-  } else if (is_first_knob && provocation) {
+  } else if (provocation) {
     choice.provocation = provocation;
-  } else if (choice.stations == 0 && fault == std::errc() && rest == end) {
+  } else if (choice.stations == 0 && fault == std::errc() && rest == end && word[0] != '0') {
     if (stations < kFewestStations || stations > kMostStations)
       throw InputError("layout", fmt::format("a plant of {} stations is refused; ask for {} to {}", stations,
                                              kFewestStations, kMostStations));

@@ -139,7 +139,6 @@ class WorldMaker {
     std::ranges::sort(placed_);
     return placed_.empty() ? 0 : static_cast<std::uint32_t>(placed_[(placed_.size() - 1) / 2]);
   }
-  const std::string& layout_name() const { return scenario_.map->layout().name; }
 
   RejectionCounts counts;
 
@@ -252,6 +251,12 @@ struct MadeWorld {
   std::uint32_t attempt = 0;
 };
 
+// As the plan has it: a family and its range, or the name of the layout.
+std::string called(const WorldSpec& spec) {
+  const auto* family = std::get_if<std::string>(&spec.layout);
+  return family != nullptr ? *family : std::get<std::shared_ptr<const LogicalMap>>(spec.layout)->layout().name;
+}
+
 MadeWorld make_world(const WorldSpec& spec, std::uint64_t seed, std::uint32_t held_attempt, RejectionCounts& counts) {
   WorldMaker maker(spec, seed, held_attempt);
   for (std::uint32_t number = 0; number < kAttempts; ++number) {
@@ -264,12 +269,12 @@ MadeWorld make_world(const WorldSpec& spec, std::uint64_t seed, std::uint32_t he
   }
   counts.add(maker.counts);
   const std::uint32_t fits = std::min(maker.fleet_that_fits(), spec.fleet_size);
-  const std::string found = fmt::format("cannot place {} AGVs on this layout in {} draws ({})", spec.fleet_size,
-                                        kAttempts, rejection_text(maker.counts));
+  const std::string found = fmt::format("cannot place {} AGVs on {} in {} draws ({})", spec.fleet_size,
+                                        in_quotes(called(spec)), kAttempts, rejection_text(maker.counts));
   if (fits == 0 || fits == spec.fleet_size)  // there is room: something else is wrong
     throw InputError("fleet_size", found + "; ask for fewer or for a larger layout");
   throw InputError("fleet_size", fmt::format("{}; {} fit on {}: ask for {} or fewer, or for a larger layout", found,
-                                             fits, in_quotes(maker.layout_name()), fits));
+                                             fits, in_quotes(called(spec)), fits));
 }
 
 bool shapes_world(Stream stream) {

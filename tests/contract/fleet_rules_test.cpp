@@ -106,6 +106,16 @@ TEST_F(FleetRules, AScenarioNamesTheTypeAtItsLine) {
                                   HasSubstr("did you mean \"tugger\"?")));
 }
 
+// Nothing is nearly alike here, or the type that is has a lane of its own.
+TEST_F(FleetRules, AScenarioIsWarnedOfATypeThatItDoesNotHave) {
+  write("s.json",
+        "{\"version\": 1, \"layout\": " + layout(R"({"vehicle_type": "crane"})") +
+            ",\n\"vehicle_types\": [{\"name\": \"tugger\"}], \"agvs\": [{\"name\": \"A\", \"start\": \"a\"}]}");
+  const auto checked = run("check s.json");
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_THAT(checked.err, HasSubstr("is for vehicle type \"crane\", which this fleet does not have (\"tugger\")"));
+}
+
 TEST_F(FleetRules, AScriptThatDrivesBackwardNeedsALaneForIt) {
   const auto scenario = [&](const std::string& travel, const std::string& start, const std::string& segment) {
     write("s.json", "{\"version\": 1, \"layout\": " + layout("", travel) +

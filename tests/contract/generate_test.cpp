@@ -43,6 +43,13 @@ TEST_F(Generate, StressIsARangeOfEveryFamily) {
   }
 }
 
+TEST_F(Generate, APlantHasOneRange) {
+  const auto refused = run("generate plant/tight-gap --stress");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--stress: has no meaning for plant/tight-gap"), std::string::npos) << refused.err;
+  EXPECT_EQ(run("generate plant/40 --stress").out, run("generate plant/stress/40").out);
+}
+
 TEST_F(Generate, MutatesALayoutFileAndTellsWhatWasRefused) {
   const std::string from = " --from '" + test::source("tests/layouts/crossdock.xml") + "'";
   const auto finished = run("generate mutated-import --seed 3" + from);

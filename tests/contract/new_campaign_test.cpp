@@ -37,6 +37,9 @@ TEST_F(NewCampaign, OverwritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("campaign.toml")));
   EXPECT_EQ(run("new campaign no/such/folder/a.toml").exit_code, 2);
   EXPECT_EQ(run("new world").exit_code, 2);
+  std::filesystem::remove(path("long-haul.json"));
+  EXPECT_THAT(run("new campaign long-haul.json").err, HasSubstr("long-haul.json: ends in .json"));
+  EXPECT_FALSE(std::filesystem::exists(path("long-haul.json"))) << "its layout has this name";
 }
 
 }  // namespace

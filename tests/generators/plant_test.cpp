@@ -239,8 +239,11 @@ TEST(Plant, NamesSayRangeOrProvocationAndSizeInAnyOrder) {
   EXPECT_NE(error_of("plant/tigth-gap").find("did you mean \"tight-gap\""), std::string::npos);
   EXPECT_NE(error_of("plant/19").find("ask for 20 to 10000"), std::string::npos);
   EXPECT_NE(error_of("plant/10001").find("ask for 20 to 10000"), std::string::npos);
-  for (const char* wrong : {"plant/", "plant/20/30", "plant/stress/tight-gap", "plant/20x", "plant/-20", "plant//20"})
+  for (const char* wrong :
+       {"plant/", "plant/20/30", "plant/stress/tight-gap", "plant/20x", "plant/-20", "plant//20", "plant/040"})
     EXPECT_NE(error_of(wrong).find("plant has no range"), std::string::npos) << wrong;
+  for (const char* two : {"plant/stress/tight-gap", "plant/tight-gap/crossing", "plant/tight-gap/stress"})
+    EXPECT_NE(error_of(two).find("beside another one; name one of them"), std::string::npos) << error_of(two);
 }
 
 }  // namespace
