@@ -67,6 +67,29 @@ TEST(PickLoad, WithoutANameTheOldestIsTaken) {
   EXPECT_THAT(taken.results, testing::Each(FP_OK));
 }
 
+// The older one has the higher number; after a restart it is told first, too.
+TEST(PickLoad, TheOldestIsTheOneThatWasReleasedFirst) {
+  Scenario scenario = test::row_of_tens({0});
+  scenario.agvs[0].transports = {{StationId{0U}, StationId{2U}, seconds(2.0)},
+                                 {StationId{0U}, StationId{2U}, seconds(1.0)}};
+  Fault restart;
+  restart.kind = Fault::Kind::Restart;
+  restart.agv = AgvId{0U};
+  restart.at = seconds(3.0);
+  restart.lasts = seconds(1.0);
+  scenario.faults = {restart};
+  std::vector<std::uint32_t> told, on_board;
+  simulate_with(scenario, [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+    if (e.kind == FP_EVENT_ORDER) told.push_back(e.order_id);
+    if (e.kind == FP_EVENT_ORDER && told.size() == 4) host.pick(c, FP_HERE);
+    if (e.kind != FP_EVENT_ACTION_DONE) return;
+    on_board.emplace_back();
+    EXPECT_EQ(host.get_load(c, &on_board.back()), FP_OK);
+  });
+  EXPECT_THAT(told, testing::ElementsAre(1U, 0U, 1U, 0U));
+  EXPECT_THAT(on_board, testing::ElementsAre(1U));
+}
+
 TEST(PickLoad, WithoutANameNoneIsTakenWhereNoneWaits) {
   const Taken taken = do_in_turn({[](const fp_host& host, fp_controller* c) { return host.move(c, 0); }, pick(), drop(),
                                   [](const fp_host& host, fp_controller* c) { return host.move(c, 1); }, pick()});
