@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/geometry/rotation.hpp"
 #include "generators/formats/lif.hpp"
@@ -208,6 +209,31 @@ void write_stations(JsonWriter& writer, const Layout& layout) {
   }
 }
 
+// What an import of the file changes though LIF has a place for it. None: it refuses the file, such as one without
+// edges.
+struct Changed {
+  std::vector<std::string> permissions, headings;  // names of segments and stations
+};
+std::optional<Changed> changed_by_import(const Layout& layout) {
+  std::vector<std::string> ignored;
+  Changed changed;
+  try {
+    const Layout again = parse_lif(to_lif(layout), "", ignored, {TwinPaths::Keep, {}, ""});
+    if (again.segments.size() != layout.segments.size() || again.stations.size() != layout.stations.size()) return {};
+    for (std::size_t i = 0; i < layout.segments.size(); ++i) {
+      const Segment& segment = layout.segments[i];
+      if (!mixes_types(segment) && again.segments[i].permissions != segment.permissions)
+        changed.permissions.push_back(segment.name);
+    }
+    for (std::size_t i = 0; i < layout.stations.size(); ++i) {
+      if (again.stations[i].heading != layout.stations[i].heading) changed.headings.push_back(layout.stations[i].name);
+    }
+  } catch (const InputError&) {
+    return {};
+  }
+  return changed;
+}
+
 }  // namespace
 
 std::vector<std::string> lost_in_lif(const Layout& layout) {
@@ -232,6 +258,12 @@ std::vector<std::string> lost_in_lif(const Layout& layout) {
         "LIF has no word for every type of vehicle: {} segments permit something to every type and more to some ({}); "
         "in the file they are for {} alone, where {} stands for all others",
         mixed.size(), name_list(mixed), name_list(all_of(types), types.named.size() + 1), in_quotes(types.others)));
+  }
+  if (const auto changed = changed_by_import(layout)) {
+    tell(changed->permissions, "{0} segments come back with their permissions in the order of types, or joined ({1})");
+    tell(changed->headings,
+         "{0} stations ask for a heading that no lane has which arrives ({1}); an import takes that of a lane within 1 "
+         "degree, or none");
   }
   return sentences;
 }

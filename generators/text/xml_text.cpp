@@ -55,6 +55,23 @@ void refuse_other_encodings(std::string_view text, std::string_view source) {
           : fmt::format("the file is in {}, which is not read here; save it as UTF-8", in_quotes(encoding)));
 }
 
+// Stops at an element that has an attribute twice: pugixml takes the first.
+struct SecondAttribute : pugi::xml_tree_walker {
+  pugi::xml_node found;
+  std::string name;
+
+  bool for_each(pugi::xml_node& node) override {
+    std::vector<std::string_view> names;
+    for (const auto attribute : node.attributes()) names.emplace_back(attribute.name());
+    std::ranges::sort(names);
+    const auto second = std::ranges::adjacent_find(names);
+    if (second == names.end()) return true;
+    found = node;
+    name = *second;
+    return false;
+  }
+};
+
 }  // namespace
 
 XmlText::XmlText(std::string_view text, std::string_view source) : text_(text), source_(source) {
@@ -69,11 +86,18 @@ void XmlText::load(pugi::xml_document& document) const {
   const bool latin1 = declared_encoding(text_) == "windows-1252";
   const auto result = document.load_buffer(text_.data(), text_.size(), pugi::parse_default,
                                            latin1 ? pugi::encoding_latin1 : pugi::encoding_auto);
-  if (result) return;
+  if (result) return refuse_second_attributes(document);
   const auto at = position_in(text_, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)));
   throw InputError(
       fmt::format("{}:{}:{}", source_, at.line, at.column),
       fmt::format("not well-formed XML ({}); is the file complete, and a plant model?", result.description()));
+}
+
+void XmlText::refuse_second_attributes(pugi::xml_document& document) const {
+  SecondAttribute walk;
+  if (document.traverse(walk)) return;
+  refuse(walk.found, fmt::format("<{}> has {} twice, which is not well-formed XML; remove one",
+                                 printable(walk.found.name()), in_quotes(walk.name)));
 }
 
 std::string XmlText::place(const pugi::xml_node& node) const {

@@ -17,7 +17,7 @@ class XmlText {
   // Requires: text and name outlive the object.
   XmlText(std::string_view text, std::string_view source);
 
-  // Throws InputError with line and column if the text is not well-formed.
+  // Throws InputError with its line if the text is not well-formed.
   void load(pugi::xml_document& document) const;
 
   std::string place(const pugi::xml_node& node) const;  // "file:line"
@@ -31,6 +31,8 @@ class XmlText {
   bool truth(const pugi::xml_node& node, const char* attribute) const;
 
  private:
+  void refuse_second_attributes(pugi::xml_document& document) const;
+
   std::string_view text_, source_;
   std::vector<std::size_t> line_ends_;
 };

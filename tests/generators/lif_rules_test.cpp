@@ -183,6 +183,20 @@ TEST(LifRules, RulesAreWritten) {
   }
 }
 
+TEST(LifRules, WhatAnImportWouldChangeIsTold) {
+  auto layout = import({}).layout;
+  layout.segments[0].permissions = {{"tug", LoadState::Any}};
+  layout.segments[1].permissions = {{"fork", LoadState::Any}, {"tug", LoadState::Any}};
+  layout.segments[2].permissions = {{"", LoadState::Empty}, {"", LoadState::Loaded}};
+  layout.stations[1].heading = Vec2(0.0, 1.0);
+  layout.stations[2].heading = Vec2(1.0, 0.0);
+  EXPECT_THAT(
+      lost_in_lif(layout),
+      ElementsAre("2 segments come back with their permissions in the order of types, or joined (\"bc\", \"cb\")",
+                  "1 stations ask for a heading that no lane has which arrives (\"b\"); an import takes that of a "
+                  "lane within 1 degree, or none"));
+}
+
 TEST(LifRules, WhatCannotBeWrittenIsTold) {
   auto layout = import({}).layout;
   layout.blocks = {{"dock", BlockKind::OneVehicle}};

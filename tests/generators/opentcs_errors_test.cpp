@@ -56,6 +56,8 @@ struct Break {
 
 const Break kBreaks[] = {
     {"missing_position", "positionX=\"3000\" ", "", "m.xml:4: <point> has no attribute \"positionX\"; add it"},
+    {"second_attribute", "positionX=\"3000\" ", "positionX=\"3000\" positionX=\"9\" ",
+     "m.xml:4: <point> has \"positionX\" twice, which is not well-formed XML; remove one"},
     {"missing_name", "<point name=\"South-1\" ", "<point ", "m.xml:4: <point> has no attribute \"name\"; add it"},
     {"empty_name", "<point name=\"South-1\" ", "<point name=\"\" ", "m.xml:4: name \"\": the name is empty"},
     {"nan", "positionX=\"3000\"", "positionX=\"NaN\"",
