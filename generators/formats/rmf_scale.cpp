@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -58,11 +59,12 @@ std::vector<std::pair<Vec2, Vec2>> shared_fiducials(const YamlText& yaml, const 
   std::vector<std::pair<Vec2, Vec2>> shared;
   const auto there = reference["fiducials"], here = level["fiducials"];
   if (!there.IsDefined() || !here.IsDefined()) return shared;
-  for (const auto a : there) {
-    for (const auto b : here) {
-      if (shown(yaml.item(a, 2, "a fiducial")) == shown(yaml.item(b, 2, "a fiducial")))
-        shared.emplace_back(pixel_of(yaml, a, "a fiducial"), pixel_of(yaml, b, "a fiducial"));
-    }
+  const auto name_of = [&](const YAML::Node& fiducial) { return shown(yaml.item(fiducial, 2, "a fiducial")); };
+  std::multimap<std::string, Vec2> named;
+  for (const auto a : there) named.emplace(name_of(a), pixel_of(yaml, a, "a fiducial"));
+  for (const auto b : here) {
+    const auto [begin, end] = named.equal_range(name_of(b));
+    for (auto a = begin; a != end; ++a) shared.emplace_back(a->second, pixel_of(yaml, b, "a fiducial"));
   }
   return shared;
 }

@@ -105,10 +105,10 @@ const Break kBreaks[] = {
      "m.xml:294: a second <locationType> is named \"Floor storage\"; rename one"},
     {"duplicate_location", "<location name=\"Dock in 2\"", "<location name=\"Dock in 1\"",
      "m.xml:301: a second <location> is named \"Dock in 1\"; rename one"},
-    {"locked_path", "<path name=\"South-1 to South-2\" ", "<path name=\"South-1 to South-2\" locked=\"on\" ",
+    {"locked_path", "maxReverseVelocity=\"0\" locked=\"false\"", "maxReverseVelocity=\"0\" locked=\"on\"",
      "m.xml:137: locked of <path> is \"on\"; expected true or false"},
-    {"locked_location", "<location name=\"Floor lane 1\" ", "<location name=\"Floor lane 1\" locked=\"TRUE\" ",
-     "m.xml:316: "
+    {"locked_location", "positionZ=\"0\" locked=\"false\" type", "positionZ=\"0\" locked=\"TRUE\" type",
+     "m.xml:298: "
      "locked of <location> is \"TRUE\"; expected true or false"},
     {"second_model", "</model>", "</model>\n<model/>",
      "m.xml:335: \"model\" is a second element at the top of the file; XML has one there: remove it"},

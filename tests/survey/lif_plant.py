@@ -13,8 +13,9 @@ def given(entry, *keys):
 
 
 def rules_of(element):
-    return given(element, "vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties", "vehicleTypeEdgeProperties",
-                 "mobileRobotTypeEdgeProperties") or []
+    return [rule for key in ("vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties",
+                             "vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties")
+            for rule in element.get(key, [])]
 
 
 def types_of(entry):
@@ -22,7 +23,13 @@ def types_of(entry):
     name = given(entry, "vehicleTypeId", "mobileRobotTypeId")
     if name is not None:
         return [name]
-    return [robot.get("seriesName", "") for robot in entry.get("mobileRobotTypes", [])] or [""]
+    names = given(entry, "vehicleTypeIds", "mobileRobotTypeIds")
+    if names is not None:
+        return names
+    if "mobileRobotTypes" not in entry:
+        return [""]
+    return [".".join(filter(None, (robot.get("manufacturer"), robot["seriesName"])))
+            for robot in entry["mobileRobotTypes"]]
 
 
 def named_types(elements):
@@ -175,8 +182,8 @@ def without_nulls(pairs):
 def read(path, level=None):
     with open(path, encoding="utf-8-sig") as file:
         layouts = layouts_of(json.load(file, object_pairs_hook=without_nulls))
-    found = [layout for layout in layouts
-             if level is None or level in (layout.get("layoutId"), layout.get("layoutLevelId"))]
+    found = next(filter(None, ([layout for layout in layouts if level in (None, layout.get(key))]
+                               for key in ("layoutId", "layoutLevelId"))), [])
     if len(found) != 1:
         raise ValueError(f"{len(found)} layouts to choose from")
     chosen = found[0]

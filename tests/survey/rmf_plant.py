@@ -1,4 +1,5 @@
 """Open-RMF buildings of the traffic editor, and nav graphs, by the names that its source uses."""
+from itertools import combinations
 from math import dist
 
 from flow_yaml import load
@@ -15,14 +16,25 @@ def words_of(item):
     return {key: value[1] if isinstance(value, list) and len(value) == 2 else value for key, value in words.items()}
 
 
+def mean(values):
+    return sum(values) / len(values)
+
+
+def measured(level):
+    shares = [words["distance"][1] / dist(*(level["vertices"][i][:2] for i in (start, end)))
+              for start, end, words in level.get("measurements") or []]
+    return mean(shares) if shares else 1.0
+
+
 def scale_of(root, level, is_graph):
     if is_graph or root.get("coordinate_system") == "cartesian_meters":
         return 1.0, 1.0
-    shares = []
-    for start, end, words in level.get("measurements") or []:
-        pixels = dist(*(level["vertices"][i][:2] for i in (start, end)))
-        shares.append(words["distance"][1] / pixels)
-    metres = sum(shares) / len(shares) if shares else 1.0
+    levels = root["levels"]
+    reference = levels[root.get("reference_level_name", next(iter(levels)))]
+    pairs = [(there[:2], here[:2]) for there in reference.get("fiducials") or []
+             for here in level.get("fiducials") or [] if there[2] == here[2]]
+    shares = [dist(a[1], b[1]) / dist(a[0], b[0]) for a, b in combinations(pairs, 2)]
+    metres = measured(level) if reference is level or not shares else measured(reference) / mean(shares)
     return metres, -metres
 
 
