@@ -62,8 +62,8 @@ void warn_of_foreign_types(const Scenario& scenario, const std::string& path) {
   std::vector<std::string> fleet;
   for (const VehicleType& type : scenario.vehicle_types) fleet.push_back(type.name);
   const Layout& layout = scenario.map->layout();
-  if (const auto foreign = foreign_types(layout, fleet); !foreign.empty())
-    talk("warning: {}: {}\n", path, sentence_on(foreign[0], layout, fleet));
+  for (const ForeignType& type : foreign_types(layout, fleet))
+    talk("warning: {}: {}\n", path, sentence_on(type, layout, fleet));
 }
 
 void check_scenario(const std::string& path) {

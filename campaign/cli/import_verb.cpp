@@ -56,7 +56,7 @@ std::vector<ForeignVehicle> read_vehicles(const ImportWords& words, const Layout
                                           std::vector<std::string>& warnings) {
   if (words.format == "opentcs") return read_opentcs_vehicles(words.file, warnings);
   auto vehicle = read_factsheet(words.factsheet, warnings);
-  const auto name = name_as_permitted(vehicle.type.name, layout);
+  const auto name = name_as_permitted(vehicle, layout);
   if (name != vehicle.type.name)
     warnings.push_back(fmt::format("{}: the series {} is called {}, as the permissions of the layout call it",
                                    words.factsheet, in_quotes(vehicle.type.name), in_quotes(name)));

@@ -8,6 +8,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "generators/formats/importer.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof::cli {
@@ -34,7 +35,7 @@ int new_file(const NewWords& words) {
   if (words.what != "campaign")
     throw InputError("WHAT",
                      fmt::format("{} cannot be begun; write: fleetproof new campaign FILE", in_quotes(words.what)));
-  if (fs::path(words.path).extension() == ".json")
+  if (has_ending(words.path, ".json"))
     throw InputError(words.path, "ends in .json, and a campaign file is TOML; name it as in night.toml");
   const std::string layout = (fs::path(words.path).parent_path() / kLongHaulFile).string();
   const std::string_view text = words.is_short ? short_standard_campaign() : standard_campaign();

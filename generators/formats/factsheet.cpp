@@ -55,6 +55,8 @@ class FactsheetReader {
     if (!size) root_.refuse("has no physicalParameters; expected a VDA 5050 factsheet");
     expect_an_object(*size);
     name_vehicle();
+    if (const auto manufacturer = root_.find("manufacturer"); manufacturer && manufacturer->is_text())
+      vehicle_.manufacturer = manufacturer->text();
     vehicle_.vehicles.push_back(vehicle_.type.name);
     for (const auto& parameter : kParameters) take(*size, parameter);
     if (const auto geometry = either_spelling(root_, kGeometry[0], kGeometry[1])) {
@@ -106,29 +108,34 @@ class FactsheetReader {
       return number_within(point.at(axis), -kLargestBody_m, kLargestBody_m);
     };
     Box box;
-    for (const auto& point : points->items()) box.add(Vec2(coordinate(point, "x"), coordinate(point, "y")));
+    std::vector<Vec2> corners_m;
+    for (const auto& point : points->items()) corners_m.emplace_back(coordinate(point, "x"), coordinate(point, "y"));
+    for (const Vec2& corner_m : corners_m) box.add(corner_m);
     if (points->items().size() < 3) points->refuse("an envelope has 3 points or more");
     auto& [length_m, width_m, centre_ahead_m] = vehicle_.type.footprint;
     const double ahead_m = (box.low_m.x() + box.high_m.x()) / 2.0;
     const double long_m = box.high_m.x() - box.low_m.x(),
                  wide_m = 2.0 * std::max(std::abs(box.low_m.y()), std::abs(box.high_m.y()));
-    if (box.high_m.y() + box.low_m.y() != 0.0)
-      warn(
-          *points,
-          fmt::format("the envelope reaches {:g} m to the left and {:g} m to the right; here it reaches {:g} m to both",
-                      box.high_m.y(), -box.low_m.y(), wide_m / 2.0));
-    if (!std::ranges::all_of(points->items(), [&](const JsonReader& point) {
-          return is_corner(box, Vec2(coordinate(point, "x"), coordinate(point, "y")));
-        }))
-      warn(*points, "the envelope is no rectangle; the rectangle around it counts");
     widen(*points, "length_m", length_m, long_m);
     widen(*points, "width_m", width_m, wide_m);
+    if (std::abs(box.high_m.y() + box.low_m.y()) > kSmallestBody_m)
+      warn(*points,
+           fmt::format("the envelope reaches from {:g} m to {:g} m across; here the body reaches {:g} m to both "
+                       "sides",
+                       box.low_m.y(), box.high_m.y(), width_m / 2.0));
+    if (std::abs(area_m2(corners_m)) < (1.0 - kSameSize) * long_m * (box.high_m.y() - box.low_m.y()))
+      warn(*points, "the envelope is no rectangle; the rectangle around it counts");
     if (std::abs(ahead_m) > kSmallestBody_m) vehicle_.give("centre_ahead_m", centre_ahead_m, ahead_m);
   }
 
-  static bool is_corner(const Box& box, const Vec2& point) {
-    return (point.x() == box.low_m.x() || point.x() == box.high_m.x()) &&
-           (point.y() == box.low_m.y() || point.y() == box.high_m.y());
+  // By the shoelace formula; negative if the corners go round clockwise.
+  static double area_m2(const std::vector<Vec2>& corners_m) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < corners_m.size(); ++i) {
+      const Vec2 &a = corners_m[i], &b = corners_m[(i + 1) % corners_m.size()];
+      twice += a.x() * b.y() - b.x() * a.y();
+    }
+    return twice / 2.0;
   }
 
   void widen(const JsonReader& points, std::string_view key, double& size_m, double envelope_m) {

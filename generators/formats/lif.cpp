@@ -176,7 +176,6 @@ class LifReader {
     const auto acts = purposes_of_actions(types, choice_.purposes);
     auto& purposes = layout_.stations[to->index()].purposes;
     purposes = purposes | acts;
-    if (acts != Purposes::from_bits(0)) told_.act.push_back(segment.name);
     auto permissions = types_.permissions(edge, nodes_[from->index()], nodes_[to->index()]);
     if (!permissions)
       return warn(edge, fmt::format("no AGV may drive edge {}: no type of vehicle has a rule at it and at both of its "
@@ -193,12 +192,21 @@ class LifReader {
     if (const auto trajectory = trajectory_in(types, segment.name)) bend(*trajectory, segment);
     limit_speed(types, segment);
     segment.width_m = corridor_width_m(types);
-    std::optional<Vec2> straight;
-    if (segment.control_points_m.empty())
-      straight = layout_.stations[to->index()].position_m - layout_.stations[from->index()].position_m;
-    turns_.add(edge, segment.from, segment.to, travel_.add(types, straight, segment));
+    turns_.add(edge, segment.from, segment.to, travel_.add(types, straight_way(segment), segment));
+    if (acts.has(Purpose::Storage) || acts.has(Purpose::Charging)) told_.act.push_back(segment.name);
     layout_.segments.push_back(std::move(segment));
     edges_.push_back(edge);
+  }
+
+  // None: the segment is curved.
+  std::optional<Vec2> straight_way(const Segment& segment) const {
+    const Vec2 from_m = layout_.stations[segment.from.index()].position_m,
+               way_m = layout_.stations[segment.to.index()].position_m - from_m;
+    const Vec2 left = Vec2(-way_m.y(), way_m.x()).normalized();
+    const bool is_straight = std::ranges::all_of(segment.control_points_m, [&](const Vec2& point_m) {
+      return std::abs((point_m - from_m).dot(left)) <= kSameTrack_m;
+    });
+    return is_straight ? std::optional(way_m) : std::nullopt;
   }
 
   // Of all types of vehicles the lowest.

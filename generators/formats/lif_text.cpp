@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/formats/purpose_words.hpp"
@@ -226,7 +227,9 @@ std::optional<Changed> changed_by_import(const Layout& layout) {
         changed.permissions.push_back(segment.name);
     }
     for (std::size_t i = 0; i < layout.stations.size(); ++i) {
-      if (again.stations[i].heading != layout.stations[i].heading) changed.headings.push_back(layout.stations[i].name);
+      const auto &before = layout.stations[i].heading, &after = again.stations[i].heading;
+      const bool is_same = before && after ? (*before - *after).norm() <= kAligned_rad : before == after;
+      if (!is_same) changed.headings.push_back(layout.stations[i].name);
     }
   } catch (const InputError&) {
     return {};

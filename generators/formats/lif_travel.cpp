@@ -57,6 +57,11 @@ std::optional<std::vector<double>> angles_of(const JsonReader& list) {
   return angles_rad.empty() ? std::nullopt : std::optional(std::move(angles_rad));
 }
 
+// LIF 1.0 means nose first if it gives none; its successor, whose rules list types, means any orientation.
+bool leaves_orientation_open(const JsonReader& rule) {
+  return rule.find("mobileRobotTypes") || rule.find("vehicleTypeIds") || rule.find("mobileRobotTypeIds");
+}
+
 // Adds the edge once: its rules are read in a row.
 void note(std::vector<std::string>& edges, const std::string& edge) {
   if (edges.empty() || edges.back() != edge) edges.push_back(edge);
@@ -81,9 +86,6 @@ std::vector<double> LifTravel::orientations(const JsonReader& rule, const std::s
     found_rad.insert(found_rad.end(), angles_rad->begin(), angles_rad->end());
   }
   if (std::ranges::any_of(found_rad, [](double rad) { return std::abs(rad) > kFullTurn_rad; })) note(large_, edge);
-  // LIF 1.0 means nose first; its successor, whose rules list types of mobile robots, means any orientation.
-  if (found_rad.empty() && rule.find("mobileRobotTypes")) note(open_, edge);
-  if (found_rad.empty()) found_rad.push_back(0.0);
   return found_rad;
 }
 
@@ -93,7 +95,12 @@ bool LifTravel::add(const std::vector<JsonReader>& rules, const std::optional<Ve
   for (const auto& rule : rules) {
     const bool tangential = word_of(rule, "orientationType", kReferences, kReferences[0]) == kReferences[0];
     bool along = false, aside = false;
-    for (const double rad : orientations(rule, segment.name)) {
+    auto orientations_rad = orientations(rule, segment.name);
+    if (orientations_rad.empty()) {
+      if (leaves_orientation_open(rule) || !tangential) note(open_, segment.name);
+      orientations_rad = {tangential || !straight ? 0.0 : angle_between(Vec2(1.0, 0.0), straight->normalized())};
+    }
+    for (const double rad : orientations_rad) {
       const auto nose_first = tangential ? is_forward(rad)
                               : straight ? is_forward_on_map(rad, *straight)
                                          : std::nullopt;
@@ -122,7 +129,8 @@ std::vector<std::string> LifTravel::sentences() const {
     if (count > 0) found.push_back(fmt::vformat(sentence, fmt::make_format_args(count, list)));
   };
   tell(sideways_,
-       "{0} edges turn the AGV sideways, or by a heading on the map along a curve ({1}); sideways travel is not "
+       "{0} edges turn the AGV sideways, or by a heading on the map that is not along them ({1}); sideways travel is "
+       "not "
        "modelled: here AGVs "
        "drive them nose first");
   tell(also_sideways_,

@@ -22,7 +22,7 @@ class LifTravel {
   std::vector<std::string> sentences() const;
 
  private:
-  // Which orientations a rule allows, in radians. A rule that gives none means 0: nose first.
+  // Which orientations a rule gives, in radians.
   std::vector<double> orientations(const JsonReader& rule, const std::string& edge);
 
   std::vector<std::string> sideways_, also_sideways_, both_ways_, unread_, large_, open_;  // names of edges

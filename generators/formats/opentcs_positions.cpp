@@ -58,11 +58,11 @@ std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& 
     for (const StationId end : {segment.from, segment.to}) on_a_path.insert(static_cast<std::ptrdiff_t>(end.index()));
   }
   double farthest_m = 0.0;
-  std::size_t elsewhere = 0, undrawn = 0;
+  std::size_t elsewhere = 0, undrawn = 0, apart = 0;  // apart: on no path, and not drawn
   for (auto& station : drawing.stations) {
     const auto found = drawn_m.find(station.name);
     if (found == drawn_m.end()) {
-      undrawn += on_a_path.contains(&station - drawing.stations.data()) ? 1 : 0;
+      ++(on_a_path.contains(&station - drawing.stations.data()) ? undrawn : apart);
       continue;
     }
     const double off_m = (found->second - station.position_m).norm();
@@ -72,8 +72,9 @@ std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& 
   }
   if (elsewhere == 0) return "";
   const auto begin =
-      fmt::format("{} of {} points stand elsewhere in the drawing than in the plant, by up to {:.2f} m; ", elsewhere,
-                  layout.stations.size(), farthest_m);
+      fmt::format("{} of {} points stand elsewhere in the drawing than in the plant, by up to {:.2f} m; {}", elsewhere,
+                  layout.stations.size(), farthest_m,
+                  apart == 0 ? "" : fmt::format("{} points on no path are not drawn and keep the plant's; ", apart));
   if (undrawn > 0)
     return begin + fmt::format("{} points are not drawn, so all have their positions of the plant{}", undrawn,
                                has_curves(layout)

@@ -93,7 +93,7 @@ LocationPurpose purpose_of_link(const LocationWords& type, const LocationWords& 
     return purpose.source != nullptr && purpose.source == source;
   };
   const auto of_link = purpose_of(link, own);
-  const bool by_type = says(purpose_of(type, own), "operations");
+  const bool by_type = says(purpose_of(type, PurposeWords()), "operations");
   if (!by_type || says(of_link, "operations") || says(of_link, "user")) return of_link;
   return {Purpose::Routing, kNothingAllowed};
 }

@@ -53,7 +53,7 @@ PurposeWord purpose_word(std::string_view word, std::string_view purposes, const
 PurposeWords purpose_words_of(std::string_view text, const std::string& place) {
   PurposeWords words;
   while (!text.empty()) {
-    // A word may hold commas and signs itself: "Dock, left=storage", "op=2=storage".
+    // A word may hold commas, or signs: "Dock, left=storage", "op=2=storage".
     const auto pair = text.substr(0, text.starts_with(',') ? 0 : text.find(',', std::min(text.find('='), text.size())));
     const auto sign = pair.rfind('=');
     if (sign == std::string_view::npos || sign == 0) {

@@ -194,7 +194,8 @@ class LevelReader {
     for (const std::size_t member : joined_.members_of(vertex)) {
       add_purposes(vertices_[member], station);
       const auto name = given_name(vertices_[member], read_.is_nav_graph);
-      if (!name.empty() && name != station.name) told_.other_names.push_back(name);
+      const bool is_joined = joined_.members_of(vertex).size() > 1;
+      if (is_joined && !name.empty() && name != station.name) told_.other_names.push_back(name);
       read_.vertices.insert(member);
     }
     if (joined_.members_of(vertex).size() > 1) told_.joined.push_back(station.name);

@@ -59,9 +59,14 @@ std::vector<std::pair<Vec2, Vec2>> shared_fiducials(const YamlText& yaml, const 
   std::vector<std::pair<Vec2, Vec2>> shared;
   const auto there = reference["fiducials"], here = level["fiducials"];
   if (!there.IsDefined() || !here.IsDefined()) return shared;
-  const auto name_of = [&](const YAML::Node& fiducial) { return shown(yaml.item(fiducial, 2, "a fiducial")); };
+  const auto name_of = [&](const YAML::Node& fiducial) {
+    const auto name = yaml.item(fiducial, 2, "a fiducial");
+    return name.IsScalar() ? name.Scalar() : "";
+  };
   std::multimap<std::string, Vec2> named;
-  for (const auto a : there) named.emplace(name_of(a), pixel_of(yaml, a, "a fiducial"));
+  for (const auto a : there) {
+    if (!name_of(a).empty()) named.emplace(name_of(a), pixel_of(yaml, a, "a fiducial"));
+  }
   for (const auto b : here) {
     const auto [begin, end] = named.equal_range(name_of(b));
     for (auto a = begin; a != end; ++a) shared.emplace_back(a->second, pixel_of(yaml, b, "a fiducial"));
@@ -78,8 +83,10 @@ std::optional<double> relative_scale(const YamlText& yaml, const YAML::Node& ref
     for (std::size_t b = a + 1; b < shared.size(); ++b, ++pairs) {
       const double there = (shared[a].first - shared[b].first).norm(),
                    here = (shared[a].second - shared[b].second).norm();
-      if (!(there > 0.0 && here > 0.0))
-        yaml.refuse(level["fiducials"], "two fiducials are on one spot, and give no scale; correct them");
+      for (const auto& [pixels, of] : {std::pair{there, reference}, {here, level}}) {
+        if (!(pixels > 0.0))
+          yaml.refuse(of["fiducials"], "two fiducials are on one spot, and give no scale; correct them");
+      }
       sum += here / there;
     }
   }
@@ -110,10 +117,12 @@ RmfScale scale_of_level(const YamlText& yaml, const YAML::Node& root, const std:
             own ? fmt::format("the level shares no two fiducials with reference level {}; its measurements count",
                               in_quotes(reference_name))
                 : unmeasured};
-  const double scale = measured_scale(yaml, reference).value_or(1.0) / *relative;
+  const auto measured = measured_scale(yaml, reference);
+  const double scale = measured.value_or(1.0) / *relative;
   return {scale, true,
-          fmt::format("by the fiducials that the level shares with reference level {}, a pixel has {:.5g} m{}",
+          fmt::format("by the fiducials that the level shares with reference level {}, a pixel has {:.5g} m{}{}",
                       in_quotes(reference_name), scale,
+                      measured ? "" : " (there are no measurements on that level; a pixel of it is taken as 1 m)",
                       own ? fmt::format("; by its measurements, which do not count, {:.5g} m", *own) : "")};
 }
 

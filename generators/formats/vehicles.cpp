@@ -48,12 +48,14 @@ std::vector<ForeignVehicle> joined(const std::vector<ForeignVehicle>& vehicles) 
   return types;
 }
 
-std::string name_as_permitted(const std::string& series, const Layout& layout) {
+std::string name_as_permitted(const ForeignVehicle& vehicle, const Layout& layout) {
+  const std::string &series = vehicle.type.name, end = vehicle.manufacturer + "." + series;
   std::set<std::string> alike;
   for (const Segment& segment : layout.segments) {
     for (const Permission& permission : segment.permissions) {
-      if (permission.vehicle_type == series) return series;
-      if (permission.vehicle_type.ends_with("." + series)) alike.insert(permission.vehicle_type);
+      const std::string& name = permission.vehicle_type;
+      if (name == series) return series;
+      if (vehicle.manufacturer.empty() ? name.ends_with(end) : name == end) alike.insert(name);
     }
   }
   return alike.size() == 1 ? *alike.begin() : series;

@@ -12,6 +12,7 @@ namespace fleetproof {
 // A vehicle type as a file of another program describes it.
 struct ForeignVehicle {
   VehicleType type{};
+  std::string manufacturer{};            // empty: not given
   std::vector<std::string_view> keys{};  // of the fields that the file gives; the others have their defaults
   std::vector<std::string> vehicles{};   // names of the vehicles that are of this type
 
@@ -24,9 +25,9 @@ struct ForeignVehicle {
 // Joins types that differ in nothing but their names. The first name stays.
 std::vector<ForeignVehicle> joined(const std::vector<ForeignVehicle>& vehicles);
 
-// What the permissions of a layout call a series of vehicles: "MANUFACTURER.SERIES" if they name one type with such an
-// end and none that is the series alone; else the series.
-std::string name_as_permitted(const std::string& series, const Layout& layout);
+// What the permissions of a layout call a vehicle: its series, or "MANUFACTURER.SERIES" if they name that and not the
+// series alone. If the manufacturer is not known, one type with such an end is meant; two may be others.
+std::string name_as_permitted(const ForeignVehicle& vehicle, const Layout& layout);
 
 // As [[vehicle]] tables of a campaign file, with the fields that the file gave. `source`: the name of that file.
 std::string fleet_text(const std::vector<ForeignVehicle>& vehicles, std::string_view source);

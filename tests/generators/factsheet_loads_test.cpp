@@ -22,7 +22,7 @@ Imported with_loads(const std::string& sets) {
   const auto vehicle = parse_factsheet(
       R"({"typeSpecification": {"seriesName": "H"}, "physicalParameters": {"speedMax": 2, "accelerationMax": 0.5,
       "decelerationMax": 1, "angularSpeedMax": 1, "length": 2, "width": 0.8}, "agvGeometry": {"envelopes2d": [
-      {"polygonPoints": [{"x": -0.5, "y": -0.4}, {"x": 1.5, "y": -0.4}, {"x": 1.5, "y": 0.4}]}]},
+      {"polygonPoints": [{"x": -0.5, "y": -0.4}, {"x": 1.5, "y": -0.4}, {"x": 1.5, "y": 0.4}, {"x": -0.5, "y": 0.4}]}]},
       "loadSpecification": {"loadSets": )" +
           sets + "}}",
       "f.json", warnings);

@@ -118,6 +118,11 @@ TEST(LifRules, AnActionOnAnEdgeIsForItsEnd) {
   const auto plant = import({.ab = R"({"actions": [{"actionType": "pick"}]})"});
   EXPECT_EQ(plant.layout.stations[1].purposes, Purposes(Purpose::Routing) | Purpose::Storage);
   EXPECT_THAT(plant.sentences, HasSubstr("1 edges have actions to pick, drop or charge (\"ab\"); here their end"));
+  std::vector<std::string> told;
+  ReadChoice choice;
+  choice.purposes = purpose_words_of("beep=parking", "--purposes");
+  parse_lif(file_of({.ab = R"({"actions": [{"actionType": "beep"}]})"}), "l.json", told, choice);
+  EXPECT_THAT(fmt::format("{}", fmt::join(told, "\n")), Not(HasSubstr("actions to pick")));
 }
 
 TEST(LifRules, ANodeMayRestrictLoads) {

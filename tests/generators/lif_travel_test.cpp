@@ -82,7 +82,8 @@ TEST(LifTravel, SidewaysTravelIsNamed) {
   const auto alone = listed("[1.5708, -1.5708]");
   EXPECT_EQ(alone.travel, Travel::Forward);
   EXPECT_THAT(alone.sentences,
-              HasSubstr("l.json:1: 1 edges turn the AGV sideways, or by a heading on the map along a curve (\"ab\")"));
+              HasSubstr("l.json:1: 1 edges turn the AGV sideways, or by a heading on the map that is not along them "
+                        "(\"ab\")"));
   const auto also = listed("[1.5708, 3.14159]");
   EXPECT_EQ(also.travel, Travel::Backward);
   EXPECT_THAT(also.sentences, HasSubstr("1 edges let AGVs drive sideways, too (\"ab\")"));
@@ -100,10 +101,24 @@ TEST(LifTravel, AHeadingOnTheMapIsAWayOfTravelAlongAStraightEdge) {
   const auto aside = listed("[1.5708]", on_map);
   EXPECT_EQ(aside.travel, Travel::Forward);
   EXPECT_THAT(aside.sentences, HasSubstr("nose first"));
-  const auto curve = listed("[3.14159]", on_map + R"(, "trajectory": {"degree": 2, "knotVector": [0, 0, 0, 1, 1, 1],
-"controlPoints": [{"x": 0, "y": 0}, {"x": 2, "y": 1}, {"x": 5, "y": 0}]})");
-  EXPECT_EQ(curve.travel, Travel::Forward);
-  EXPECT_THAT(curve.sentences, HasSubstr("along a curve (\"ab\")"));
+  const auto bent = [&](const std::string& y) {
+    return listed("[3.14159]", on_map + R"(, "trajectory": {"degree": 2, "knotVector": [0, 0, 0, 1, 1, 1],
+"controlPoints": [{"x": 0, "y": 0}, {"x": 2, "y": )" +
+                                   y + R"(}, {"x": 5, "y": 0}]})");
+  };
+  EXPECT_EQ(bent("1").travel, Travel::Forward);
+  EXPECT_THAT(bent("1").sentences, HasSubstr("that is not along them (\"ab\")"));
+  EXPECT_EQ(bent("0").travel, Travel::Backward);
+}
+
+// On the map or not: the draft of LIF 2.0, which lists types, leaves it open.
+TEST(LifTravel, ARuleWithoutAnOrientationMeansNoseFirst) {
+  for (const char* rule :
+       {R"({"vehicleTypeIds": ["v"]})", R"({"mobileRobotTypeIds": ["v"]})", R"({"orientationType": "GLOBAL"})"}) {
+    const auto open = import(rule);
+    EXPECT_EQ(open.travel, Travel::Forward) << rule;
+    EXPECT_THAT(open.sentences, HasSubstr("1 edges leave the orientation open (\"ab\")")) << rule;
+  }
 }
 
 TEST(LifTravel, TypesThatDifferAreTold) {

@@ -92,6 +92,9 @@ TEST(OpenTcsPurposes, ALinkMayAllowLess) {
   EXPECT_NE(other.warnings[0].find("to point \"a\" allows no operation that is known here (\"NOP\")"),
             std::string::npos)
       << other.warnings[0];
+  ReadChoice confirmed;
+  confirmed.purposes = purpose_words_of("LOAD=storage", "--purposes");
+  EXPECT_EQ(import(kCases[0], "<allowedOperation name='NOP'/>", confirmed).purposes, "routing");
 }
 
 TEST(OpenTcsPurposes, PackagesAndWorkersSayNothing) {

@@ -167,6 +167,10 @@ TEST(Rmf, ALevelIsScaledByTheFiducialsThatItSharesWithTheReference) {
   EXPECT_NE(refused(plant("reference_level_name: L3\n", twice)).find("b.yaml:2: reference_level_name is \"L3\", but"),
             std::string::npos);
   EXPECT_NE(refused(plant("", "[[10, 10, b], [10, 10, a]]")).find("two fiducials are on one spot"), std::string::npos);
+  EXPECT_EQ(refused(plant("", "[[10, 10, \"\"], [10, 10, \"\"]]")), "accepted") << "fiducials without a name";
+  const auto unmeasured = replaced(plant("", twice), "    measurements: [[0, 1, {distance: [3, 5]}]]\n", "");
+  EXPECT_NE(read(unmeasured, "L2").warnings[1].find("a pixel has 0.5 m (there are no measurements on that level"),
+            std::string::npos);
   EXPECT_NE(refused(plant("", "[[10, 10, b], [10]]")).find("b.yaml:9"), std::string::npos);
 }
 

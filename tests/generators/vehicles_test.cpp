@@ -141,12 +141,16 @@ TEST(Factsheet, OneSideAndOtherShapesAreTold) {
       << "the envelope gives them";
   const auto left = both("\"y\": 0.4", "\"y\": 0.9");
   EXPECT_THAT(left.text, HasSubstr("width_m = 1.8\n"));
-  EXPECT_THAT(
-      left.sentences,
-      HasSubstr("the envelope reaches 0.9 m to the left and 0.4 m to the right; here it reaches 0.9 m to both"));
+  EXPECT_THAT(left.sentences,
+              HasSubstr("the envelope reaches from -0.4 m to 0.9 m across; here the body reaches 0.9 m to both sides"));
   EXPECT_THAT(left.sentences, Not(HasSubstr("no rectangle")));
+  EXPECT_THAT(both("\"y\": 0.4", "\"y\": 0.40000001").sentences, Not(HasSubstr("envelope")));
   EXPECT_THAT(both(R"({"x": 1.5, "y": 0.4})", R"({"x": 1.5, "y": 0.4}, {"x": 0.5, "y": 0.4})").sentences,
-              HasSubstr("the envelope is no rectangle; the rectangle around it counts"));
+              Not(HasSubstr("rectangle")))
+      << "a point in the middle of a side";
+  for (const char* corner : {R"({"x": 0.5, "y": 0.4})", R"({"x": -0.5, "y": -0.4})"})
+    EXPECT_THAT(both(R"({"x": -0.5, "y": 0.4})", corner).sentences,
+                HasSubstr("the envelope is no rectangle; the rectangle around it counts"));
 }
 
 TEST(Factsheet, NothingIsDroppedSilently) {
@@ -168,14 +172,25 @@ TEST(Factsheet, NothingIsDroppedSilently) {
 TEST(Factsheet, IsCalledAsThePermissionsOfALayoutCallIt) {
   Layout layout;
   layout.segments.resize(2);
-  EXPECT_EQ(name_as_permitted("S", layout), "S");
+  const auto name = [&](const std::string& series, const std::string& manufacturer = "") {
+    ForeignVehicle vehicle;
+    vehicle.type.name = series;
+    vehicle.manufacturer = manufacturer;
+    return name_as_permitted(vehicle, layout);
+  };
+  EXPECT_EQ(name("S"), "S");
   layout.segments[0].permissions = {{"m.S", LoadState::Any}};
-  EXPECT_EQ(name_as_permitted("S", layout), "m.S");
-  EXPECT_EQ(name_as_permitted("T", layout), "T");
+  EXPECT_EQ(name("S"), "m.S");
+  EXPECT_EQ(name("S", "m"), "m.S");
+  EXPECT_EQ(name("S", "k"), "S") << "another one makes it";
+  EXPECT_EQ(name("T"), "T");
   layout.segments[1].permissions = {{"k.S", LoadState::Any}};
-  EXPECT_EQ(name_as_permitted("S", layout), "S") << "either may be meant";
+  EXPECT_EQ(name("S"), "S") << "either may be meant";
+  EXPECT_EQ(name("S", "k"), "k.S");
   layout.segments[1].permissions = {{"S", LoadState::Any}};
-  EXPECT_EQ(name_as_permitted("S", layout), "S");
+  EXPECT_EQ(name("S", "m"), "S");
+  std::vector<std::string> none;
+  EXPECT_EQ(parse_factsheet(R"({"manufacturer": "k",)" + kSheet.substr(1), "f.json", none).manufacturer, "k");
 }
 
 TEST(Factsheet, EachMalformedValueHasOneError) {
