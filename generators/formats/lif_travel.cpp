@@ -130,9 +130,7 @@ std::vector<std::string> LifTravel::sentences() const {
   };
   tell(sideways_,
        "{0} edges turn the AGV sideways, or by a heading on the map that is not along them ({1}); sideways travel is "
-       "not "
-       "modelled: here AGVs "
-       "drive them nose first");
+       "not modelled: here AGVs drive them nose first");
   tell(also_sideways_,
        "{0} edges let AGVs drive sideways, too ({1}); sideways travel is not modelled: here AGVs drive them forward or "
        "backward, as they also may");
