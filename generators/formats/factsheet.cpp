@@ -88,11 +88,9 @@ class FactsheetReader {
   void take(const JsonReader& size, const Parameter& parameter) {
     const auto found = either_spelling(size, parameter.old_key, parameter.new_key);
     double& target = parameter.of(vehicle_.type);
+    if (found) return vehicle_.give(parameter.field, target, number_within(*found, parameter.low, parameter.high));
     const bool may_follow = parameter.old_key == "length" || parameter.old_key == "width";  // from an envelope
-    if (!found && may_follow) return;
-    if (!found)
-      return warn(size, fmt::format("gives no {}; {} stays {:g}", parameter.new_key, parameter.field, target));
-    vehicle_.give(parameter.field, target, number_within(*found, parameter.low, parameter.high));
+    if (!may_follow) warn(size, fmt::format("gives no {}; {} stays {:g}", parameter.new_key, parameter.field, target));
   }
 
   // The first of them. The body is the rectangle around it and around length and width.

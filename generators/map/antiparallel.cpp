@@ -36,6 +36,12 @@ void join(Segment& there, const Segment& back) {
   there.blocks = std::move(blocks);
 }
 
+// One-way segments there and back on one track, which the same AGVs may drive.
+bool are_twins(const Segment& there, const Segment& back) {
+  return there.from == back.to && there.to == back.from && !there.bidirectional && !back.bidirectional &&
+         there.permissions == back.permissions && is_mirrored(there, back);
+}
+
 bool on_one_track(const Segment& a, const Segment& b) { return a.from == b.from ? is_same(a, b) : is_mirrored(a, b); }
 
 std::vector<std::string> names_on_a_track_again(const Layout& layout) {
@@ -60,10 +66,8 @@ std::vector<std::string> merge_antiparallel(Layout& layout) {
   for (auto& segment : layout.segments) {
     const auto from = segment.from.index(), to = segment.to.index();
     const auto [begin, end] = waiting.equal_range({to, from});
-    const auto twin = std::find_if(begin, end, [&](const auto& entry) {
-      const Segment& there = kept[entry.second];
-      return !segment.bidirectional && there.permissions == segment.permissions && is_mirrored(there, segment);
-    });
+    const auto twin =
+        std::find_if(begin, end, [&](const auto& entry) { return are_twins(kept[entry.second], segment); });
     if (twin != end) {
       join(kept[twin->second], segment);
       names.push_back(kept[twin->second].name);
@@ -81,9 +85,8 @@ void merge_pairs(Layout& layout, const std::vector<std::pair<std::size_t, std::s
   std::set<std::size_t> merged;
   for (const auto& [first, second] : pairs) {
     Segment &there = layout.segments[first], &back = layout.segments[second];
-    const bool is_twin = there.from == back.to && there.to == back.from && !there.bidirectional &&
-                         !back.bidirectional && there.permissions == back.permissions && is_mirrored(there, back);
-    if (!is_twin || merged.contains(first) || !merged.insert(second).second) continue;
+    if (merged.contains(first) || merged.contains(second) || !are_twins(there, back)) continue;
+    merged.insert(second);
     join(there, back);
   }
   std::vector<Segment> kept;
