@@ -98,7 +98,7 @@ std::vector<std::string> row(const ReportInput& input, std::size_t index) {
   } else {
     cells.push_back(count_text(result.counts.failing_runs, "run"));
   }
-  cells.push_back(std::string(name_of(result.verdict)) + (gate.decides ? "" : " (told only)"));
+  cells.push_back(std::string(name_of(result.verdict)) + (gate.decides ? "" : " (reported only)"));
   return cells;
 }
 

@@ -61,9 +61,9 @@ std::string outcome_element(const ReportInput& input, std::size_t index) {
       return fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n",
                          escaped(shortfall_of(gate, result)), escaped(message), escaped_lines(text));
     case Ending::Skipped:
-      return fmt::format(
-          "      <skipped message=\"{}\"/>\n",
-          escaped(gate.decides ? "not put to the test: " + result.reason : "told only, a reference agent: " + message));
+      return fmt::format("      <skipped message=\"{}\"/>\n",
+                         escaped(gate.decides ? "not put to the test: " + result.reason
+                                              : "reported only, a reference agent: " + message));
     case Ending::Error:
       return fmt::format("      <error type=\"engine error\" message=\"{}\"/>\n",
                          escaped("the engine met an error of its own: nothing here is evidence"));

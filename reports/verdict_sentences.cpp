@@ -34,7 +34,7 @@ std::string gates_text(const std::vector<const GateRecord*>& gates) {
   return std::string(name_of(gates.front()->end_point)) + (named.empty() ? "" : fmt::format(" ({})", named));
 }
 
-// "Gates of fleet-ctl: demonstrated: hang; not demonstrated: violation, crash. Told only, no part of the verdict:
+// "Gates of fleet-ctl: demonstrated: hang; not demonstrated: violation, crash. Reported only, no part of the verdict:
 // old-ctl."
 std::string gates_by_verdict(const ReportInput& input) {
   using Alike = std::vector<const GateRecord*>;  // gates on one end point
@@ -61,7 +61,7 @@ std::string gates_by_verdict(const ReportInput& input) {
   for (const AgentCoverage& agent : input.evidence.agent_coverage()) {
     if (!is_under_test(input.evidence.gates(), agent.agent)) others.push_back(printable(agent.agent, 40));
   }
-  if (!others.empty()) text += fmt::format("Told only, no part of the verdict: {}.", joined(others));
+  if (!others.empty()) text += fmt::format("Reported only, no part of the verdict: {}.", joined(others));
   return text;
 }
 

@@ -129,7 +129,7 @@ class RowWriter {
   }
   static std::string special(const std::optional<std::vector<std::string>>&) { return "a list of texts"; }
   static std::string special(const StreamSeed&) { return "seeds by names of streams"; }
-  static std::string special(Purposes) { return without_expected(expected_word({}, kPurposeNames)); }
+  static std::string special(Purposes) { return "a list: " + without_expected(expected_word({}, kPurposeNames)); }
   static std::string special(const ExemptPair&) { return "[name, name]"; }
   static std::string special(const AgentFactor&) { return "a name, a file or a table"; }
   static std::string special(const LayoutFactor&) { return "a family, a file or a table"; }

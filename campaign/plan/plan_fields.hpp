@@ -133,7 +133,7 @@ void visit_fields(Plan& plan, Visit&& visit) {
       FieldTable{[&](auto& inner) {
         inner(Field{.key = "agents", .text = "names of agents, shared objects, or tables; see campaign-file.md"},
               plan.agents);
-        inner(Field{.key = "layouts", .text = "families, or layout files; see below"}, plan.layouts);
+        inner(Field{.key = "layouts", .text = "families, or layout files; see campaign-file.md"}, plan.layouts);
         inner(Field{.key = "fleet_sizes", .text = "numbers of AGVs", .low = 1.0, .high = kLargestFleet},
               plan.fleet_sizes);
         visit_factors(plan, inner);

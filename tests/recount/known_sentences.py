@@ -185,7 +185,7 @@ def gates_by_verdict(archive, found):
         for end_point in (*END_POINTS, "throughput"):
             gates = [gate for gate in archive.gates
                      if gate["decides"] and (gate["agent"], gate["end_point"]) == (agent, end_point)]
-            of_agent = re.search(rf"Gates of {re.escape(agent)}: (.*?)(?=Gates of|Told only|$)", found.string)
+            of_agent = re.search(rf"Gates of {re.escape(agent)}: (.*?)(?=Gates of|Reported only|$)", found.string)
             told = re.findall(rf"(?<![\w-]){end_point}(?: \((.*?)\))?(?=[,;.])", of_agent[1] if of_agent else "")
             numbers = [int(text.split()[0]) if re.fullmatch("[0-9]+ gates", text) else 1 for text in told]
             named = {text for text in told if text and not text.endswith(" gates")}

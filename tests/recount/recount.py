@@ -86,7 +86,7 @@ def check_gates(archive, page, section, head):
         pattern = re.escape(s.gate_sentence(gate, counts)).replace("UNIT", "(worlds|runs)")
         if not any(re.match(pattern, each) for each in map(plain, section.sentences)):
             differ(f"{page}, gates", s.gate_sentence(gate, counts), section.sentences)
-        verdict = re.search(r"(not demonstrated|demonstrated|violated)( \(told only\))?$", text)
+        verdict = re.search(r"(not demonstrated|demonstrated|violated)( \(reported only\))?$", text)
         distance = re.escape(safety_distance(archive))
         told = s.finding(gate, counts, verdict and verdict[1], distance)
         if told and gate["decides"]:

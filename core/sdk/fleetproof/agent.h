@@ -12,15 +12,15 @@
  *
  * Limits. In one activation an agent may make 10 000 controller calls, and ten million more of random and now_ns. Every
  * call counts, whatever it returns, and those in create() count with FP_EVENT_START. An agent that makes more is filed
- * as a hang. So is one that is called 10 000 times without time advancing, or in all more than 2 000 000 times and
+ * as a hang. So is one that is called 10 000 times without time advancing, or in all more than 2 000 000 times plus
  * 10 000 for each second of the run. It is then suspended to the end of the run:
  * its calls return FP_SUSPENDED, it receives no event, and a restart does not bring it back. Its AGV completes the
  * actions that it has accepted.
  *
  * Rules for the agent. Keep all state in the instance that create() returned. Many instances live in one process, on
  * several threads, but no instance is called from two threads at once. Use no clock, random source or thread of your
- * own: a run can only be replayed if time and randomness come from now_ns and random. An agent in C++ may throw; an
- * agent in another language must not let an exception leave its functions.
+ * own: a run can only be replayed if time and randomness come from now_ns and random. If an agent in C++ throws, it
+ * is filed as crashed; an agent in another language must let no exception leave its functions.
  *
  * Versions. A struct that one side fills for the other begins with its size in bytes. Structs in arrays (AGVs,
  * stations, lanes, arcs, blocks) may grow, too: read them by the stride of the array. Calls of a script and permissions
@@ -127,8 +127,8 @@ typedef struct fp_briefing {
 typedef enum fp_event_kind {
   FP_EVENT_START = 0, /* the run begins, or the agent begins again after a restart */
   FP_EVENT_ORDER,     /* a transport was released for this AGV: order_id, from, to. After a restart, sent again for each
-                         transport that is not done: first that of the load on board, then the oldest first; if the load
-                         waits at a station, that is `from` */
+                         transport that is not done: first that of the load on board, then the oldest first; `from` is
+                         the station where the load waits now, if one does */
   FP_EVENT_MESSAGE,   /* the inbox is not empty; read it until FP_EMPTY. Messages are lost, late, doubled and reordered;
                          those that were not read before a restart are lost */
   FP_EVENT_TIMER,     /* a timer went off: timer */
@@ -162,11 +162,11 @@ typedef struct fp_host {
   uint32_t struct_size;
   uint32_t abi_major, abi_minor;
 
-  /* Actions. The AGV must be idle at a station. It turns towards the segment and drives it to the other end. Then pick
-   * and drop transfer a load there; park and charge stay. One FP_EVENT_ACTION_DONE follows for every accepted action.
-   * While a move is under way, one more action may be given. Its segment must leave the station where the move ends,
-   * and it begins when the move ends. If it is given before the AGV brakes, and if the segment goes straight on, the
-   * AGV rolls through the station without a stop.
+  /* Actions. The AGV must be at a station with no action under way. It turns towards the segment and drives it to the
+   * other end. Then pick and drop transfer a load there; park and charge stay. One FP_EVENT_ACTION_DONE follows for
+   * every accepted action. While a move is under way, one more action may be given. Its segment must leave the station
+   * where the move ends, and it begins when the move ends. If it is given before the AGV brakes, and if the segment
+   * goes straight on, the AGV rolls through the station without a stop.
    * `pick` takes the load of the oldest order of this AGV that waits at the station. If none waits or the AGV is
    * loaded, it takes none, and ends with FP_OK all the same. */
   int32_t (*move)(fp_controller*, uint32_t segment);

@@ -38,7 +38,7 @@ typedef struct fp_arc {
 
 /* The arcs of a curved lane lie within 0.1 mm and 2 mrad of its track (the heading counts for the corners of a long
    AGV). The arcs join without kinks, and both ends are exact. Straight lanes are exact. Lanes may be built to the
-   limit: the law forgives a distance that is too small by 1 um, and by 10 um beside bends. */
+   limit: the law forgives a distance that is too small by 1 um, and by 10 um more for each body on a bend. */
 
 /* Who may drive a lane. */
 typedef enum fp_load_state { FP_ANY_LOAD = 0, FP_EMPTY_ONLY = 1, FP_LOADED_ONLY = 2 } fp_load_state;
