@@ -13,6 +13,7 @@
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/batch/verdict_watch.hpp"
 #include "campaign/plan/default_gates.hpp"
+#include "campaign/plan/first_worlds.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/run/engine_identity.hpp"
 #include "campaign/workers/run_host.hpp"
@@ -46,21 +47,6 @@ void CampaignResult::add(std::vector<WorkerLoss> lost) {
 bool must_stop(const RunOptions& options) {
   const bool interrupted = options.interrupted != nullptr && options.interrupted->load() != 0;
   return interrupted || (options.deadline && std::chrono::steady_clock::now() >= *options.deadline);
-}
-
-std::vector<std::string> build_first_worlds(const CampaignPlan& plan) {
-  const ScenarioSource scenarios(plan);
-  std::vector<std::string> sentences;
-  for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world()) {
-    const Scenario world = scenarios.scenario(index);
-    const std::size_t stations = world.map->station_count();
-    if (2 * world.agvs.size() <= stations) continue;
-    sentences.push_back(
-        fmt::format("{}: {} AGVs on {} stations; with more than one for two stations, {} here, a fleet may "
-                    "stand still",
-                    in_quotes(scenarios.place(index).cell.layout), world.agvs.size(), stations, stations / 2));
-  }
-  return sentences;
 }
 
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs) {
@@ -298,7 +284,7 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
     listener.started();
     return *std::move(result);
   }
-  // What cannot be built at all is said before anything is written.
+  // What cannot be built is said before anything is written.
   for (const std::string& sentence : build_first_worlds(plan)) listener.warned(sentence);
   return Session(plan, programs, path, options, listener).run(plan.keep);
 }

@@ -72,10 +72,6 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
 // Whether a signal or the deadline ends a session.
 bool must_stop(const RunOptions& options);
 
-// Draws one world for each layout and fleet size. Throws InputError if a layout has no room for its fleet. Returns a
-// sentence for each fleet so large that it may stand still: more than one AGV for two stations.
-std::vector<std::string> build_first_worlds(const CampaignPlan& plan);
-
 // The agents of the plan that come from shared objects.
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
 

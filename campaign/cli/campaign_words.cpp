@@ -13,6 +13,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/plan/campaign_agents.hpp"
 #include "campaign/plan/default_gates.hpp"
+#include "campaign/plan/first_worlds.hpp"
 #include "campaign/plan/plan_check.hpp"
 #include "campaign/run/agent_inspection.hpp"
 #include "campaign/run/release.hpp"
@@ -109,10 +110,11 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i].program, place_of(i) + ": factors.agents");
   if (file.fresh_seed) file.plan.seed = fresh_seed(file.plan, programs);
   add_default_gates(file.plan, is_plugin);
+  for (const std::string& warning : file.warnings) talk("warning: {}\n", warning);
   constexpr std::size_t kTold = 3;
-  for (std::size_t i = 0; i < std::min(kTold, file.warnings.size()); ++i) talk("warning: {}\n", file.warnings[i]);
-  if (file.warnings.size() > kTold)
-    talk("warning: {} more; fleetproof import shows all of one layout\n", file.warnings.size() - kTold);
+  for (std::size_t i = 0; i < std::min(kTold, file.notes.size()); ++i) talk("warning: {}\n", file.notes[i]);
+  if (file.notes.size() > kTold)
+    talk("warning: {} more; fleetproof import shows all of one layout\n", file.notes.size() - kTold);
   return file;
 }
 

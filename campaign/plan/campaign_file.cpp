@@ -198,7 +198,7 @@ class CampaignReader {
     read_agents(table, field.key, path_, agents, file_.agent_files);
   }
   void member(TomlTable& table, const Field& field, std::vector<LayoutFactor>& layouts) {
-    read_layouts(table, field.key, path_, purposes_, layouts, file_.warnings);
+    read_layouts(table, field.key, path_, purposes_, layouts, {file_.warnings, file_.notes});
   }
   void member(TomlTable& table, const Field& field, std::shared_ptr<const OrderList>& orders) {
     const auto given = table.given(field.key);

@@ -13,7 +13,8 @@ namespace fleetproof {
 struct CampaignFile {
   CampaignPlan plan;
   std::vector<std::string> agent_files;  // by agent of the plan: the path of its shared object; empty: it has none
-  std::vector<std::string> warnings;     // what importing a layout dropped or guessed
+  std::vector<std::string> warnings;     // what the campaign cannot do, or does otherwise than its author may expect
+  std::vector<std::string> notes;        // what the readers of its layouts left out, guessed or changed
   PlanPlaces places;
   bool fresh_seed = false;  // seed = "fresh": the seed follows from release and plan (campaign/run/release.hpp)
 };

@@ -31,12 +31,13 @@ bool is_family(const std::string& word, const std::string& place) {
   return named;
 }
 
-std::shared_ptr<const LogicalMap> read_map(const std::string& path, const ImportChoice& choice,
-                                           std::vector<std::string>& warnings) {
-  const Layout layout = import_layout(path, choice, warnings);
+std::shared_ptr<const LogicalMap> read_map(const std::string& path, const ImportChoice& choice, LayoutTalk talk) {
+  Layout layout = importer(importer_of_file(path)).make(path, choice, talk.notes);
+  const auto adapted = adapt(layout, choice, path);
+  talk.warnings.insert(talk.warnings.end(), adapted.begin(), adapted.end());
   const auto core = parts_of(layout).largest_size;
   if (!choice.core_only && core > 1 && core < layout.stations.size())
-    warnings.push_back(fmt::format("{}: {}; core_only = true leaves these out", path, reachability_text(layout)));
+    talk.warnings.push_back(fmt::format("{}: {}; core_only = true leaves these out", path, reachability_text(layout)));
   return std::make_shared<const LogicalMap>(layout);
 }
 
@@ -81,12 +82,12 @@ std::string layout_name(const std::string& word) {
 }
 
 LayoutFactor layout_from_word(const std::string& place, const std::string& word, const std::string& path,
-                              const PurposeWords& purposes, std::vector<std::string>& warnings) {
+                              const PurposeWords& purposes, LayoutTalk talk) {
   if (is_family(word, place)) return {word, nullptr};
   if (is_layout_path(word)) {
     ImportChoice choice;
     choice.purposes = purposes;
-    return {layout_name(word), read_map(beside(path, word), choice, warnings)};
+    return {layout_name(word), read_map(beside(path, word), choice, talk)};
   }
   if (std::error_code ignored; std::filesystem::is_regular_file(beside(path, word), ignored))
     throw InputError(place, fmt::format("factors.layouts names {}, a file whose ending is that of no layout; known: "
@@ -99,7 +100,7 @@ LayoutFactor layout_from_word(const std::string& place, const std::string& word,
 
 // { file = "plant.xml" } or { mutate = "plant.xml" }, with the options of the importer.
 LayoutFactor layout_from_table(TomlTable& table, const std::string& path, const PurposeWords& purposes,
-                               std::vector<std::string>& warnings) {
+                               LayoutTalk talk) {
   std::string word, base, name;
   table.get("file", word);
   table.get("mutate", base);
@@ -112,17 +113,16 @@ LayoutFactor layout_from_table(TomlTable& table, const std::string& path, const 
   const ImportChoice choice = import_choice(table, at, purposes);
   table.finish();
   if (name.empty()) name = (mutate ? std::string(kMutatedImport) + "/" : "") + layout_name(at);
-  return {name, read_map(at, choice, warnings), mutate};
+  return {name, read_map(at, choice, talk), mutate};
 }
 
 }  // namespace
 
 void read_layouts(TomlTable& factors, std::string_view key, const std::string& campaign_path,
-                  const PurposeWords& purposes, std::vector<LayoutFactor>& layouts,
-                  std::vector<std::string>& warnings) {
+                  const PurposeWords& purposes, std::vector<LayoutFactor>& layouts, LayoutTalk talk) {
   for (TomlTable::Item& item : factors.words_or_tables(key)) {
-    layouts.push_back(item.table ? layout_from_table(*item.table, campaign_path, purposes, warnings)
-                                 : layout_from_word(item.place, item.word, campaign_path, purposes, warnings));
+    layouts.push_back(item.table ? layout_from_table(*item.table, campaign_path, purposes, talk)
+                                 : layout_from_word(item.place, item.word, campaign_path, purposes, talk));
   }
 }
 

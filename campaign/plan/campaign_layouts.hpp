@@ -10,11 +10,17 @@
 
 namespace fleetproof {
 
+// What is said of layouts that are read from files.
+struct LayoutTalk {
+  std::vector<std::string>& warnings;  // stations that are cut off, and what AGVs cannot do at others
+  std::vector<std::string>& notes;     // what the reader of the file left out, guessed or changed
+};
+
 // The array factors.layouts: families, layout files, and tables { file = "..." } or { mutate = "..." } with the options
 // of the importer. `purposes` hold for all of them. Paths of files are relative to `campaign_path`. Throws InputError
 // with the place of the layout.
 void read_layouts(TomlTable& factors, std::string_view key, const std::string& campaign_path,
-                  const PurposeWords& purposes, std::vector<LayoutFactor>& layouts, std::vector<std::string>& warnings);
+                  const PurposeWords& purposes, std::vector<LayoutFactor>& layouts, LayoutTalk talk);
 
 // The table [purposes]: what words of layout files mean. Empty if the file has none.
 PurposeWords read_purposes(TomlTable& root);

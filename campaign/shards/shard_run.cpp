@@ -10,6 +10,7 @@
 #include "campaign/batch/audit_desk.hpp"
 #include "campaign/batch/same_campaign.hpp"
 #include "campaign/batch/task_pool.hpp"
+#include "campaign/plan/first_worlds.hpp"
 #include "campaign/shards/canary.hpp"
 #include "campaign/shards/chunk_desk.hpp"
 #include "campaign/workers/run_host.hpp"
@@ -190,7 +191,7 @@ void require_same_plan(const std::string& where, const CampaignRecord& stored, c
 ShardResult run_shard(const CampaignPlan& plan, const AgentPrograms& programs, const ShardFolder& folder, Shard shard,
                       const RunOptions& options, const ShardListener& listener) {
   for (const AgentFactor& agent : plan.agents) (void)programs.program(agent.program, "factors.agents");
-  // What cannot be built at all is said before anything is written.
+  // What cannot be built is said before anything is written.
   for (const std::string& sentence : build_first_worlds(plan)) listener.campaign.warned(sentence);
   folder.make();
   const StoredPlan ours{campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs)};

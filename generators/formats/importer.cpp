@@ -122,9 +122,8 @@ std::string_view importer_of_file(const std::string& path) {
   return extension->importer == "layout" ? importer_of_json(path) : extension->importer;
 }
 
-Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path, const ImportChoice& choice,
-                     Warnings& warnings) {
-  Layout layout = importer.make(path, choice, warnings);
+Warnings adapt(Layout& layout, const ImportChoice& choice, const std::string& path) {
+  Warnings warnings;
   if (choice.any_type) {
     const auto names = lift_types(layout);
     if (!names.empty())
@@ -134,6 +133,15 @@ Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path,
   }
   if (choice.core_only) leave_core(layout, path, warnings);
   for (const std::string& sentence : limited_uses(layout)) warnings.push_back(path + ": " + sentence);
+  return warnings;
+}
+
+Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path, const ImportChoice& choice,
+                     Warnings& warnings) {
+  const auto before = static_cast<std::ptrdiff_t>(warnings.size());
+  Layout layout = importer.make(path, choice, warnings);
+  const Warnings adapted = adapt(layout, choice, path);
+  warnings.insert(warnings.begin() + before, adapted.begin(), adapted.end());
   return layout;
 }
 

@@ -45,8 +45,11 @@ bool is_layout_file(std::string_view path);
 // format.
 std::string_view importer_of_file(const std::string& path);
 
-// Reads a layout with an importer. Lifts permissions and cuts stations off if the choice asks for it; `warnings`
-// receives what was lifted, and the names of the stations.
+// Lifts permissions and cuts stations off if the choice asks for it. Returns sentences: what was lifted, the names of
+// the stations, and what AGVs cannot do at some stations. `path` is the file of the layout.
+std::vector<std::string> adapt(Layout& layout, const ImportChoice& choice, const std::string& path);
+
+// Reads a layout with an importer and adapts it. In `warnings` the sentences of adapt() stand first.
 Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path, const ImportChoice& choice,
                      std::vector<std::string>& warnings);
 // The same with the importer of importer_of_file().

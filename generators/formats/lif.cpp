@@ -59,7 +59,7 @@ class LifReader {
     if (const auto stations = layout.find("stations")) {
       for (const auto& station : stations->items()) note_station(station);
     }
-    for (const auto& [index, purposes] : stated_) layout_.stations[index].purposes = purposes;
+    for (const auto& [index, purposes] : purposes_.stated) layout_.stations[index].purposes = purposes;
     note_left_out(JsonReader(root_, source_), layout, choice_.purposes, warnings_);
     note_types(layout);
     spots_.join(layout_, nodes_, warnings_);
@@ -121,18 +121,25 @@ class LifReader {
     const auto position = node.at("nodePosition");
     station.position_m = {position.at("x").number(), position.at("y").number()};
     const auto rules = rules_by_type(node);
-    station.purposes = station.purposes | purposes_of_actions(rules, choice_.purposes);
     station.heading = heading_of(rules, station.name);
     const auto index = layout_.stations.size();
     std::string description;
     if (const auto found = node.find("nodeDescription"); found && found->is_text()) description = found->text();
     if (description.starts_with(kPurposesMark)) {
       if (const auto stated = purposes_of_text(std::string_view(description).substr(kPurposesMark.size())))
-        stated_.emplace(index, *stated);
+        purposes_.stated.emplace(index, *stated);
     }
     stations_.emplace(station.name, StationId{index});
     layout_.stations.push_back(std::move(station));
     nodes_.push_back(node);
+    add_purposes(index, purposes_of_actions(rules, choice_.purposes));
+  }
+
+  // None: the actions say nothing of what the node is for.
+  void add_purposes(std::size_t node, Purposes of_actions) {
+    auto& purposes = layout_.stations[node].purposes;
+    purposes = purposes | of_actions;
+    if (of_actions != Purposes::from_bits(0)) purposes_.by_actions.insert(node);
   }
 
   // The heading for which all rules ask that ask for any.
@@ -174,13 +181,12 @@ class LifReader {
     segment.to = *to;
     const auto types = rules_by_type(edge);
     const auto acts = purposes_of_actions(types, choice_.purposes);
-    auto& purposes = layout_.stations[to->index()].purposes;
-    purposes = purposes | acts;
     auto permissions = types_.permissions(edge, nodes_[from->index()], nodes_[to->index()]);
     if (!permissions)
       return warn(edge, fmt::format("no AGV may drive edge {}: no type of vehicle has a rule at it and at both of its "
                                     "nodes, with a load or without one; it is left out",
                                     in_quotes(segment.name)));
+    add_purposes(to->index(), acts);
     if (LifSpots::stays(edge, layout_.stations[from->index()].position_m, layout_.stations[to->index()].position_m)) {
       spots_.add(edge, *from, *to, permissions->empty());
       return turns_.add(edge, *from, *to, false);
@@ -296,16 +302,22 @@ class LifReader {
   }
 
   void note_station(const JsonReader& station) {
-    if (const auto id = station.find("stationId"); id && !id->text().empty()) name_in(*id, ids_.stations);
+    std::string name;
+    if (const auto id = station.find("stationId"); id && !id->text().empty()) name = name_in(*id, ids_.stations);
     for (const auto& id : station.at("interactionNodeIds").items()) {
       const auto node = station_in(id);
-      if (!node || stated_.contains(node->index())) continue;
-      auto& purposes = layout_.stations[node->index()].purposes;
-      if (purposes != Purposes(Purpose::Routing)) continue;
-      const bool may_transfer = !forbid_transfers(rules_by_type(nodes_[node->index()]));
-      if (may_transfer) purposes = purposes | Purpose::Storage;
+      if (!node) {
+        warn(id, fmt::format("node {} of station {} is in another layout and is left out", in_quotes(id.text()),
+                             in_quotes(name)));
+        continue;
+      }
+      const auto index = node->index();
+      const bool is_known = purposes_.stated.contains(index) || purposes_.by_actions.contains(index);
+      if (is_known || layout_.stations[index].purposes != Purposes(Purpose::Routing)) continue;
+      const bool may_transfer = !forbid_transfers(rules_by_type(nodes_[index]));
+      if (may_transfer) add_purposes(index, Purpose::Storage);
       warn(id, fmt::format(
-                   "no action is named at node {}, which belongs to a station; {}", in_quotes(id.text()),
+                   "no action says what node {} is for, which belongs to a station; {}", in_quotes(id.text()),
                    may_transfer ? "it is taken to be for storage" : "it forbids to pick or drop, so AGVs only pass"));
     }
   }
@@ -347,7 +359,10 @@ class LifReader {
     std::set<std::string> nodes, edges, stations, elsewhere;
   } ids_;
   std::map<std::string, StationId> stations_;
-  std::map<std::size_t, Purposes> stated_;  // by station: given in the description of the station
+  struct {
+    std::map<std::size_t, Purposes> stated;  // by station: given in the description of the station
+    std::set<std::size_t> by_actions;        // stations of which actions say what they are for
+  } purposes_;
   LifTypes types_{{}, {}};
   LifTravel travel_;
   LifTurns turns_;

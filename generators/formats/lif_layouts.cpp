@@ -54,9 +54,13 @@ std::size_t place_of_choice(const JsonReader& holder, const std::vector<JsonRead
   for (const JsonReader& layout : all) known += (known.empty() ? "" : ", ") + called(layout);
   if (wanted.empty())
     holder.refuse(
-        fmt::format("there are {} layouts; choose one by its id or level (--level, or level = \"...\" in a "
+        fmt::format("there are {} layouts; choose one by its id or level (import --level, or level = \"...\" in a "
                     "campaign): {}",
                     all.size(), known));
+  const bool by_id = !found.empty() && text_in(all[found[0]], "layoutId") == wanted;
+  if (by_id)
+    holder.refuse(
+        fmt::format("{} layouts have the id {}; ids are unique: rename one", found.size(), in_quotes(wanted)));
   holder.refuse(fmt::format("{} layouts have the id or level {}; choose one of: {}",
                             found.empty() ? "no" : std::to_string(found.size()), in_quotes(wanted), known));
 }

@@ -213,7 +213,7 @@ void write_stations(JsonWriter& writer, const Layout& layout) {
 // What an import of the file changes though LIF has a place for it. None: it refuses the file, such as one without
 // edges.
 struct Changed {
-  std::vector<std::string> permissions, headings;  // names of segments and stations
+  std::vector<std::string> permissions, headings, turning;  // names of segments and stations
 };
 std::optional<Changed> changed_by_import(const Layout& layout) {
   std::vector<std::string> ignored;
@@ -230,6 +230,7 @@ std::optional<Changed> changed_by_import(const Layout& layout) {
       const auto &before = layout.stations[i].heading, &after = again.stations[i].heading;
       const bool is_same = before && after ? (*before - *after).norm() <= kAligned_rad : before == after;
       if (!is_same) changed.headings.push_back(layout.stations[i].name);
+      if (again.stations[i].turning != layout.stations[i].turning) changed.turning.push_back(layout.stations[i].name);
     }
   } catch (const InputError&) {
     return {};
@@ -267,6 +268,7 @@ std::vector<std::string> lost_in_lif(const Layout& layout) {
     tell(changed->headings,
          "{0} stations ask for a heading that no lane has which arrives ({1}); an import takes that of a lane within 1 "
          "degree, or none");
+    tell(changed->turning, "{0} stations come back with another rule for turns, which LIF has at edges only ({1})");
   }
   return sentences;
 }

@@ -11,6 +11,13 @@
 namespace fleetproof {
 namespace {
 
+constexpr const char* kLists[] = {"vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties",
+                                  "vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties"};
+
+bool has_list(const JsonReader& element) {
+  return std::ranges::any_of(kLists, [&](const char* key) { return element.find(key).has_value(); });
+}
+
 struct Loads {
   bool empty = false, loaded = false;
 
@@ -58,8 +65,7 @@ std::string word_of(const JsonReader& rule, std::string_view key, std::span<cons
 
 std::vector<JsonReader> rules_by_type(const JsonReader& element) {
   std::vector<JsonReader> rules;
-  for (const char* key : {"vehicleTypeNodeProperties", "mobileRobotTypeNodeProperties", "vehicleTypeEdgeProperties",
-                          "mobileRobotTypeEdgeProperties"}) {
+  for (const char* key : kLists) {
     if (const auto list = element.find(key)) std::ranges::copy(list->items(), std::back_inserter(rules));
   }
   return rules;
@@ -90,6 +96,7 @@ LifTypes::LifTypes(const std::vector<JsonReader>& nodes, const std::vector<JsonR
 void LifTypes::note(const JsonReader& element) {
   const auto rules = rules_by_type(element);
   if (rules.empty()) ++open_;
+  if (rules.empty() && has_list(element)) ++empty_;
   for (const auto& rule : rules) {
     for (const auto& name : types_of(rule)) {
       if (!name.empty() && std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
@@ -119,8 +126,9 @@ void LifTypes::count(const std::vector<Permission>& permissions) {
 }
 
 std::string LifTypes::sentence_on_open() const {
-  if (names_.empty() || open_ == 0) return "";
-  return fmt::format("{} nodes and edges have no rule for any type of vehicle; here all types may use them", open_);
+  const std::size_t open = names_.empty() ? empty_ : open_;
+  if (open == 0) return "";
+  return fmt::format("{} nodes and edges have no rule for any type of vehicle; here all types may use them", open);
 }
 
 std::string LifTypes::sentence() const {

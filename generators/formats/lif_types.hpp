@@ -47,7 +47,7 @@ class LifTypes {
 
   std::vector<std::string> names_;  // in the order of the file
   std::size_t edges_ = 0, restricted_ = 0;
-  std::size_t open_ = 0;  // nodes and edges without any rule
+  std::size_t open_ = 0, empty_ = 0;  // nodes and edges without any rule; with an empty list of rules
 };
 
 }  // namespace fleetproof

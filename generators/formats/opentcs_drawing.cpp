@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/base/outside_text.hpp"
+#include "generators/text/name_list.hpp"
 #include "generators/text/xml_text.hpp"
 
 namespace fleetproof {
@@ -30,6 +31,11 @@ class DrawingReader {
     for (const auto element : layout.children("modelLayoutElement"))
       elements_.emplace(xml_.text(element, "visualizedObjectName"), element);
     for (const auto point : model_.children("point")) add_point(point);
+    if (!drawn_twice_.empty())
+      warnings_.push_back(
+          fmt::format("{}: {} points are drawn at positionX or Y and at xPosition or yPosition, with "
+                      "different values ({}); positionX and positionY count",
+                      xml_.place(model_), drawn_twice_.size(), name_list(drawn_twice_)));
     for (const auto path : model_.children("path")) add_path(path);
     if (!layout && has_control_points_) {
       warnings_.push_back(fmt::format("{}: there is no <visualLayout>; control points are taken as units of {} mm",
@@ -61,7 +67,8 @@ class DrawingReader {
     const auto name = xml_.text(point, "name");
     for (const auto& [x, y] : {std::pair{"positionX", "positionY"}, {"xPosition", "yPosition"}}) {
       if (!xml_.has(layout, x) && !xml_.has(layout, y)) continue;
-      drawing_.points_m.emplace(name, Vec2(xml_.number(layout, x), xml_.number(layout, y)) / 1000.0);
+      const Vec2 drawn_m = Vec2(xml_.number(layout, x), xml_.number(layout, y)) / 1000.0;
+      if (drawing_.points_m.emplace(name, drawn_m).first->second != drawn_m) drawn_twice_.push_back(name);
     }
     const auto x = drawn_property(point, "POSITION_X"), y = drawn_property(point, "POSITION_Y");
     if (!x != !y)
@@ -117,6 +124,7 @@ class DrawingReader {
   Vec2 scale_mm_ = Vec2::Constant(kDefaultScale_mm);
   std::map<std::string, pugi::xml_node> elements_;  // by the name of what they draw
   bool has_control_points_ = false;
+  std::vector<std::string> drawn_twice_;  // names of points
   OpenTcsDrawing drawing_;
 };
 

@@ -72,12 +72,15 @@ bool says_purpose(const std::string& operation, const PurposeWords& own) {
 }
 
 LocationPurpose purpose_of(const LocationWords& words, const PurposeWords& own) {
-  std::optional<Purposes> by_user = either(own.said_of(words.name), own.said_of(words.symbol)), by_operations;
+  const auto of_the_whole = either(own.said_of(words.name), own.said_of(words.symbol));
+  std::optional<Purposes> by_user, by_operations;
   for (const auto& operation : words.operations) {
-    by_user = either(by_user, own.said_of(operation));
-    by_operations = either(by_operations, known_in(operation));
+    const auto said = own.said_of(operation);
+    by_user = either(by_user, said);
+    by_operations = either(by_operations, said ? said : known_in(operation));
   }
-  if (by_user) return {*by_user, "user"};
+  if (of_the_whole) return {*either(of_the_whole, by_user), "user"};
+  if (by_user) return {*by_operations, "user"};
   const auto by_name = known_in(words.name), by_symbol = known_in(words.symbol);
   if (by_operations) {
     const auto differs = [&](const auto& other) { return other && (*other | *by_operations) != *by_operations; };

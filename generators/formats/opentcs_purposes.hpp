@@ -24,9 +24,9 @@ struct LocationPurpose {
 // Whether an operation says anything.
 bool says_purpose(const std::string& operation, const PurposeWords& own);
 
-// The first source that says something decides: a word of the user, the operations, the name, the symbol. `own` are the
-// words of the user; they have to be the whole name, operation or symbol. Other words only have to occur: "load" in
-// "Unload cargo".
+// The first source that says something decides: a word of the user for name or symbol, the operations, the name, the
+// symbol. A word of the user for an operation stands for what that operation says itself. `own` are the words of the
+// user; they have to be the whole name, operation or symbol. Other words only have to occur: "load" in "Unload cargo".
 LocationPurpose purpose_of(const LocationWords& words, const PurposeWords& own);
 
 inline constexpr const char* kNothingAllowed = "no operation";

@@ -20,6 +20,8 @@ namespace {
 
 constexpr Topic kWidths{"{0} vehicles have no width ({1}); they have the width of the default vehicle"};
 constexpr Topic kLengths{"{0} vehicles have no length ({1}); they have the length of the default vehicle"};
+constexpr Topic kSecondLengths{
+    "{0} vehicles have another length beside that of their bounding box ({1}); the box counts"};
 constexpr Topic kSpeeds{"{0} vehicles have no velocity above 0 ({1}); they have the speed of the default vehicle"};
 constexpr Topic kBeside{
     "{0} vehicles have their reference point beside their middle line ({1}); here it is on the line"};
@@ -90,6 +92,8 @@ class VehicleReader {
       note(kWidths, node);
     }
     if (xml_.has(box, "height")) things_.add(kOther, xml_.place(box), "height");
+    if (box && xml_.has(node, "length") && xml_.number(node, "length") != xml_.number(box, "length"))
+      note(kSecondLengths, node);
     const double ahead_m = offset_m(box, "referenceOffsetX");
     if (ahead_m != 0.0) vehicle.give("centre_ahead_m", centre_ahead_m, -ahead_m);
     if (offset_m(box, "referenceOffsetY") != 0.0) note(kBeside, node);

@@ -44,6 +44,7 @@ class LevelReader {
     for (const auto vertex : vertices) vertices_.push_back(vertex);
     if (vertices_.empty()) yaml_.refuse(vertices, "the level is empty: it has no vertex");
     read_.is_nav_graph = !vertices_[0].IsSequence() || vertices_[0].size() < 3 || vertices_[0][2].IsMap();
+    for (const auto& vertex : vertices_) names_.given.insert(given_name(vertex, read_.is_nav_graph));
     if (read_.is_nav_graph && choice_.graph_idx != 0)
       throw InputError(yaml_.source(),
                        fmt::format("is a nav graph, which is one graph alone; leave out graph {}", choice_.graph_idx));
@@ -172,6 +173,13 @@ class LevelReader {
             yaml_.number(yaml_.item(node, 1, "a vertex"), "y of a vertex")};
   }
 
+  // A name that no vertex has.
+  std::string free_name(std::size_t vertex) const {
+    auto name = fmt::format("v{}", vertex);
+    while (names_.taken.contains(name) || names_.given.contains(name)) name += '_';
+    return name;
+  }
+
   // Requires: the vertex is the first of those that are joined with it.
   StationId station_of(std::size_t vertex) {
     if (const auto found = stations_.find(vertex); found != stations_.end()) return found->second;
@@ -180,12 +188,12 @@ class LevelReader {
     for (const std::size_t member : joined_.members_of(vertex)) {
       if (station.name.empty()) station.name = given_name(vertices_[member], read_.is_nav_graph);
     }
-    if (station.name.empty()) station.name = fmt::format("v{}", vertex);
+    if (station.name.empty()) station.name = free_name(vertex);
     if (const char* fault = fault_of_name(station.name))
       yaml_.refuse(node, fmt::format("name {}: {}", in_quotes(station.name), fault));
-    if (!names_.insert(station.name).second) {
-      auto other = fmt::format("v{}", vertex);
-      while (!names_.insert(other).second) other += '_';
+    if (!names_.taken.insert(station.name).second) {
+      auto other = free_name(vertex);
+      names_.taken.insert(other);
       warn(node, fmt::format("a second vertex is named {}; it becomes {}", in_quotes(station.name), in_quotes(other)));
       station.name = std::move(other);
     }
@@ -328,7 +336,9 @@ class LevelReader {
   JoinedVertices joined_;
   std::map<std::size_t, StationId> stations_;  // by the first of joined vertices
   std::vector<std::size_t> used_;              // vertex, by station
-  std::set<std::string> names_;
+  struct {
+    std::set<std::string> taken, given;  // of stations; of vertices
+  } names_;
   ReadLevel read_;
   struct {
     std::size_t other_graphs = 0;                  // lanes

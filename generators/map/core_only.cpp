@@ -102,7 +102,8 @@ std::vector<std::string> limited_uses(const Layout& layout) {
   tell(only_drops, "orders end and do not begin at some storage stations, by what the layout permits");
   tell(no_orders, "orders neither begin nor end at some storage stations, by what the layout permits");
   tell(no_stops,
-       "AGVs without a load do not stop at some stations for charging or parking, by what the layout permits");
+       "AGVs without a load do not get to some stations for charging or parking from everywhere, or not from there to "
+       "everywhere, by what the layout permits");
   return sentences;
 }
 

@@ -189,8 +189,9 @@ void fit_floor(Layout& layout, double margin_m) {
   }
   if (layout.stations.empty()) box.add(Vec2(Vec2::Zero()));
   box = box.grown(margin_m);
-  layout.floor_low_m = box.low_m;
-  layout.floor_high_m = box.high_m;
+  const Vec2 farthest_m = Vec2::Constant(kLargestCoordinate_m);
+  layout.floor_low_m = box.low_m.cwiseMax(-farthest_m);
+  layout.floor_high_m = box.high_m.cwiseMin(farthest_m);
 }
 
 bool has_fitted_floor(const Layout& layout) {

@@ -82,6 +82,11 @@ XmlText::XmlText(std::string_view text, std::string_view source) : text_(text), 
 
 void XmlText::load(pugi::xml_document& document) const {
   refuse_other_encodings(text_, source_);
+  if (const auto entity = text_.find("<!ENTITY"); entity != std::string_view::npos) {
+    const auto at = position_in(text_, entity);
+    throw InputError(fmt::format("{}:{}:{}", source_, at.line, at.column),
+                     "declares an entity, which is not read; write its text where it is used");
+  }
   // Letters are the same in both.
   const bool latin1 = declared_encoding(text_) == "windows-1252";
   const auto result = document.load_buffer(text_.data(), text_.size(), pugi::parse_default,

@@ -272,9 +272,10 @@ MadeWorld make_world(const WorldSpec& spec, std::uint64_t seed, std::uint32_t he
   const std::string found = fmt::format("cannot place {} AGVs on {} in {} draws ({})", spec.fleet_size,
                                         in_quotes(called(spec)), kAttempts, rejection_text(maker.counts));
   if (fits == 0 || fits == spec.fleet_size)  // there is room: something else is wrong
-    throw InputError("fleet_size", found + "; ask for fewer or for a larger layout");
-  throw InputError("fleet_size", fmt::format("{}; {} fit on {}: ask for {} or fewer, or for a larger layout", found,
-                                             fits, in_quotes(called(spec)), fits));
+    throw NoRoom(found + "; ask for fewer or for a larger layout", 0);
+  throw NoRoom(fmt::format("{}; {} fit on {}: ask for {} or fewer, or for a larger layout", found, fits,
+                           in_quotes(called(spec)), fits),
+               fits);
 }
 
 bool shapes_world(Stream stream) {

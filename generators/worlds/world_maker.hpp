@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/scenario/scenario.hpp"
 #include "generators/map/rejection_counts.hpp"
@@ -48,10 +49,16 @@ struct WorldSpec {
   HeldStreams held;
 };
 
+// Thrown if 32 draws of a world leave no room for the fleet.
+class NoRoom : public InputError {
+ public:
+  NoRoom(std::string_view what, std::uint32_t that_fit) : InputError("fleet_size", what), fits(that_fit) {}
+  std::uint32_t fits;  // the number of AGVs for which there is room; 0: not known
+};
+
 // Draws a world: a pure function of spec and seed. Layout, placement and transports have their own streams. If the
 // validator refuses a world, the next draw replaces it, and `counts` counts the refusal. Radio and agent clock keep
-// their defaults; the caller sets them. Throws InputError if the spec is not usable, or if 32 draws leave no room for
-// the fleet.
+// their defaults; the caller sets them. Throws InputError if the spec is not usable, and NoRoom.
 Scenario generate_world(const WorldSpec& spec, std::uint64_t seed, RejectionCounts& counts);
 
 // What was refused, and how often: "out of stations 3, weak-core 2". Empty if nothing was refused.

@@ -164,6 +164,23 @@ TEST_F(ImportTest, CampaignsTakeWordsAndCores) {
   EXPECT_THAT(checked("\"m.xml\"", "[purposes]\nPACK = 7\n"), HasSubstr("purposes.PACK"));
 }
 
+// However much is said of the files, the stations that are cut off are named.
+TEST_F(ImportTest, CampaignsNameWhatIsCutOffBeforeAllElse) {
+  std::string talkative = kDeadEnd;
+  for (const char* name : {"x", "y", "z"})
+    talkative.insert(talkative.find("<location "), std::string("<locationType name='") + name + "'/>");
+  write("m.xml", talkative);
+  write("c.toml",
+        "horizon_s = 20\n[factors]\nagents = [\"reckless\"]\nfleet_sizes = [1]\nlayouts = "
+        "[{ file = \"m.xml\", name = \"a\", core_only = true }, { file = \"m.xml\", core_only = true }]\n");
+  const auto checked = run("check c.toml");
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  const std::string named = "warning: " + path("m.xml") +
+                            ": 1 stations cannot be reached from all others and are cut off: \"\u4ED3\u5E93\"\n";
+  EXPECT_THAT(checked.err, StartsWith(named + named)) << checked.err;
+  EXPECT_THAT(checked.err, HasSubstr("more; fleetproof import shows all of one layout"));
+}
+
 TEST_F(ImportTest, RefusesWordsThatMeanNothing) {
   const auto error_of = [&](const std::string& words) {
     const auto finished = run(words);

@@ -7,6 +7,7 @@ namespace fleetproof {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -69,6 +70,23 @@ TEST_F(FleetRules, AFleetThatFillsTheFloorIsToldBeforeTheCampaign) {
                            "sensitivity c.toml --runs 1 --agent asks-once"})
     EXPECT_THAT(told(verb, 11), HasSubstr(crowded)) << verb;
   EXPECT_THAT(told("check c.toml", 10), Not(HasSubstr("stand still")));
+}
+
+// The first floor that is drawn has room for the fleet, most of the others have not.
+TEST_F(FleetRules, AFleetForWhichOtherFloorsHaveNoRoomIsToldBeforeTheCampaign) {
+  write("c.toml",
+        "kind = \"search\"\nseed = 13\nhorizon_s = 1\nreplicates = 40\n[factors]\nagents = [\"reckless\"]\nlayouts = "
+        "[\"corridor-sidings\"]\nfleet_sizes = [35]\n");
+  for (const char* verb : {"check c.toml", "run c.toml --db c.db"}) {
+    const auto finished = run(verb);
+    EXPECT_EQ(finished.exit_code == 2, false) << finished.err;
+    EXPECT_THAT(finished.err,
+                ContainsRegex("warning: \"corridor-sidings\": no room for 35 AGVs in [0-9]+ of the first 16 "
+                              "worlds, but for [0-9]+; the runs there end without a result\n"))
+        << verb;
+  }
+  const auto crowded = run("report c.db --json").out;
+  EXPECT_THAT(crowded, HasSubstr("cannot place 35 AGVs"));
 }
 
 TEST_F(FleetRules, OrdersBetweenStationsThatAreNotForStorageAreTold) {

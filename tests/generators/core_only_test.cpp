@@ -81,5 +81,15 @@ TEST(CoreOnly, IsToldInNumbersAndNames) {
   EXPECT_EQ(reachability_text(layout), "all 2 stations can reach each other");
 }
 
+TEST(CoreOnly, LongNamesAreToldInFull) {
+  Layout layout;
+  const std::string hall(190, 'x');
+  for (const char* end : {"1", "2", "3", "4"}) layout.stations.emplace_back().name = hall + end;
+  auto& there = layout.segments.emplace_back();
+  there.from = StationId{0U}, there.to = StationId{1U}, there.bidirectional = true;
+  EXPECT_EQ(reachability_text(layout),
+            "2 of 4 stations can all reach each other; cut off: \"" + hall + "3\", \"" + hall + "4\"");
+}
+
 }  // namespace
 }  // namespace fleetproof

@@ -7,6 +7,7 @@
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/formats/lif_text.hpp"
+#include "generators/map/layout_check.hpp"
 #include "generators/map/permitted_types.hpp"
 
 namespace fleetproof {
@@ -78,7 +79,7 @@ TEST(LifRules, ATypeNeedsARuleAtTheEdgeAndAtBothNodes) {
   EXPECT_THAT(plant.sentences, HasSubstr("(\"fork\", \"tug\")"));
   EXPECT_THAT(plant.sentences, HasSubstr("1 nodes and edges have no rule for any type of vehicle; here all types may"));
   EXPECT_THAT(import({kBoth, kBoth, kFork, kTug, kBoth, kFork}).sentences, Not(HasSubstr("have no rule")));
-  EXPECT_THAT(import({"", "", "", "", "", ""}).sentences, Not(HasSubstr("have no rule"))) << "a file without types";
+  EXPECT_THAT(import({"", "", "", "", "", ""}).sentences, HasSubstr("6 nodes and edges have no rule for any type"));
 }
 
 // LIF 2.0 lists types: by identifiers, or by manufacturer and series.
@@ -202,6 +203,17 @@ TEST(LifRules, WhatAnImportWouldChangeIsTold) {
                   "lane within 1 degree, or none"));
 }
 
+// LIF says at edges where an AGV may turn.
+TEST(LifRules, ATurnAtAStationWithoutEdgesIsTold) {
+  auto layout = import({}).layout;
+  layout.stations.emplace_back().name = "alone";
+  layout.stations.back().position_m = {0.0, 9.0};
+  layout.stations.back().turning = false;
+  fit_floor(layout, 3.0);
+  EXPECT_THAT(lost_in_lif(layout), ElementsAre("1 stations come back with another rule for turns, which LIF has at "
+                                               "edges only (\"alone\")"));
+}
+
 TEST(LifRules, WhatCannotBeWrittenIsTold) {
   auto layout = import({}).layout;
   layout.blocks = {{"dock", BlockKind::OneVehicle}};
@@ -275,6 +287,13 @@ TEST(Heading, AQuarterTurnIsExact) {
   EXPECT_NEAR(heading_at(0.5).x(), 0.877582561890373, 1e-15);
 }
 
+// Of an edge that nobody may drive, the actions count as little as the edge.
+TEST(LifRules, AnEdgeThatIsLeftOutSaysNothingOfItsEnd) {
+  const std::string pick = R"({"vehicleTypeId": "tug", "actions": [{"actionType": "pick"}]})";
+  EXPECT_EQ(import({kFork, kFork, kFork, kFork, pick, kFork}).layout.stations[2].purposes, Purpose::Routing);
+  EXPECT_TRUE(import({kBoth, kBoth, kBoth, kBoth, pick, kBoth}).layout.stations[2].purposes.has(Purpose::Storage));
+}
+
 const std::string kFloors = R"({"layouts": [
 {"layoutId": "hall", "layoutLevelId": "0", "nodes": [{"nodeId": "a", "nodePosition": {"x": 0, "y": 0}},
 {"nodeId": "b", "nodePosition": {"x": 5, "y": 0}}], "edges": [{"edgeId": "ab", "startNodeId": "a", "endNodeId": "b"}]},
@@ -292,7 +311,7 @@ TEST(LifLevels, OneOfSeveralLayoutsIsChosen) {
   EXPECT_EQ(name_of_first("1"), "c");
   const std::string known = R"("hall" (level "0"), "attic" (level "1"))";
   EXPECT_THAT(independent::refusal(name_of_first, ""),
-              AllOf(HasSubstr("there are 2 layouts; choose one by its id or level (--level"), HasSubstr(known)));
+              AllOf(HasSubstr("there are 2 layouts; choose one by its id or level (import --level"), HasSubstr(known)));
   EXPECT_THAT(independent::refusal(name_of_first, "cellar"),
               HasSubstr("no layouts have the id or level \"cellar\"; choose one of: " + known));
 }
@@ -302,6 +321,27 @@ TEST(LifLevels, AnIdCountsBeforeALevel) {
   text.replace(text.find("\"hall\""), 6, "\"1\"");
   std::vector<std::string> warnings;
   EXPECT_EQ(parse_lif(text, "l.json", warnings, {TwinPaths::Merge, {}, "1"}).stations[0].name, "a");
+}
+
+TEST(LifLevels, AnIdOfTwoLayoutsIsRefused) {
+  std::string text = kFloors;
+  text.replace(text.find("\"attic\""), 7, "\"hall\"");
+  const auto read = [&](const std::string& level) {
+    std::vector<std::string> warnings;
+    return parse_lif(text, "l.json", warnings, {TwinPaths::Merge, {}, level});
+  };
+  EXPECT_THAT(independent::refusal(read, "hall"), HasSubstr("2 layouts have the id \"hall\"; ids are unique: rename"));
+}
+
+TEST(LifLevels, NodesOfAnotherLayoutAreNamed) {
+  std::string text = kFloors;
+  const std::string edge = R"("edges": [{"edgeId": "ab", "startNodeId": "a", "endNodeId": "b"}])";
+  text.replace(text.find(edge), edge.size(),
+               edge + R"(, "stations": [{"stationId": "S", "interactionNodeIds": ["c"]}])");
+  std::vector<std::string> warnings;
+  parse_lif(text, "l.json", warnings, {TwinPaths::Merge, {}, "hall"});
+  EXPECT_THAT(fmt::format("{}", fmt::join(warnings, "\n")),
+              HasSubstr("node \"c\" of station \"S\" is in another layout and is left out"));
 }
 
 TEST(LifLevels, LayoutsBesideOriginsCountToo) {

@@ -50,15 +50,16 @@ std::string file_of(const Rules& rules) {
                      rules.stations);
 }
 
-Plant import_text(const std::string& text) {
+Plant import_with(const std::string& text, const PurposeWords& purposes) {
   Plant plant;
   std::vector<std::string> warnings;
-  plant.layout = parse_lif(text, "l.json", warnings, {TwinPaths::Keep, {}, ""});
+  plant.layout = parse_lif(text, "l.json", warnings, {TwinPaths::Keep, purposes, ""});
   plant.sentences = fmt::format("{}", fmt::join(warnings, "\n"));
   return plant;
 }
 
-Plant import(const Rules& rules) { return import_text(file_of(rules)); }
+Plant import(const Rules& rules, const PurposeWords& purposes = {}) { return import_with(file_of(rules), purposes); }
+Plant import_text(const std::string& text) { return import_with(text, {}); }
 
 std::vector<std::string> stations(const Plant& plant) {
   std::vector<std::string> names;
@@ -171,6 +172,18 @@ TEST(LifSpots, ATurnedNodeOfAStationNeedsNoPurposeOfItsOwn) {
                              .stations = R"({"stationId": "S", "interactionNodeIds": ["b", "c"]})"});
   EXPECT_EQ(plant.layout.stations[1].purposes, Purposes(Purpose::Routing) | Purposes(Purpose::Charging));
   EXPECT_THAT(plant.sentences, Not(HasSubstr("taken to be for storage")));
+}
+
+// A purpose is guessed for a node of a station only if no action says one.
+TEST(LifSpots, AWordOfTheUserIsNoGap) {
+  const Rules plant{.a = R"({"actions": [{"actionType": "wait"}]})",
+                    .stations = R"({"stationId": "S", "interactionNodeIds": ["a"]})"};
+  const auto guessed = import(plant);
+  EXPECT_TRUE(guessed.layout.stations[0].purposes.has(Purpose::Storage));
+  EXPECT_THAT(guessed.sentences, HasSubstr("no action says what node \"a\" is for, which belongs to a station"));
+  const auto told = import(plant, purpose_words_of("wait=routing", "--purposes"));
+  EXPECT_EQ(told.layout.stations[0].purposes, Purpose::Routing);
+  EXPECT_THAT(told.sentences, Not(HasSubstr("what node")));
 }
 
 TEST(LifSpots, ASpeedLimitOnTheSpotIsTold) {

@@ -38,6 +38,15 @@ TEST(OpenTcsErrors, AnotherEncodingIsNamed) {
   EXPECT_EQ(in("windows-1252", "\xe4"), read);
 }
 
+TEST(OpenTcsErrors, EntitiesAreNotRead) {
+  const auto import = [](const std::string& text) {
+    std::vector<std::string> warnings;
+    parse_opentcs(text, "m.xml", warnings);
+  };
+  EXPECT_EQ(independent::refusal(import, "<?xml version=\"1.0\"?>\n<!DOCTYPE m [<!ENTITY hall \"H\">]>\n<model/>"),
+            "m.xml:2:14: declares an entity, which is not read; write its text where it is used");
+}
+
 void import(const std::string& text) {
   std::vector<std::string> warnings;
   parse_opentcs(text, "m.xml", warnings);

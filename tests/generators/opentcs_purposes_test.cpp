@@ -114,7 +114,9 @@ TEST(OpenTcsPurposes, WordsOfTheUserComeFirst) {
   EXPECT_EQ(with(kCases[9], "fire DOOR=storage parking").purposes, "routing storage parking");
   EXPECT_TRUE(with(kCases[9], "fire DOOR=routing").warnings.empty()) << "the user says that nothing is done there";
   EXPECT_EQ(with(kCases[1], "\u5145\u7535=parking").purposes, "routing parking");
-  EXPECT_EQ(with(kCases[0], "UNLOAD=charging,NOP=parking").purposes, "routing charging parking");
+  EXPECT_EQ(with(kCases[0], "UNLOAD=charging,NOP=parking").purposes, "routing storage charging parking")
+      << "the other operation is LOAD";
+  EXPECT_EQ(with(kCases[0], "LOAD=routing,UNLOAD=charging").purposes, "routing charging");
   EXPECT_EQ(with(kCases[0], "LOAD_TRANSFER_GENERIC=parking").purposes, "routing parking");
   EXPECT_EQ(with({"Dock, left", "", "", "", ""}, "Dock, left=storage").purposes, "routing storage");
   EXPECT_EQ(with({"Dock, left", "", "", "", ""}, "7=parking,Dock, left=storage").purposes, "routing storage");

@@ -207,6 +207,30 @@ TEST(OpenTcs, ACoordinateInTwoSpellingsIsNamedIfTheyDiffer) {
   }
 }
 
+// The floor ends where coordinates end.
+TEST(OpenTcs, PointsMayLieAtTheEndOfTheWorld) {
+  const auto layout = import(replaced(kModel, "positionX=\"4000\"", "positionX=\"100000000\"")).layout;
+  EXPECT_EQ(layout.stations[1].position_m, Vec2(100000.0, 0.0));
+  EXPECT_EQ(layout.floor_high_m.x(), 100000.0);
+}
+
+TEST(OpenTcs, APointThatIsDrawnTwiceIsNamedIfTheyDiffer) {
+  const auto with = [](const std::string& layout) {
+    return import(
+        replaced(kModel, "type=\"HALT_POSITION\"/>",
+                 "type=\"HALT_POSITION\"><pointLayout positionX=\"1\" positionY=\"2\" " + layout + "/></point>"));
+  };
+  const auto names = [](const Import& result) {
+    return std::ranges::count_if(result.warnings, [](const std::string& sentence) {
+      return sentence.find(
+                 "1 points are drawn at positionX or Y and at xPosition or yPosition, with different values "
+                 "(\"a\"); positionX and positionY count") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(names(with("xPosition=\"1\" yPosition=\"2\"")), 0);
+  EXPECT_EQ(names(with("xPosition=\"1\" yPosition=\"3\"")), 1);
+}
+
 TEST(OpenTcs, APathIsDrivenBackwardFromItsDestination) {
   const auto with = [](const std::string& velocities) {
     return import(replaced(kModel, "name=\"ab\"", "name=\"ab\" " + velocities));

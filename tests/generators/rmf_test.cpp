@@ -84,6 +84,14 @@ TEST(Rmf, ABuildingIsScaledAndTurnedUp) {
                                                 "(\"v3\", \"v4\")"}));
 }
 
+// Names of the file come before those that are made up.
+TEST(Rmf, AVertexWithoutANameTakesNoneOfTheFile) {
+  const auto [layout, warnings] = import(replaced(kNavGraph, "name: end", "name: v1"));
+  EXPECT_EQ(layout.stations[1].name, "v1_");
+  EXPECT_EQ(layout.stations[2].name, "v1");
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+}
+
 // Such as a place to stand and the charger in it.
 TEST(Rmf, VerticesThatALaneWithoutALengthJoinsAreOneStation) {
   const auto [layout, warnings] = import(R"(building_name: depot

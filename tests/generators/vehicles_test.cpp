@@ -48,6 +48,15 @@ TEST(OpenTcsVehicles, HaveTheirBodiesAndVelocities) {
             "\n[[vehicle]]\nname = \"tug\"\nlength_m = 3\nwidth_m = 1\nspeed_mps = 1.5\nreverse_speed_mps = 0.5\n");
 }
 
+TEST(OpenTcsVehicles, OfTwoLengthsThatOfTheBoxCounts) {
+  const auto with = [](const char* length) { return import_model(vehicle("a", kBox, length)); };
+  const auto differs = with("length=\"9000\"");
+  EXPECT_THAT(differs.text, HasSubstr("length_m = 2.1\n"));
+  EXPECT_THAT(differs.sentences,
+              HasSubstr("1 vehicles have another length beside that of their bounding box (\"a\"); the box counts"));
+  EXPECT_THAT(with("length=\"2100\"").sentences, Not(HasSubstr("another length")));
+}
+
 TEST(OpenTcsVehicles, SayWhatIsGuessedAndLeftOut) {
   const auto old =
       import_model(R"(<vehicle name="a" length="1000" maxVelocity="0" energyLevelGood="90" envelopeKey="e"/>)");

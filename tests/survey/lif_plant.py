@@ -198,7 +198,7 @@ def read(path, level=None):
         if spot[name] == name:
             joined = [other for other in nodes if spot[other] == name]
             plant.add(station_of(joined, nodes, driven, [edge for edge in turns if edge["startNodeId"] in joined]))
-    for edge in edges:
+    for edge in driven:
         plant.stations[spot[edge["endNodeId"]]].purposes |= purposes_of(edge)
     for edge in driven:
         if edge not in turns:

@@ -54,12 +54,20 @@ def read(path, level=None, graph=0):
         vertex = vertices[index]
         return (words_of(vertex).get("name") if is_graph else vertex[3] if len(vertex) > 3 else "") or ""
 
+    given = {str(name_of(index)) for index in range(len(vertices))}
+
+    def free_name(index):
+        name = f"v{index}"
+        while name in plant.stations or name in given:
+            name += "_"
+        return name
+
     def station(index):
         spot = spot_of[index]
         if spot[0] not in names:
             vertex, words = vertices[spot[0]], [words_of(vertices[member]) for member in spot]
-            name = next((str(name_of(member)) for member in spot if name_of(member)), f"v{spot[0]}")
-            names[spot[0]] = name if name not in plant.stations else f"v{spot[0]}"
+            name = next((str(name_of(member)) for member in spot if name_of(member)), free_name(spot[0]))
+            names[spot[0]] = name if name not in plant.stations else free_name(spot[0])
             plant.add(Station(names[spot[0]], vertex[0] * scale[0], vertex[1] * scale[1],
                               {purpose for key, purpose in PURPOSES.items() if any(word.get(key) for word in words)}))
         return plant.stations[names[spot[0]]]
