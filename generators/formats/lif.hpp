@@ -9,10 +9,10 @@
 
 namespace fleetproof {
 
-// Reads a layout in the VDMA Layout Interchange Format (JSON, LIF 1.0 and the spellings of its successor). If a file
-// has several layouts, the first is read. Nodes become stations, and edges become segments. Two edges there and back on
-// one track become one bidirectional segment. Trajectories are NURBS: see cubic_pieces. A node is for storage if an AGV
-// picks or drops on the node or on an edge that ends there. It is for charging if an AGV starts to charge there.
+// Reads a layout in the VDMA Layout Interchange Format (JSON, LIF 1.0 and the spellings of its successor). Of several
+// layouts in a file, the choice names one. Nodes become stations, and edges become segments. Two edges there and back
+// on one track become one bidirectional segment. Trajectories are NURBS: see cubic_pieces. A node is for storage if an
+// AGV picks or drops on the node or on an edge that ends there. It is for charging if an AGV starts to charge there.
 //
 // `warnings` receives one sentence, with file and line, for everything that was left out, guessed or changed. Throws
 // InputError with file, line, field, value and remedy if no AGV can drive on the layout.
