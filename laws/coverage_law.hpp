@@ -14,8 +14,8 @@ namespace fleetproof {
 // - Scenes: two such drives side by side (side_by_side.hpp), or to one bottleneck or four-way station
 //   (map_places.hpp) by different segments. Counted like encounters; a kind that is not met is left out of the
 //   findings.
-// - Near misses: two AGVs come closer than 0.3 m without a violation, and at least one of them moves. A pair that stays
-//   near for more than 1 s without a gap counts once.
+// - Near misses: two AGVs come closer than 0.3 m without a violation, and at least one of them moves. Times of one pair
+//   that are at most 1 s apart count once.
 // - Faults, by kind, as the trace records them.
 std::unique_ptr<Law> make_coverage_law(const Scenario& scenario);
 

@@ -18,10 +18,10 @@ inline constexpr int kQualityWindow_s = 10;
 std::uint32_t losses_that_reject(std::uint32_t receptions);
 
 // The links of a fleet over the last ten whole seconds, from the records of the trace. A loss counts at the instant of
-// sending, a reception at its arrival, however late it comes. A second copy of a message does not count. If several
-// messages of a sender have equal bytes, the last one that was sent counts as the one received. The delay is therefore
-// never too large. Records wait until a second is ended: whoever does not ask about the links pays only for keeping
-// them.
+// sending (by interference: when the air time ends), a reception at its arrival, however late it comes. A second copy
+// of a message does not count. If several messages of a sender have equal bytes, the last one that was sent counts as
+// the one received. The delay is therefore never too large. Records wait until a second is ended: whoever does not ask
+// about the links pays only for keeping them.
 class LinkQuality {
  public:
   explicit LinkQuality(std::size_t agvs);

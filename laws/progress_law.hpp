@@ -6,8 +6,9 @@
 
 namespace fleetproof {
 
-// Accuses a fleet or an AGV that has open transports and makes no progress. The law looks at the run every
-// stuck_after / 12. The beginning of an incident is exact to the nanosecond, its end to one look.
+// Accuses a fleet or an AGV that has open transports and makes no progress. The law looks at the run every stuck_after
+// / 12, but not more often than once a second. The beginning of an incident is exact to the nanosecond, its end to one
+// look.
 //
 // - Deadlock: AGVs with open transports have begun and ended no action for stuck_after, and wait for each other in a
 //   circle; or all AGVs with open transports have stood for so long, with or without a circle. The law also files which

@@ -8,8 +8,8 @@
 
 namespace fleetproof {
 
-// One row for each condition that `wanted` selects: counts and, in a claim, the exact interval and bound over the units
-// of that row. If there are more than `most_rows` rows, those with the highest bound are kept, and a remark counts the
+// One row for each condition that `wanted` selects: counts and, in a claim, the interval and bound over the units of
+// that row. If there are more than `most_rows` rows, those with the most failures are kept, and a remark counts the
 // others.
 Section condition_section(const ReportInput& input, std::string title,
                           const std::function<bool(const Condition&)>& wanted, std::size_t most_rows);

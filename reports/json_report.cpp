@@ -333,7 +333,7 @@ Json attempts_json(const ReportInput& input) {
           {"overrides", input.overrides}};
 }
 
-// Every key is present; a list without content is empty. A program that reads the report need not test for keys.
+// Every key is present, but for those of claims in a search; a list without content is empty.
 Json list_of(std::size_t count, const std::function<Json(std::size_t)>& item) {
   auto list = Json::array();
   for (std::size_t i = 0; i < count; ++i) list.push_back(item(i));

@@ -6,7 +6,7 @@
 
 namespace fleetproof {
 
-// For the summary page of a CI system (for example GITHUB_STEP_SUMMARY): under 60 KB for every campaign.
+// For the summary page of a CI system (for example GITHUB_STEP_SUMMARY): long tables are cut.
 std::string render_markdown(const ReportInput& input);
 
 }  // namespace fleetproof

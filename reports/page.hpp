@@ -64,7 +64,7 @@ struct Page {
   std::vector<Section> sections;
 };
 
-// A table has at most `most_rows` rows. The least interesting rows are left out and counted.
+// Tables that grow with cells or runs have at most `most_rows` rows; the others are counted.
 Page build_page(const ReportInput& input, std::size_t most_rows);
 
 }  // namespace fleetproof

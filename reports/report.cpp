@@ -16,8 +16,8 @@ namespace {
 constexpr std::array<Entry<RenderReport>, 5> kFormats{{
     {"text", "for a terminal: verdicts first, then tables", render_text},
     {"summary", "for a terminal: the verdicts alone", render_summary},
-    {"markdown", "for a CI summary: the same page, under 60 KB", render_markdown},
-    {"junit", "for CI: one test case for each gate", render_junit},
+    {"markdown", "for a CI summary: the same page, with shorter tables", render_markdown},
+    {"junit", "for CI: one test case for each gate and finding", render_junit},
     {"json", "for programs: every cell and every figure in full", render_json},
 }};
 

@@ -8,8 +8,8 @@
 
 namespace fleetproof {
 
-// What was sampled: "200 replicates at these 12 combinations (...), layout ring, fleets of 5, 600 s a run". A verdict
-// claims no more than this. If loss and delay were drawn between bounds, the sentence names the region: "200 replicates
+// What was sampled: "200 worlds at these 12 combinations (...), layout ring, fleets of 5, 600 s a run". A verdict
+// claims no more than this. If loss and delay were drawn between bounds, the sentence names the region: "200 worlds
 // wherever loss <= 40 % and delay <= 2 s, drawn uniformly ...".
 std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& cells);
 

@@ -8,7 +8,7 @@ namespace fleetproof {
 
 // For a terminal, 100 to 150 columns wide.
 std::string render_text(const ReportInput& input);
-// Only the top of the page: warnings and verdicts.
+// Only the top of the page: warnings, verdicts, and the table of gates.
 std::string render_summary(const ReportInput& input);
 
 }  // namespace fleetproof

@@ -54,7 +54,7 @@ class ArchiveReader {
   // What the agents of a run did. Throws EngineError if it is damaged.
   std::optional<std::string> recording(std::uint64_t run_index) const;
   std::uint64_t recording_count(const std::string& agent) const;
-  // One digest over plan, cells, gates and all rows. Two files have the same digest if they have the same content.
+  // One digest over plan, cells, gates and all runs. Two files have the same digest if they have the same content.
   std::uint64_t content_digest() const;
   // The same without the identity of the engine. Files of two builds with one schema and equal results have it alike.
   std::uint64_t results_digest() const;

@@ -64,7 +64,7 @@ struct ArchiveWriter::Impl {
 };
 
 void ArchiveWriter::Impl::open(const std::string& file) {
-  // One thread writes: SQLite need not lock its own memory at each of the fifty values of a row.
+  // One thread writes: SQLite need not lock its own memory at each of the 60 values of a row.
   db = std::make_unique<SQLite::Database>(file, SQLite::OPEN_READWRITE | SQLite::OPEN_NOMUTEX);
   // FULL brings the log to the disk at every commit: a power cut then costs no more than a kill.
   db->exec("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL");

@@ -47,15 +47,18 @@ class ArchiveWriter {
   ArchiveWriter(const ArchiveWriter&) = delete;
   ArchiveWriter& operator=(const ArchiveWriter&) = delete;
 
-  void add(const RunRecord& run);      // commits by itself every 4096 rows or 2 s, whichever comes first
-  void add(const AuditRecord& audit);  // of a run that has been added. Once for each run
+  // Commits after 4096 rows, or 2 s. A run that is stored already is left out; EngineError if it came out otherwise.
+  // Recordings beyond 1 GiB in all are dropped.
+  void add(const RunRecord& run);
+  void add(const AuditRecord& audit);  // of a run that has been added; once for each run
   void commit();
 
   // Writes the canonical file: only rows below `stop_index`, with fixed page size and order, without a journal, and
   // without the recordings of agents that came out the same in every audit. The bytes do not depend on the order of
   // `add`. With `may_fold`, a campaign whose file keeps the failing runs only (Keep) folds the others; the campaign
   // must then be complete, for a folded file cannot go on. Then renames the file to `path`, removes the live file and
-  // releases the lock. The writer is closed afterwards.
+  // releases the lock. Throws InputError if a file that must not be replaced has taken the name meanwhile. The writer
+  // is closed afterwards.
   void publish(std::uint64_t stop_index, const MayFold& may_fold = {});
   // Instead, or if `publish` failed: removes the live file and all that was added. The writer is closed afterwards.
   void discard();

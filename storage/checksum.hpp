@@ -48,7 +48,7 @@ class RowsDigest {
   std::unique_ptr<State> state_;
 };
 
-// A digest of the whole content: the plan's checksum and all rows.
+// A digest of the content: the plan's checksum and all rows of runs.
 std::uint64_t content_digest_of(std::uint64_t plan, std::uint64_t rows);
 
 // What a folded file is sealed with instead of its content.

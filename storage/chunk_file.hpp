@@ -34,11 +34,11 @@ void write_chunk_file(const std::string& path, const ChunkLabel& label, const Ch
 // Whether there is a chunk file. Throws InputError if something else has its name: a pipe, a folder.
 bool is_chunk_there(const std::string& path);
 
-// Reads a chunk file. Every error names the file and says what to do. Threads: one.
+// Reads a chunk file. Threads: one.
 class ChunkFile {
  public:
-  // Reads the head. Throws InputError if the file is no chunk file or cannot be read, EngineError if it is incomplete
-  // or its head is damaged.
+  // Reads the head. Throws InputError if the file is no chunk file or cannot be read, EngineError if it has another
+  // length than its head says, or if its head is damaged.
   explicit ChunkFile(const std::string& path);
 
   const ChunkLabel& label() const { return label_; }

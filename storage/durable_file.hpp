@@ -5,7 +5,7 @@
 
 namespace fleetproof {
 
-// Files that appear under their final name only when all of their bytes are on the disk. All functions throw
+// Files that appear under their final name only when all of their bytes are on the disk. Functions that write throw
 // MachineError if the disk fails.
 
 // Brings all bytes of `from` to the disk and renames it to `to`, at one instant. An existing file is replaced.
@@ -19,7 +19,7 @@ enum class Publication : std::uint8_t { First, Again, Differs };
 
 // Brings all bytes of `from` to the disk and gives them the name `to`, unless a file of this name is there already: it
 // is never replaced. `from` is removed, but for Differs. Many programs on many machines may publish one name at once:
-// one of them is First.
+// at most one is First.
 Publication publish_once(const std::string& from, const std::string& to);
 
 }  // namespace fleetproof

@@ -16,10 +16,10 @@ namespace fleetproof {
 using MayFold = std::function<bool(const RunRecord& run)>;
 
 // Folds the runs of a complete live file: fills the table `folded` of the canonical file `db`, and the table
-// `temp.kept` with the indices of all other runs. These are the runs that may not be folded. Three more kinds of runs
-// keep their rows, because a page may name them: the first run in which an agent meets something; a run whose audit
-// came out differently; a run with a recording. Requires: the live file is closed and attached to `db` as `live`.
-// Throws SQLite::Exception, and what ArchiveReader throws.
+// `temp.kept` with the indices of all other runs. These are the runs that may not be folded. More runs keep their rows,
+// because a page may name them: the first one in which an agent meets something or is in safe mode; one whose audit
+// came out differently; one with a recording. So does one with another time or fleet than its cell has. Requires: the
+// live file is closed and attached to `db` as `live`. Throws SQLite::Exception, and what ArchiveReader throws.
 void fold_runs(SQLite::Database& db, const std::string& live_path, const MayFold& may_fold);
 
 // The number of runs of the live file whose trace another run of their cell had before.

@@ -87,7 +87,8 @@ struct RunRecord {
   FactorValues factors;               // the cell's, or what the replicate drew within its bounds
   Outcome outcome;
   // The run was folded: of its outcome only transports, safe mode, smallest clearance, time and AGVs are known. All
-  // else is as in a run in which nothing went wrong.
+  // else is as in a run in which nothing went wrong. Of drawn factors, a bound of the cell stands for what was drawn,
+  // within the contract if the run was.
   bool folded = false;
   // What the agents did, as a CallTape (core/engine) has it; empty: nothing was recorded. Not part of the outcome.
   std::string recording{};

@@ -17,7 +17,7 @@ class Database;
 namespace fleetproof {
 
 // The rows of a table without rowids, in the order of its key, read from the pages of the file. SQLite's own machine
-// takes longer for each value than all that a report does with it, and a campaign has millions of rows with 80 values.
+// takes longer for each value than all that a report does with it, and a campaign has millions of rows with 60 values.
 // The format is documented and stable: https://www.sqlite.org/fileformat2.html.
 //
 // For published files only: nobody writes them, and they have no log. Its functions throw EngineError if a page is

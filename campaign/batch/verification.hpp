@@ -23,7 +23,7 @@ struct Disagreement {
   std::string agent;
   ReplayVerdict verdict = ReplayVerdict::Diverged;
   std::string explanation;
-  // The same program made both runs, and no plug-in decided what differs.
+  // The same program made both runs, and no plug-in that is not trusted decided what differs.
   bool engine_at_fault = false;
 };
 

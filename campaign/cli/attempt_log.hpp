@@ -22,7 +22,7 @@ class AttemptLog {
   // ledger.
   AttemptLog(const std::string& ledger, const Campaign& campaign);
 
-  // When the results file is open, before the first run of the session. A campaign that goes on is the same attempt.
+  // When the results file is open, before `end`. A campaign that goes on is the same attempt.
   void begin();
   void end(const ReportInput& input);
   const std::string& path() const { return ledger_.path(); }

@@ -20,8 +20,8 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs);
 // Throws InputError, which ends in `remedy`, if the file holds the results of a campaign: another file was meant.
 void refuse_results(const std::string& path, std::string_view remedy);
 
-// Draws one world for each layout and fleet size, and prints a warning on stderr for each fleet that may be too large.
-// Throws what build_first_worlds() throws.
+// Draws the first worlds of each layout and fleet size, and prints warnings on stderr: worlds without room, fleets that
+// may be too large. Throws what build_first_worlds() throws.
 void try_first_worlds(const CampaignPlan& plan);
 
 // &AgentPrograms::know or &AgentPrograms::load.

@@ -30,12 +30,16 @@ void tell_rejections(const CampaignPlan& plan) {
   const ScenarioSource source(plan);
   const std::uint64_t replicates = std::min(plan.replicates, kReplicatesDrawn);
   RejectionCounts counts;
+  const auto draw = [&](std::uint64_t run_index) {
+    try {
+      (void)source.world(run_index, counts);
+    } catch (const NoRoom&) {
+      // try_first_worlds() has said it.
+    }
+  };
   for (std::uint64_t replicate = 0; replicate < replicates; ++replicate) {
-    for (std::uint64_t cell = 0; cell < plan.cell_count(); cell += plan.cells_per_world()) try {
-        (void)source.world(replicate * plan.cell_count() + cell, counts);
-      } catch (const NoRoom&) {
-        // try_first_worlds() has said it.
-      }
+    for (std::uint64_t cell = 0; cell < plan.cell_count(); cell += plan.cells_per_world())
+      draw(replicate * plan.cell_count() + cell);
   }
   const auto text = rejection_text(counts);
   put("worlds of the first {} replicates: {} drawn, {} more refused{}{}", replicates, counts.worlds,

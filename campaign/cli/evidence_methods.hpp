@@ -15,7 +15,7 @@ struct EvidenceMethod {
   Figures (*compute)(const EvidenceInput& input);
 };
 
-// All methods, in the order of reports/evidence/README.md.
+// All methods, in the order in which `fleetproof evidence` lists them.
 std::vector<EvidenceMethod> evidence_methods();
 
 }  // namespace fleetproof::cli

@@ -173,7 +173,7 @@ Action prepare_explain(Options& options) {
   add_case_options(options, words->from);
   options.option("--runs", words->runs, "write the runs that show what is said to this folder, as scenario files");
   options.option("--max-time", words->max_time, "look for the smallest case so long at most (default: 60)");
-  options.option("--max-trials", words->trials, "and with so many trials; the result is the same on any machine");
+  options.option("--max-trials", words->trials, "and with so many trials; the same everywhere if --max-time suffices");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.flag("--json", words->json, "print JSON");
   return [words] { return explain_case(*words); };

@@ -16,8 +16,9 @@ struct StripSubject {
   bool stops_there = false;  // a contact after which both stand: nothing comes after
 };
 
-// Six instants around `subject.at`, fewer if the run is too short. After it, one if something changes by then. What is
-// over in seconds is shown in steps of seconds, a jam in steps ten times as long. A StillCamera fills them.
+// Six instants around `subject.at`, fewer if the run is too short. After it, one if something changes by then, and up
+// to four of a jam from the start on. What is over in seconds is shown in steps of seconds, a jam in steps ten times as
+// long. A StillCamera fills them.
 std::vector<Still> blank_stills(const StripSubject& subject, SimTime end);
 
 html::FilmStrip strip_of(const std::vector<Still>& stills, const StripSubject& subject, const Scenario& scenario);

@@ -7,13 +7,13 @@
 
 namespace fleetproof::cli {
 
-// At most 20 characters, printable.
+// Printable; at most 20 characters, and "..." if there are more.
 std::string moment_name(const Scenario& scenario, EntityId id);
 // "A drives from 10 to 9, 2.00 s to 10.00 s".
 std::string activity_text(const Scenario& scenario, const Piece& piece);
 
-// Lines below a picture: the activities in progress, then which of them conflict. None is longer than the picture is
-// wide, and there are at most 20 of them.
+// Lines below a picture: the activities in progress, as many on a line as fit, then which of them conflict. There are
+// at most 20 lines.
 std::vector<std::string> moment_lines(const Moment& moment, const Scenario& scenario);
 
 }  // namespace fleetproof::cli

@@ -20,8 +20,8 @@ std::string differences_text(const Scenario& scenario, const std::vector<Differe
 std::string incident_text(const Scenario& scenario, const Incident& incident);
 // "met: head-on 3, agent: negotiation 17", or nothing.
 std::string met_text(const Outcome& outcome);
-// One run as text for a person. Times have 0.01 s and lengths 1 cm. Violations have 1 ms and 1 mm, because centimetres
-// would hide small differences. Published laws leave the clearance of bodies that they do not accuse unmeasured.
+// One run as text for a person. Lengths have 1 cm. Violations have 1 ms and 1 mm, because centimetres would hide small
+// differences. Published laws leave the clearance of bodies that they do not accuse unmeasured.
 std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool clearance_measured = true);
 
 }  // namespace fleetproof::cli

@@ -147,7 +147,7 @@ Action prepare_shrink(Options& options) {
   add_case_options(options, words->from);
   options.option("-o,--output", words->out, "the smallest case, a scenario file (default: NAME-RUN.case.json)");
   options.option("--max-time", words->max_time, "end after this time with the smallest case so far (default: 60)");
-  options.option("--max-trials", words->trials, "end after so many trials; the result is the same on any machine");
+  options.option("--max-trials", words->trials, "end after so many trials; the same everywhere if --max-time suffices");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.flag("--json", words->json, "print JSON");
   return [words] { return shrink_case(*words); };

@@ -36,7 +36,7 @@ struct Finding {
   std::vector<std::size_t> members;  // places in the list of failures, in its order
   std::size_t representative = 0;    // one of them: the simplest
 
-  // "F-1c2d3e4f": the same for the same agent, end, needs and doing on any machine, in any campaign.
+  // "F-1c2d3e4f": the same for equal agent, end, needs, doing and words on any machine, in any campaign.
   std::string id() const;
 };
 

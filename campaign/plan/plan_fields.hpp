@@ -26,7 +26,7 @@ inline constexpr Field kKeep{.key = "keep",
                              .left_out = true};
 
 inline constexpr double kLargestFleet = 1000.0;
-inline constexpr double kMostRuns = 1e12;  // a thousand years of this engine; beyond it run indices would wrap
+inline constexpr double kMostRuns = 1e12;  // years of a machine; run indices stay far from 2^63
 
 template <FieldsOf<GateRecord> Gate, class Visit>
 void visit_fields(Gate& gate, Visit&& visit) {

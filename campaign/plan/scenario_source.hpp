@@ -15,8 +15,9 @@ struct RunPlace {
   FactorValues factors;  // the cell's, or what this replicate drew within its bounds
 };
 
-// run index -> scenario, a pure function of the plan. All agents and factors of a replicate get the same world. All
-// worlds and agents of a replicate get the same draw of the continuous factors. Threads: any number.
+// run index -> scenario, a pure function of the plan; NoRoom (world_maker.hpp) if its seed has no room for the fleet.
+// All agents and factors of a replicate get the same world. All worlds and agents of a replicate get the same draw of
+// the continuous factors. Threads: any number.
 class ScenarioSource {
  public:
   explicit ScenarioSource(const CampaignPlan& plan);

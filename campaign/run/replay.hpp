@@ -27,12 +27,13 @@ struct ReplayResult {
   RunRecord stored, recomputed;
 };
 
-// Compares run `run_index` of the archive with what `simulate` gives for it now, one value after the other. Throws
-// InputError if the archive has no such run.
+// Compares run `run_index` of the archive with what `simulate` gives for it now, one value after the other; a folded
+// run by 16 bits of its checksum. Throws InputError if the archive has no such run.
 using Resimulate = std::function<RunRecord(std::uint64_t run_index)>;
 ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std::uint64_t run_index,
                     const AgentPrograms& programs, const Resimulate& simulate);
-// The same with the plan in the archive, on this thread. Throws InputError if the agent of the run is not loaded.
+// The same with the plan in the archive, on this thread. Throws InputError if the agent of the run is not known.
+// Requires: a plug-in is loaded.
 ReplayResult replay(const ArchiveReader& archive, std::uint64_t run_index, const AgentPrograms& programs,
                     TraceSink* sink = nullptr, const RunWatch& watch = {});
 // The same from what the agents did, as the archive recorded it: their software is not needed. Empty: the archive has

@@ -18,7 +18,8 @@ struct ChunkRange {
 class ChunkGrid {
  public:
   // A chunk has 4096 runs in campaigns of 2^18 to 2^25 runs. In shorter campaigns it has fewer, down to 16, so that
-  // there are 64 chunks; in longer ones more, so that there are no more than 8192. Requires: runs is at least 1.
+  // there are 64 chunks or more; in longer ones more, so that there are no more than 8192. Requires: runs is at least
+  // 1.
   explicit ChunkGrid(std::uint64_t runs);
 
   std::uint64_t runs() const { return runs_; }

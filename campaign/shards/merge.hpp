@@ -57,8 +57,8 @@ struct MergeOptions {
 };
 
 // Puts the chunks together to the results file that one machine would have written, byte for byte, and returns the
-// number of its runs. Throws InputError if a chunk is missing that is needed, and what `read` and ArchiveWriter throw;
-// then there is no results file.
+// number of its runs. Throws InputError if a chunk is missing that is needed, or if another program made it, and what
+// `read` and ArchiveWriter throw; then `path` is as it was.
 std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& path, const MergeOptions& options);
 
 // "3, 12-18": numbers in ascending order.

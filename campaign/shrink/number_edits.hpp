@@ -19,9 +19,9 @@ struct NumberEdit {
 // round numbers. Requires: they are applied to `scenario`, or to one with as many of everything.
 std::vector<NumberEdit> number_edits(const Scenario& scenario);
 
-// All instants of the scenario so much earlier. None of them is earlier than that.
+// All instants of the scenario so much earlier. None gets earlier than the start of the run.
 Scenario earlier_by(const Scenario& scenario, Duration by);
-// The earliest instant of the scenario that is not its beginning: an order, a fault, a message with a given fate.
+// The earliest instant of the scenario that is not its beginning: an order, a fault, an obstacle, a call, a given fate.
 Duration earliest_instant(const Scenario& scenario);
 
 }  // namespace fleetproof

@@ -48,8 +48,8 @@ class IsolatedRuns {
   // `programs` outlive it.
   IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting);
 
-  // Throws RunAbandoned after abandon(), and EngineError if no worker can be started or a plug-in's file has changed.
-  // `record`: the record of a failed run has a recording of what its agents did.
+  // Throws RunAbandoned after abandon(), MachineError if no worker can be started, EngineError if a plug-in's file has
+  // changed. `record`: the record of a failed run has a recording of what its agents did.
   RunRecord operator()(std::uint64_t run_index, bool record = false);
   // The same for one scenario and the first agent of the plan.
   CaseRun of_case(const Scenario& scenario, Fates fates);

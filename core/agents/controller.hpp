@@ -19,7 +19,7 @@ class Controller {
   Controller(const fp_host& host, fp_controller* handle, std::uint32_t boot = 0)
       : host_(host), handle_(handle), draws_(std::uint64_t{boot} << 32) {}
 
-  // Actions. True if the host accepted the action. `segment` may be FP_HERE for pick and drop.
+  // Actions. True if the host accepted the action. `segment` may be FP_HERE, but not for move.
   bool move(std::uint32_t segment) { return host_.move(handle_, segment) == FP_OK; }
   bool pick(std::uint32_t segment) { return host_.pick(handle_, segment) == FP_OK; }
   // As `pick`, but the load of this order. A host of an older minor version chooses the load itself.

@@ -17,8 +17,9 @@ struct Sector {
 };
 
 // All pairs of headings between which an AGV may turn at a station: those with which lanes end or begin there, if they
-// are less than about three eighths of a full turn apart. Half a turn is no sector, because it may go either way;
-// hull-lock relies on that after a restart. Requires: the map outlives the object.
+// are less than about three eighths of a full turn apart; none at a station with more than 24 headings. Half a turn is
+// no sector, because it may go either way; hull-lock relies on that after a restart. Requires: the map outlives the
+// object.
 class Sectors {
  public:
   explicit Sectors(const MapView& map);

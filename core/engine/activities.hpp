@@ -29,7 +29,7 @@ class Activities {
   void begin(AgvId agv, const Activity& activity, std::uint64_t subject);
   // A drive or a turn, in which the AGV's body moves as `piece` says.
   void begin_moving(AgvId agv, ActivityKind kind, const Piece& piece, std::uint64_t subject);
-  // The drive under way goes on in another piece.
+  // The drive or turn under way goes on in another piece.
   void continue_with(AgvId agv, const Piece& piece);
   // Leaves the state behind that the activity has reached now. A transfer of a load takes place only if the activity
   // ends as planned.

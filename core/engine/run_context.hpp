@@ -58,7 +58,7 @@ struct RunContext {
   void move_load(LoadId load, Holder to);
   void trace_load(LoadId load);
 
-  // `what` is one of the structs in traced (core/outcome/trace_records.hpp); `text` are the words of a probe or log.
+  // `what` is one of the structs in traced (core/outcome/trace_records.hpp); `text` as TraceWriter has it.
   template <class What>
   void trace(EntityId entity, const What& what, std::string_view text = {}) {
     writer.write(trace_record(now, entity, what), text);

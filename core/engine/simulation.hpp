@@ -15,9 +15,9 @@ namespace fleetproof {
 // One run: a pure function of scenario and agent.
 //
 // Laws observe the run. The violations in the outcome come from the first law; incidents and coverage come from all
-// laws. Neither laws nor sink can change the trace. If an agent crashes or hangs, it is not called any more. Its
-// AGV completes the actions that the agent has called for, and then stands; the run goes on. A bug of the engine ends
-// the run: the outcome says `engine_error`. Every agent gets `agent_config` as its own parameters.
+// laws. Neither laws nor sink can change the trace. If an agent crashes or hangs, only its destroy() is called any
+// more. Its AGV completes the actions that the agent has called for, and then stands; the run goes on. A bug of the
+// engine ends the run: the outcome says `engine_error`. Every agent gets `agent_config` as its own parameters.
 //
 // `watch` tells which call into an agent is under way, leaves out calls that are known to end the process, and can
 // abandon the run: then RunAbandoned is thrown.

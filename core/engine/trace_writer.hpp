@@ -20,7 +20,7 @@ class TraceWriter final : public TraceSource {
   TraceWriter(const TraceWriter&) = delete;
   TraceWriter& operator=(const TraceWriter&) = delete;
 
-  // `text` are the words of a probe or a log line, else empty.
+  // `text`: the words of a probe or a log line, the bytes of a message that is sent, else empty.
   void write(const TraceRecord& record, std::string_view text) {
     digest_.append(record);
     if (read_.has(record.kind)) [[unlikely]]

@@ -43,7 +43,7 @@ class Curve {
   // millimetre of a point where it stands still (a cusp, a control point on an end), arcs stay within a micrometre and
   // half a milliradian of it.
   static Curve bezier(const Vec2& p0_m, const Vec2& p1_m, const Vec2& p2_m, const Vec2& p3_m);
-  // Curves driven one after the other.
+  // Curves driven one after the other, nose first.
   static Curve joined(std::span<const Curve> curves);
 
   double length_m() const { return ends_m_.empty() ? 0.0 : ends_m_.back(); }

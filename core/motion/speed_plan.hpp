@@ -15,8 +15,8 @@ struct Leg {
 };
 
 // Writes the legs of a drive along `curve` from `from_m` to its end into `legs`. In a bend of radius R, the limit is
-// sqrt(lateral * R); neighbouring arcs of a bend share the limit of the tightest arc. `lateral_mps2` 0: no such limit.
-// An AGV that enters a bend too fast brakes in the bend as hard as it can.
+// sqrt(lateral * R), but at least 0.05 m/s; neighbouring arcs of a bend share the limit of the tightest arc.
+// `lateral_mps2` 0: no such limit. An AGV that enters a bend too fast brakes in the bend as hard as it can.
 void plan_legs(const Curve& curve, const MotionLimits& limits, double lateral_mps2, double from_m,
                const EndSpeeds& ends, std::vector<Leg>& legs);
 

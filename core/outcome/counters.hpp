@@ -99,7 +99,7 @@ inline constexpr auto kCounters = std::to_array<CounterInfo>({
     {"battery_end_ppb", &Counters::battery_end_ppb, "ppb",
      "of a full battery, in all batteries at the end: start + charged = end + driven + idled"},
     {"battery_driven_ppb", &Counters::battery_driven_ppb, "ppb", "of a full battery, spent by driving"},
-    {"battery_idled_ppb", &Counters::battery_idled_ppb, "ppb", "of a full battery, spent by standing"},
+    {"battery_idled_ppb", &Counters::battery_idled_ppb, "ppb", "of a full battery, spent by being switched on"},
     {"battery_charged_ppb", &Counters::battery_charged_ppb, "ppb",
      "of a full battery, charged or gained by a change of battery"},
     {"incidents_left_out", &Counters::incidents_left_out, "incidents", "beyond what an outcome holds"},

@@ -25,8 +25,8 @@ namespace fleetproof {
 //
 // A frozen fleet is found by its lack of work and not by its lack of results: the time that a transport or a drive
 // takes depends on the layout, the time in which an idle AGV begins something does not. For engine and operator, work
-// also begins when a fault or the operator lets an AGV go. An agent that stops its AGV and lets it go on does no work
-// by that.
+// also begins when a fault, the scanner or the operator lets an AGV go. An agent that stops its AGV and lets it go on
+// does no work by that.
 
 // Activities by which an AGV serves its transports. A transmission is no activity of the AGV's body.
 constexpr bool is_work(ActivityKind kind) {

@@ -29,7 +29,7 @@ class CanonicalBytes {
 std::uint64_t layout_digest(const Layout& layout);
 
 struct Scenario;
-// Two scenarios with one digest are the same scenario. All fields count but those that are left out of files.
+// Two scenarios with one digest are the same scenario. All fields count but `expected`, and those that files leave out.
 // Requires: a map.
 std::uint64_t scenario_digest(const Scenario& scenario);
 

@@ -17,7 +17,7 @@ struct Fault {
   enum class Kind : std::uint8_t {
     Breakdown = 1,       // the AGV brakes, is out of order while the fault lasts, then goes on
     ProtectiveStop = 2,  // the AGV brakes, stands while the fault lasts, then goes on
-    LoadDrop = 3,        // the load lies on the floor while the fault lasts; no effect on an empty AGV
+    LoadDrop = 3,        // the load lies on the floor while the fault lasts; no effect without a load, or without room
     Restart = 4,         // the agent loses its memory and is away while the fault lasts; the AGV finishes its action
     Freeze = 5,          // the agent receives no event while the fault lasts, and then all of them
     PowerFailure = 6,    // breakdown and restart in one: the AGV brakes, and its agent is away while the fault lasts
@@ -60,8 +60,9 @@ constexpr bool stops_computer(Fault::Kind kind) {
 }
 
 // The laser scanner of an AGV. It stops the AGV when a body is in its protective field, and lets the AGV go on some
-// time after the field is clear. The field is a rectangle before the front of the AGV. Its length is v * reaction + v^2
-// / (2 deceleration) + margin, but at most the range. On either side, it is wider than the AGV by the margin.
+// time after the field is clear. The field is a rectangle before the end of the AGV that goes first. Its length is v *
+// reaction + v^2 / (2 deceleration) + margin, but at most the range. On either side, it is wider than the AGV by the
+// margin.
 struct ScannerSetup {
   bool on = false;
   double reaction_s = 0.08;  // also the time between two looks
@@ -81,14 +82,14 @@ enum class Assist : std::uint8_t {
   Standstill = 4,  // transports are open, and no AGV works or has worked for `stuck_after`; one agent is restarted
 };
 
-// The operator helps AGVs; for each call, an operator is available.
-// After a contact, the operator takes the AGV off the floor, ends its halts and changes an empty battery. It sets the
-// AGV down with its load when the place is clear of all bodies and their present pieces by the safety distance, and of
-// the lanes that AGVs drive now or next; it tries every second. The agent then starts with the next boot number, and
-// open orders are sent again. The contact still counts. At a standstill, the operator restarts the agent of the AGV
-// that has begun and ended nothing for the longest time (of equals, the first). That AGV has an open transport and no
-// halt. If no work begins or ends for another `stuck_after`, the operator is called again. A restart is not an action
-// and does not change whether the run ends stuck.
+// The operator helps AGVs; for each call, an operator is available. After a contact, the operator takes the AGV off the
+// floor, ends its halts and changes an empty battery. It sets the AGV down with its load when the place is clear of all
+// bodies and their present pieces by the safety distance, and of the lanes that AGVs drive now or next; it tries every
+// second. The agent then starts with the next boot number, and open orders are sent again. The contact still counts. At
+// a standstill, the operator restarts the agent of the AGV that has begun and ended nothing for the longest time (of
+// equals, the first). That AGV has an open transport, no activity under way, and no halt but one of its agent. If no
+// work begins or ends for another `stuck_after`, the operator is called again. A restart is not an action and does not
+// change whether the run ends stuck.
 struct OperatorSetup {
   bool on = false;
   double least_s = 60.0, most_s = 300.0;  // from the call to the help, uniform

@@ -69,7 +69,7 @@ void visit_fields(Vehicle& vehicle, Visit&& visit) {
   visit(Field{.key = "settle_s", .text = "longest fine positioning after a drive to a stop; uniform", .high = kHour_s},
         settle_s);
   visit(Field{.key = "battery_per_m", .text = "share of a full battery that a metre uses"}, battery_per_m);
-  visit(Field{.key = "battery_idle_per_s", .text = "share of a full battery that a second uses, driving or not"},
+  visit(Field{.key = "battery_idle_per_s", .text = "share of a full battery that a second without charging uses"},
         battery_idle_per_s);
   visit(Field{.key = "charge_per_s", .text = "share of a full battery that a second of charging adds", .low = 1e-6},
         charge_per_s);

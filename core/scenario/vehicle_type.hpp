@@ -28,7 +28,7 @@ struct VehicleType {
   double speed_deviation = 0.0;    // every drive is faster or slower by up to this share, in speed and acceleration
   double settle_s = 0.0;           // fine positioning after every drive to a stop: uniform on [0, settle_s)
   double battery_per_m = 1.0 / 20000.0;  // share of a full battery
-  double battery_idle_per_s = 0.0;       // share that the AGV uses while it is switched on
+  double battery_idle_per_s = 0.0;       // share that the AGV uses unless it charges
   double charge_per_s = 1.0 / 3600.0;
   double dock_s = 0.0;                // connecting to the charger, before charging begins
   double pick_s = 5.0, drop_s = 5.0;  // the shortest time of a transfer

@@ -46,7 +46,8 @@ bool is_layout_file(std::string_view path);
 std::string_view importer_of_file(const std::string& path);
 
 // Lifts permissions and cuts stations off if the choice asks for it. Returns sentences: what was lifted, the names of
-// the stations, and what AGVs cannot do at some stations. `path` is the file of the layout.
+// the stations, and what AGVs cannot do at some stations. Throws InputError if no core is left. `path` is the file of
+// the layout.
 std::vector<std::string> adapt(Layout& layout, const ImportChoice& choice, const std::string& path);
 
 // Reads a layout with an importer and adapts it. In `warnings` the sentences of adapt() stand first.

@@ -165,7 +165,6 @@ class LeftOut {
   }
 
  private:
-  // Ordered by their place in the program text, which is the order of the sentences.
   void add(const Topic& topic, const pugi::xml_node& node, const std::string& name) {
     things_.add(topic, xml_.place(node), name);
   }

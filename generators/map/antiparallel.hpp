@@ -14,8 +14,8 @@ namespace fleetproof {
 enum class TwinPaths : std::uint8_t { Keep, Merge };
 
 // Merges two one-way segments that lead there and back between two stations on one track (control points mirrored, to
-// within 1 mm). They become one bidirectional segment: the first in the list, which keeps its name. Returns the names
-// of these segments.
+// within 1 mm) with the same permissions. They become one bidirectional segment: the first in the list, which keeps its
+// name. Returns the names of these segments.
 std::vector<std::string> merge_antiparallel(Layout& layout);
 
 // The same of these pairs of segments alone, there and back, by index. A pair that is no such twin stays as it is.

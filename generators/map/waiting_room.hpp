@@ -17,9 +17,9 @@ std::vector<bool> cut_stations(const LogicalMap& map, const Reachability& reacha
 // Whether the core has a place to wait that does not divide it.
 bool has_open_waiting_place(const LogicalMap& map, const Reachability& reachability);
 
-// Moves the purposes of every open place to wait to the nearest cut station without a purpose, storage first.
-// Every AGV that waits is then in the way of others. Returns false and changes nothing if fewer than two storage
-// stations would remain.
+// Moves the purposes of every open place to wait to the nearest cut station without a purpose, storage first; if none
+// is left, the place loses them. Every AGV that waits is then in the way of others. Returns false and changes nothing
+// if fewer than two storage stations would remain.
 bool close_waiting_places(Layout& layout);
 
 }  // namespace fleetproof

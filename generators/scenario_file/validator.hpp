@@ -15,8 +15,8 @@ inline constexpr double kSmallestCoreShare = 0.9;
 Problems unusable_problems(const Scenario& scenario);
 
 // The problems that make a scenario a poor test: stations that cannot reach each other, starts closer than the safety
-// distance, transports that cannot be driven. Requires: the scenario has no unusable problems; `reachability` belongs
-// to its map.
+// distance, starts from which no lane leads on, transports that cannot be driven. Requires: the scenario has no
+// unusable problems; `reachability` belongs to its map.
 Problems world_problems(const Scenario& scenario, const Reachability& reachability);
 
 // The unusable problems. If there are none: the problems that make the scenario a poor test.

@@ -25,7 +25,8 @@ struct JsonValue {
   const JsonValue* find(std::string_view key) const;
 };
 
-// Throws InputError with line and column if `text` is not JSON, repeats a key in an object, or has more than 32 levels.
+// Throws InputError with the line if `text` is not JSON, repeats a key in an object, has more than 32 levels, or has an
+// object with more than 1000 keys.
 JsonValue parse_json(std::string_view text, std::string_view source);
 
 // Reads one value of a tree. Its errors contain file and line, JSON pointer, value and remedy.

@@ -52,7 +52,7 @@ class AttemptLedger {
 // "attempts.jsonl" beside the results file.
 std::string default_ledger(const std::string& archive_path);
 
-// What a results file holds of its attempt: the digests `software`, `worlds` and plan, the seed and the numbers.
+// What a results file holds of its attempt: its name, the digests `software`, `worlds` and plan, and the seed.
 Attempt attempt_of(const CampaignRecord& campaign);
 
 }  // namespace fleetproof

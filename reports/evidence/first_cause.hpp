@@ -52,7 +52,7 @@ SimTime surely_began(const Incident& incident);
 // Whether an end point of this archive may be judged on the incident (a deadlock, a wrong load, ...).
 bool is_judged(IncidentKind kind);
 
-// "1.20 s after a restart of AGV 3"; empty if there is no fault to name.
+// "1.20 s after the restart of AGV 3 began"; empty if there is no fault to name.
 std::string fault_text(const FirstCause& cause, std::uint32_t agv_count);
 
 }  // namespace fleetproof

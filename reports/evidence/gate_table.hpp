@@ -11,9 +11,9 @@ namespace fleetproof {
 
 // The decisions of a gate of the method any-time, as whole numbers: release_gate.hpp says when it passes,
 // refutation.hpp when it is refuted. `cells` of the gate: if each is judged for itself (unit Run), they share the risk
-// of a wrong refutation. The table ends where more failures need 16 times the planned replicates, or after 256
-// failures; with more failures than that, a gate passes and is refuted in proportion to the last row. Empty for the
-// method Fixed.
+// of a wrong refutation. The table ends after 256 failures, or, from 16 failures on, where more need 16 times the
+// planned replicates (not of AgvHour); with more failures than that, a gate passes and is refuted in proportion to the
+// last row. Empty for the method Fixed.
 GateTable gate_table(const GateRecord& gate, std::size_t cells, std::uint64_t planned_replicates);
 
 // The smallest number of units that meets the limit after so many failures; none if there is no such number.

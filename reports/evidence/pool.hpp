@@ -30,7 +30,7 @@ struct Pool {
   std::uint64_t units = 0;       // AgvHour: at risk until a run failed or stayed unknown
   std::uint64_t most_units = 0;  // AgvHour: at risk until a run failed; otherwise as many as `units`
   std::uint64_t failing = 0, failing_or_unknown = 0;
-  std::uint64_t failing_runs = 0;  // over all runs read so far; of Throughput: as `failing`
+  std::uint64_t failing_runs = 0;  // over all runs read so far; of Throughput: worlds, as `failing`
 };
 
 // Counts a pool. Threads: one.

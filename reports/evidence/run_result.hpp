@@ -14,8 +14,8 @@ enum class RunResult : std::uint8_t { Passed, Failed, Unknown };
 // first contact: what stands behind a wreck is its consequence, and then the end point is unknown. If an agent crashed
 // or hung, or the run ended early for another reason, these end points are unknown, also if the incident came before. A
 // run in which AGVs came too close to fallen loads or obstacles only, which control software is never told of, is
-// unknown; so is a standstill while such a body lay on the floor (foreign_bodies.hpp). Requires: `end_point` is not
-// Throughput, which takes more than one run.
+// unknown; so is a lack of progress while such a body lay on the floor (foreign_bodies.hpp). Requires: `end_point` is
+// not Throughput, which takes more than one run.
 RunResult result_of(const Outcome& outcome, EndPoint end_point);
 
 // How long a run was at risk of failing an end point, in microseconds of one AGV: until its first event, else to its

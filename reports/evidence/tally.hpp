@@ -14,10 +14,10 @@ namespace fleetproof {
 // Counts over the runs of one cell, or of several cells.
 struct Tally {
   std::uint64_t runs = 0;
-  std::uint64_t violating_runs = 0;  // runs that broke the safety distance or had a contact
+  std::uint64_t violating_runs = 0;  // runs that failed the end point violation
   std::uint64_t contact_runs = 0, hazardous_contact_runs = 0, stuck_runs = 0, crash_runs = 0, hang_runs = 0,
                 indeterminate_runs = 0, engine_error_runs = 0;
-  std::uint64_t unknown_runs = 0;  // runs that ended early without a violation before
+  std::uint64_t unknown_runs = 0;  // runs in which that end point is unknown
   std::uint64_t transports_done = 0;
   std::uint64_t agv_us = 0;           // AGVs x simulated time
   std::uint64_t longest_ns = 0;       // of one run

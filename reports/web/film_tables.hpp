@@ -7,8 +7,8 @@
 
 namespace fleetproof::web {
 
-// The run as tables, for readers without scripts: violations, events and messages around the failure, who waits for
-// whom, faults, orders. A table without rows is left out.
+// The run as tables, for readers without scripts: violations, who waits for whom, faults, orders; the first 500 rows of
+// each. A table without rows is left out.
 std::vector<html::Element> table_parts(const Film& film);
 
 }  // namespace fleetproof::web

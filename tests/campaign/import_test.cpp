@@ -175,8 +175,8 @@ TEST_F(ImportTest, CampaignsNameWhatIsCutOffBeforeAllElse) {
         "[{ file = \"m.xml\", name = \"a\", core_only = true }, { file = \"m.xml\", core_only = true }]\n");
   const auto checked = run("check c.toml");
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
-  const std::string named = "warning: " + path("m.xml") +
-                            ": 1 stations cannot be reached from all others and are cut off: \"\u4ED3\u5E93\"\n";
+  const std::string named =
+      "warning: m.xml: 1 stations cannot be reached from all others and are cut off: \"\u4ED3\u5E93\"\n";
   EXPECT_THAT(checked.err, StartsWith(named + named)) << checked.err;
   EXPECT_THAT(checked.err, HasSubstr("more; fleetproof import shows all of one layout"));
 }

@@ -12,7 +12,7 @@
  *
  * Limits. In one activation an agent may make 10 000 controller calls, and ten million more of random and now_ns. Every
  * call counts, whatever it returns, and those in create() count with FP_EVENT_START. An agent that makes more is filed
- * as a hang. So is one that is called 10 000 times without time advancing, or in all more than 2 000 000 times plus
+ * as a hang. So is one that is called more than 10 000 times without time advancing, or in all 2 000 000 times plus
  * 10 000 for each second of the run. It is then suspended to the end of the run:
  * its calls return FP_SUSPENDED, it receives no event, and a restart does not bring it back. Its AGV completes the
  * actions that it has accepted.
@@ -34,7 +34,7 @@
  * turns on the spot, about its reference point, by the shorter way; half a turn may go either way. A difference of less
  * than 1e-7 rad is no turn. The footprint has its size with a load from the end of a pick to the end of a drop; the
  * load extends it by equal parts at both ends and both sides, so that centre_ahead_m stays. map.h says what arcs
- * promise. At the start, bodies without loads are at least safety_distance_m apart.
+ * promise. In drawn worlds, bodies without loads start at least safety_distance_m apart, to 1 um.
  */
 #ifndef FLEETPROOF_AGENT_H
 #define FLEETPROOF_AGENT_H

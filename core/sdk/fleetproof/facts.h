@@ -22,7 +22,7 @@ typedef struct fp_agv {
   double loaded_length_m, loaded_width_m;
   double speed_deviation;
   /* Since minor 2: the centre of the footprint, ahead of the reference point; the top speed of driving backward, if it
-   * is lower than speed_mps (0: it is not); and the number of its vehicle type, for permissions. */
+   * is lower than speed_mps (0, or more: it is not); and the number of its vehicle type, for permissions. */
   double centre_ahead_m;
   double reverse_speed_mps;
   uint32_t vehicle_type;
