@@ -378,10 +378,14 @@ TEST(LimitedUses, AreToldByName) {
   EXPECT_EQ(reachability_text(layout), "all 10 stations can be reached and left");
   layout.stations[8].heading = Vec2(0.0, 1.0);
   layout.stations[9].heading = Vec2(0.0, 1.0);
-  EXPECT_THAT(limited_uses(layout), ElementsAre(HasSubstr("source"), HasSubstr("sink"),
-                                                HasSubstr("neither begin nor end at some storage stations, by what the "
-                                                          "layout permits (turns, headings, loads): \"shelf\""),
-                                                HasSubstr("permits (turns, headings, loads): \"charger\"")));
+  EXPECT_THAT(limited_uses(layout),
+              ElementsAre(HasSubstr("source"), HasSubstr("sink"),
+                          HasSubstr("neither begin nor end at some storage stations, by what the "
+                                    "layout permits (turns, headings, loads): \"shelf\""),
+                          HasSubstr("AGVs without a load do not get to some stations for charging "
+                                    "or parking from everywhere, or not from there to "
+                                    "everywhere, by what the layout permits (turns, headings, "
+                                    "loads): \"charger\"")));
   for (Segment& segment : layout.segments) segment.permissions.clear();
   for (Station& station : layout.stations) station.heading.reset();
   EXPECT_TRUE(limited_uses(layout).empty());
