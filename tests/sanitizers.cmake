@@ -25,7 +25,7 @@ endif()
 
 add_executable(sanitized_tests EXCLUDE_FROM_ALL ${sanitized_sources})
 target_link_libraries(sanitized_tests
-  PRIVATE fleetproof_campaign fleetproof_evidence rapidcheck GTest::gtest_main GTest::gmock
+  PRIVATE fleetproof_campaign fleetproof_evidence exact_binomial rapidcheck GTest::gtest_main GTest::gmock
     nlohmann_json::nlohmann_json fmt::fmt SQLiteCpp SQLite::SQLite3 TBB::tbb)
 target_compile_definitions(sanitized_tests PRIVATE FLEETPROOF_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
   FLEETPROOF_PLUGIN="$<TARGET_FILE:fleetproof_agents_plugin>"
