@@ -6,8 +6,8 @@
 
 namespace fleetproof::test {
 
-// Whether `count` successes in `trials` independent trials of probability p differ from chance: the exact probability
-// of a result at least as extreme, on this side, is below half of the risk.
+// Whether chance explains `count` successes in `trials` independent trials of probability p: on neither side is the
+// exact probability of a result at least as extreme below half of the risk.
 testing::AssertionResult is_binomial(std::uint64_t count, std::uint64_t trials, double p, double risk = 1e-6);
 
 // Whether independent samples follow a law: at each probability, the number at or below its quantile is binomial.
