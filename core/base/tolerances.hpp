@@ -178,6 +178,10 @@ inline constexpr double kNurbsPoint_m = 1e-6;
 inline constexpr double kNurbsByCubics_m = 1e-6;
 inline constexpr double kNurbsByCubics_rad = 2e-6;
 
+// The arc of an imported polyline leaves the legs this far from the corner. For a right angle, that is its radius.
+// Larger: AGVs pass farther inside a corner than the plant draws it. Smaller: they turn nearly on the spot.
+inline constexpr double kCornerRounding_m = 0.5;
+
 // Two segments are the two directions of one track if their control points differ by less.
 // Larger: neighbouring tracks become one. Smaller: layouts that were rounded to a millimetre get every track twice.
 inline constexpr double kSameTrack_m = 1e-3;

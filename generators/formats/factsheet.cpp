@@ -63,6 +63,8 @@ class FactsheetReader {
       expect_an_object(*geometry);
       envelopes(*geometry);
     }
+    if (!has_envelope_)
+      warn(root_, "gives no envelope; the reference point is taken to be the middle of the body (centre_ahead_m 0)");
     if (!gives("length_m") || !gives("width_m"))
       size->refuse("gives no length and width, and there is no envelope; add them");
     if (const auto loads = root_.find(kLoads)) read_load_sets(*loads, vehicle_, warnings_);
@@ -97,6 +99,7 @@ class FactsheetReader {
   void envelopes(const JsonReader& geometry) {
     const auto list = geometry.find("envelopes2d");
     if (!list || list->items().empty()) return;
+    has_envelope_ = true;
     const auto all = list->items();
     if (all.size() > 1) warn(*list, fmt::format("the first of {} envelopes is read", all.size()));
     expect_an_object(all[0]);
@@ -207,6 +210,7 @@ class FactsheetReader {
   const JsonReader root_;
   std::vector<std::string>& warnings_;
   ForeignVehicle vehicle_;
+  bool has_envelope_ = false;
 };
 
 }  // namespace

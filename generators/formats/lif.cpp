@@ -21,11 +21,11 @@
 #include "generators/formats/lif_layouts.hpp"
 #include "generators/formats/lif_left_out.hpp"
 #include "generators/formats/lif_spots.hpp"
+#include "generators/formats/lif_trajectories.hpp"
 #include "generators/formats/lif_travel.hpp"
 #include "generators/formats/lif_tree.hpp"
 #include "generators/formats/lif_turns.hpp"
 #include "generators/formats/lif_types.hpp"
-#include "generators/formats/nurbs.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/map/antiparallel.hpp"
 #include "generators/map/layout_check.hpp"
@@ -89,19 +89,15 @@ class LifReader {
       if (!sentence.empty()) warn(layout, sentence);
     };
     tell(types_.sentence());
-    tell(types_.sentence_on_open());
+    for (const auto& sentence : types_.odd_rules()) tell(sentence);
     for (const auto& sentence : turns_.settle(layout_)) tell(sentence);
     if (told_.of_types > 0)
       tell(fmt::format("{} edges have a speed limit for each type of vehicle; the lowest is taken for all",
                        told_.of_types));
-    if (!told_.drawn_by_type.empty())
-      tell(
-          fmt::format("{} edges have another trajectory for some types of vehicles, or none ({}); the first counts for "
-                      "all",
-                      told_.drawn_by_type.size(), name_list(told_.drawn_by_type)));
     if (!told_.act.empty())
       tell(fmt::format("{} edges have actions to pick, drop or charge ({}); here their end nodes are for that",
                        told_.act.size(), name_list(told_.act)));
+    trajectories_.tell(warnings_);
     for (const auto& sentence : travel_.sentences()) tell(sentence);
     if (!told_.torn.empty())
       tell(fmt::format("{} nodes ask each type of vehicle for another heading ({}); here an AGV stands as it arrives",
@@ -195,7 +191,8 @@ class LifReader {
       edge.at("endNodeId").refuse("the edge leads from a node back to itself; put another node on its trajectory");
     types_.count(*permissions);
     segment.permissions = std::move(*permissions);
-    if (const auto trajectory = trajectory_in(types, segment.name)) bend(*trajectory, segment);
+    trajectories_.bend(types, layout_.stations[from->index()].position_m, layout_.stations[to->index()].position_m,
+                       segment);
     limit_speed(types, segment);
     segment.width_m = corridor_width_m(types);
     turns_.add(edge, segment.from, segment.to, travel_.add(types, straight_way(segment), segment));
@@ -235,70 +232,6 @@ class LifReader {
     const auto [lowest, highest] = std::ranges::minmax(limits_mps);
     if (std::isfinite(lowest)) segment.speed_limit_mps = lowest;
     told_.of_types += lowest < highest ? 1 : 0;
-  }
-
-  // The first of all rules.
-  std::optional<JsonReader> trajectory_in(const std::vector<JsonReader>& rules, const std::string& edge) {
-    std::optional<JsonReader> first;
-    std::set<bool> drawn;
-    bool differ = false;
-    for (const auto& rule : rules) {
-      const auto trajectory = rule.find("trajectory");
-      drawn.insert(trajectory.has_value());
-      if (first && trajectory) differ |= nurbs_of(*trajectory) != nurbs_of(*first);
-      if (!first) first = trajectory;
-    }
-    if (differ || drawn.size() > 1) told_.drawn_by_type.push_back(edge);
-    return first;
-  }
-
-  static Nurbs nurbs_of(const JsonReader& trajectory) {
-    Nurbs nurbs;
-    if (const auto degree = trajectory.find("degree")) {
-      const double value = degree->number();
-      if (!(value >= 1.0 && value <= 9.0 && value == std::floor(value)))
-        degree->refuse("expected a degree of 1 to 9, a whole number");
-      nurbs.degree = static_cast<std::size_t>(value);
-    }
-    for (const auto& knot : trajectory.at("knotVector").items()) nurbs.knots.push_back(knot.number());
-    for (const auto& point : trajectory.at("controlPoints").items()) {
-      nurbs.points_m.emplace_back(point.at("x").number(), point.at("y").number());
-      nurbs.weights.push_back(1.0);
-      point.read("weight", nurbs.weights.back());
-    }
-    if (const auto fault = fault_of(nurbs); !fault.empty()) trajectory.refuse(fault);
-    return nurbs;
-  }
-
-  void bend(const JsonReader& trajectory, Segment& segment) {
-    auto pieces = cubic_pieces(nurbs_of(trajectory));
-    const Vec2 from = layout_.stations[segment.from.index()].position_m,
-               to = layout_.stations[segment.to.index()].position_m;
-    const auto name = in_quotes(segment.name);
-    const auto miss = [&](const Vec2& begin, const Vec2& end) {
-      return std::max((begin - from).norm(), (end - to).norm());
-    };
-    if (miss(pieces.end_m, pieces.begin_m) < std::min(kOnTheNode_m, miss(pieces.begin_m, pieces.end_m))) {
-      std::swap(pieces.begin_m, pieces.end_m);
-      std::ranges::reverse(pieces.control_points_m);
-      warn(trajectory,
-           fmt::format("the trajectory of edge {} runs from its end to its start; it is turned round", name));
-    }
-    if (!pieces.exact)
-      warn(trajectory,
-           fmt::format("the trajectory of edge {} is replaced by a smooth curve through points of it", name));
-    if (const double off_m = miss(pieces.begin_m, pieces.end_m); off_m > kOnTheNode_m) {
-      warn(trajectory, fmt::format("the trajectory of edge {} ends {:.3f} m beside its node; it is drawn to the node",
-                                   name, off_m));
-    }
-    segment.control_points_m = std::move(pieces.control_points_m);
-    const double kink = largest_kink_rad(segment);
-    if (kink > kKink_rad && kink <= kSmoothedKink_rad) {
-      smooth_joints(segment);
-      warn(trajectory,
-           fmt::format("two curves of edge {} meet at an angle of {:.3f} rad; their control points were aligned", name,
-                       kink));
-    }
   }
 
   void note_station(const JsonReader& station) {
@@ -346,6 +279,10 @@ class LifReader {
     const auto digits = pointer.substr(10);
     std::size_t index = 0;
     std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    if (of_segment && layout_.segments[index].from == layout_.segments[index].to)
+      edges_[index].at("edgeId").refuse(
+          "its two nodes are one station here, because edges of no length join them; put another node on its "
+          "trajectory");
     (of_segment ? edges_ : nodes_)[index].at(of_segment ? "edgeId" : "nodeId").refuse(problems[0].sentence);
   }
 
@@ -364,13 +301,14 @@ class LifReader {
     std::set<std::size_t> by_actions;        // stations of which actions say what they are for
   } purposes_;
   LifTypes types_{{}, {}};
+  LifTrajectories trajectories_;
   LifTravel travel_;
   LifTurns turns_;
   LifSpots spots_;
   struct {
-    std::size_t of_types = 0;                     // edges
-    std::vector<std::string> torn;                // names of nodes
-    std::vector<std::string> drawn_by_type, act;  // names of edges
+    std::size_t of_types = 0;       // edges
+    std::vector<std::string> torn;  // names of nodes
+    std::vector<std::string> act;   // names of edges
   } told_;
 };
 

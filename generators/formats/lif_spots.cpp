@@ -22,24 +22,6 @@ std::string label_of(const Layout& layout, const std::vector<std::size_t>& nodes
   return others.empty() ? first : first + " with " + name_list(others, others.size());
 }
 
-// For which they ask, each once.
-std::vector<Vec2> headings_of(const Layout& layout, const std::vector<std::size_t>& nodes) {
-  std::vector<Vec2> headings;
-  for (const auto node : nodes) {
-    const auto& heading = layout.stations[node].heading;
-    if (heading && std::ranges::find(headings, *heading) == headings.end()) headings.push_back(*heading);
-  }
-  return headings;
-}
-
-// Makes the first station stand for all. `turns`: an AGV may turn on an edge between them.
-void unite(Layout& layout, const std::vector<std::size_t>& nodes, bool turns) {
-  const auto headings = headings_of(layout, nodes);
-  Station& first = layout.stations[nodes[0]];
-  first.turning = turns || std::ranges::any_of(nodes, [&](auto node) { return layout.stations[node].turning; });
-  first.heading = headings.size() == 1 ? std::optional(headings[0]) : std::nullopt;
-}
-
 }  // namespace
 
 bool LifSpots::stays(const JsonReader& edge, const Vec2& from_m, const Vec2& to_m) {
@@ -73,6 +55,7 @@ void LifSpots::add(const JsonReader& edge, StationId from, StationId to, bool fo
 void LifSpots::share_purposes(Layout& layout) {
   const auto all = spots();
   for (const auto& [first, spot] : all) {
+    note_tasks(layout, spot);
     auto& purposes = layout.stations[first].purposes;
     for (const auto node : spot.nodes) purposes = purposes | layout.stations[node].purposes;
     for (const auto node : spot.nodes) layout.stations[node].purposes = purposes;
@@ -84,7 +67,7 @@ void LifSpots::join(Layout& layout, std::vector<JsonReader>& nodes, std::vector<
   if (all.empty()) return;
   share_purposes(layout);
   tell(layout, all, warnings);
-  for (const auto& [first, spot] : all) unite(layout, spot.nodes, spot.turns);
+  for (const auto& [first, spot] : all) unite(layout, spot);
   std::vector<Station> stations;
   std::vector<JsonReader> kept;
   std::vector<StationId> now(layout.stations.size());
@@ -103,6 +86,35 @@ void LifSpots::join(Layout& layout, std::vector<JsonReader>& nodes, std::vector<
   }
   layout.stations = std::move(stations);
   nodes = std::move(kept);
+}
+
+// Purposes that are shared say nothing of one node.
+void LifSpots::note_tasks(const Layout& layout, const Spot& spot) {
+  if (std::ranges::any_of(spot.nodes, [&](auto node) { return with_tasks_.contains(node); })) return;
+  for (const auto node : spot.nodes) {
+    if (layout.stations[node].purposes != Purposes(Purpose::Routing)) with_tasks_.insert(node);
+  }
+}
+
+std::optional<Vec2> LifSpots::heading_of(const Layout& layout, const Spot& spot) const {
+  const bool has_tasks = std::ranges::any_of(spot.nodes, [&](auto node) { return with_tasks_.contains(node); });
+  std::optional<Vec2> heading;
+  for (const auto node : spot.nodes) {
+    const auto& asked = layout.stations[node].heading;
+    if (!asked || (has_tasks && !with_tasks_.contains(node))) continue;
+    if (heading && *heading != *asked) return std::nullopt;
+    heading = asked;
+  }
+  return heading;
+}
+
+// Makes the first station stand for all.
+void LifSpots::unite(Layout& layout, const Spot& spot) const {
+  const auto heading = heading_of(layout, spot);
+  Station& first = layout.stations[spot.nodes[0]];
+  first.turning =
+      spot.turns || std::ranges::any_of(spot.nodes, [&](auto node) { return layout.stations[node].turning; });
+  first.heading = heading;
 }
 
 // Halves the way to the first for all on it, so that long rows of nodes stay quick.
@@ -156,8 +168,15 @@ void LifSpots::tell(const Layout& layout, const std::map<std::size_t, Spot>& spo
       [&](const Spot& spot) {
         return turn(spot) && turning_nodes(spot) < static_cast<std::ptrdiff_t>(spot.nodes.size());
       });
-  say("the nodes of {0} stations ask for several headings ({1}); here an AGV stands as it arrives",
-      [&](const Spot& spot) { return headings_of(layout, spot.nodes).size() > 1; });
+  say("the nodes of {0} stations do not ask for one heading ({1}); here the one for which those with tasks ask holds "
+      "for all tasks there; if they ask for several, an AGV stands as it arrives",
+      [&](const Spot& spot) {
+        const auto taken = heading_of(layout, spot);
+        return std::ranges::any_of(spot.nodes, [&](std::size_t node) {
+          const auto& asked = layout.stations[node].heading;
+          return asked ? asked != taken : taken && with_tasks_.contains(node);
+        });
+      });
   say("edges of no length have a speed limit at {0} stations ({1}); it is left out",
       [](const Spot& spot) { return spot.limited; });
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,7 +21,7 @@ class LifSpots {
   // An edge on which an AGV stays. Stations are as yet those of the nodes. `for_all`: whether every AGV may use it.
   void add(const JsonReader& edge, StationId from, StationId to, bool for_all);
 
-  // Gives the nodes of each spot the purposes of all of them.
+  // Gives the nodes of each spot the purposes of all of them. Notes first which of them had any.
   void share_purposes(Layout& layout);
 
   // Makes one station of the nodes of each spot, and takes the others out of `nodes`, too, which is by station. Adds
@@ -35,6 +37,10 @@ class LifSpots {
     std::vector<std::size_t> nodes;  // ascending
     bool turns = false, for_all = true, limited = false;
   };
+  void note_tasks(const Layout& layout, const Spot& spot);
+  // For which the nodes with tasks ask, or all nodes if none has tasks. None: they ask for none, or for several.
+  std::optional<Vec2> heading_of(const Layout& layout, const Spot& spot) const;
+  void unite(Layout& layout, const Spot& spot) const;
   std::size_t first_of(std::size_t node);
   std::map<std::size_t, Spot> spots();
   // Each spot has one station; `spots` is by that station.
@@ -42,7 +48,8 @@ class LifSpots {
 
   std::map<std::size_t, std::size_t> earlier_;  // by node: an earlier one of the same spot; the first: itself
   std::vector<Turn> turns_;
-  std::string place_;  // of the first edge
+  std::set<std::size_t> with_tasks_;  // nodes
+  std::string place_;                 // of the first edge
 };
 
 }  // namespace fleetproof

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 #include "core/base/catalogue.hpp"
+#include "core/base/outside_text.hpp"
+#include "generators/map/layout_check.hpp"
 #include "generators/text/name_list.hpp"
 
 namespace fleetproof {
@@ -89,19 +92,28 @@ std::vector<std::string> types_of(const JsonReader& rule) {
 }
 
 LifTypes::LifTypes(const std::vector<JsonReader>& nodes, const std::vector<JsonReader>& edges) {
-  for (const auto& node : nodes) note(node);
-  for (const auto& edge : edges) note(edge);
+  for (const auto& node : nodes) note(node, "nodeId");
+  for (const auto& edge : edges) note(edge, "edgeId");
 }
 
-void LifTypes::note(const JsonReader& element) {
+void LifTypes::note(const JsonReader& element, const char* id) {
   const auto rules = rules_by_type(element);
   if (rules.empty()) ++open_;
   if (rules.empty() && has_list(element)) ++empty_;
+  std::set<std::string> here;
+  bool twice = false, nameless = false;
   for (const auto& rule : rules) {
     for (const auto& name : types_of(rule)) {
-      if (!name.empty() && std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
+      twice |= !here.insert(name).second;
+      nameless |= name.empty();
+      if (name.empty() || std::ranges::find(names_, name) != names_.end()) continue;
+      if (const char* fault = fault_of_name(name))
+        rule.refuse(fmt::format("the type of vehicle {}: {}", in_quotes(name), fault));
+      names_.push_back(name);
     }
   }
+  if (twice) twice_.push_back(element.at(id).text());
+  if (nameless) nameless_.push_back(element.at(id).text());
 }
 
 std::optional<std::vector<Permission>> LifTypes::permissions(const JsonReader& edge, const JsonReader& from,
@@ -125,10 +137,22 @@ void LifTypes::count(const std::vector<Permission>& permissions) {
   restricted_ += std::ranges::any_of(permissions, is_named) ? 1 : 0;
 }
 
-std::string LifTypes::sentence_on_open() const {
-  const std::size_t open = names_.empty() ? empty_ : open_;
-  if (open == 0) return "";
-  return fmt::format("{} nodes and edges have no rule for any type of vehicle; here all types may use them", open);
+std::vector<std::string> LifTypes::odd_rules() const {
+  std::vector<std::string> sentences;
+  if (const std::size_t open = names_.empty() ? empty_ : open_; open > 0)
+    sentences.push_back(
+        fmt::format("{} nodes and edges have no rule for any type of vehicle; here all types may use them", open));
+  if (!twice_.empty())
+    sentences.push_back(fmt::format(
+        "{} nodes and edges have two rules for one type of vehicle ({}); here it may drive with the loads and "
+        "in the directions of both",
+        twice_.size(), name_list(twice_)));
+  if (!nameless_.empty() && !names_.empty())
+    sentences.push_back(
+        fmt::format("{} nodes and edges have a rule that names no type of vehicle ({}); here it holds "
+                    "for every type",
+                    nameless_.size(), name_list(nameless_)));
+  return sentences;
 }
 
 std::string LifTypes::sentence() const {

@@ -28,6 +28,7 @@ std::vector<std::string> types_of(const JsonReader& rule);
 // nodes, each of which may restrict its loads; a node or edge without any rule is for every type.
 class LifTypes {
  public:
+  // Throws InputError if the name of a type is no valid name.
   LifTypes(const std::vector<JsonReader>& nodes, const std::vector<JsonReader>& edges);
 
   // As a segment has it: empty if every type that the layout names may drive it, with a load and without one. None: no
@@ -39,15 +40,17 @@ class LifTypes {
 
   // What happens to the names of types, as a sentence; empty if the layout names none.
   std::string sentence() const;
-  // The same about nodes and edges without any rule, where others have rules.
-  std::string sentence_on_open() const;
+  // The same about nodes and edges without any rule, where others have rules; with two rules for one type; and with a
+  // rule that names no type.
+  std::vector<std::string> odd_rules() const;
 
  private:
-  void note(const JsonReader& element);
+  void note(const JsonReader& element, const char* id);
 
   std::vector<std::string> names_;  // in the order of the file
   std::size_t edges_ = 0, restricted_ = 0;
-  std::size_t open_ = 0, empty_ = 0;  // nodes and edges without any rule; with an empty list of rules
+  std::size_t open_ = 0, empty_ = 0;           // nodes and edges without any rule; with an empty list of rules
+  std::vector<std::string> twice_, nameless_;  // nodes and edges with two rules for one type; with one for none
 };
 
 }  // namespace fleetproof

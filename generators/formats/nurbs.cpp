@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/tolerances.hpp"
+#include "generators/formats/rounded_way.hpp"
 
 namespace fleetproof {
 namespace {
@@ -36,21 +38,6 @@ std::vector<Vec2> raised_from_quadratic(const std::vector<Vec2>& p) {
     cubic.push_back(p[i + 2]);
   }
   return cubic;
-}
-
-bool is_straight(const std::vector<Vec2>& p) {
-  const Vec2 way = p.back() - p[0];
-  const double length = way.norm();
-  if (length < kNurbsPoint_m) return false;
-  double reached = 0.0;
-  for (const auto& point : p) {
-    const Vec2 to = point - p[0];
-    const double along = to.dot(way) / length;
-    if (std::abs(to.x() * way.y() - to.y() * way.x()) > kNurbsPoint_m * length || along < reached - kNurbsPoint_m)
-      return false;
-    reached = along;
-  }
-  return true;
 }
 
 // A place on a curve, and its change with the parameter.
@@ -126,15 +113,14 @@ void add_pieces(const Nurbs& n, std::size_t span, double low, double high, int h
   add_pieces(n, span, middle, high, halves_left - 1, pieces);
 }
 
-// Where two pieces meet, they take the direction between their own. Rounding makes no kink, and corners are rounded.
+// Where two pieces meet, they take the direction between their own, so that rounding makes no kink. Corners remain.
 void smooth_joints(std::vector<CubicPiece>& pieces) {
   for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
     const Vec2 joint = 0.5 * (pieces[i].end_m + pieces[i + 1].begin_m);
     const Vec2 in = joint - pieces[i].second_m, out = pieces[i + 1].first_m - joint;
-    Vec2 along = in.stableNormalized() + out.stableNormalized();
-    if (!(along.norm() > 0.5)) along = pieces[i + 1].end_m - pieces[i].begin_m;
-    along.stableNormalize();
     pieces[i].end_m = pieces[i + 1].begin_m = joint;
+    const Vec2 along = (in.stableNormalized() + out.stableNormalized()).stableNormalized();
+    if ((in.stableNormalized() - out.stableNormalized()).norm() > kSmoothedKink_rad) continue;
     pieces[i].second_m = joint - in.norm() * along;
     pieces[i + 1].first_m = joint + out.norm() * along;
   }
@@ -148,38 +134,6 @@ std::vector<CubicPiece> pieces_along(const Nurbs& n) {
   }
   smooth_joints(pieces);
   return pieces;
-}
-
-std::vector<Vec2> corners_of(const Nurbs& n) {
-  std::vector<Vec2> points;
-  for (const Vec2& point : n.points_m) {
-    if (points.empty() || (point - points.back()).norm() > kNurbsPoint_m) points.push_back(point);
-  }
-  return points;
-}
-
-// Cubic pieces through points. At each inner point, the curve is parallel to the line between the neighbours of the
-// point. At the two outermost points, it has the direction of a circle.
-std::vector<Vec2> smooth_through(const std::vector<Vec2>& p) {
-  std::vector<Vec2> tangents(p.size());
-  for (std::size_t i = 1; i + 1 < p.size(); ++i) {
-    const Vec2 across = p[i + 1] - p[i - 1];
-    tangents[i] = across.norm() > kNurbsPoint_m ? across.normalized() : (p[i + 1] - p[i]).normalized();
-  }
-  const auto mirrored = [](const Vec2& tangent, const Vec2& chord) {
-    const Vec2 c = chord.normalized();
-    return Vec2(c * (2.0 * c.dot(tangent)) - tangent);
-  };
-  tangents.front() = mirrored(tangents[1], p[1] - p[0]);
-  tangents.back() = mirrored(tangents[p.size() - 2], p.back() - p[p.size() - 2]);
-  std::vector<Vec2> control_points;
-  for (std::size_t i = 0; i + 1 < p.size(); ++i) {
-    const double third = (p[i + 1] - p[i]).norm() / 3.0;
-    if (i > 0) control_points.push_back(p[i]);
-    control_points.push_back(p[i] + tangents[i] * third);
-    control_points.push_back(p[i + 1] - tangents[i + 1] * third);
-  }
-  return control_points;
 }
 
 }  // namespace
@@ -204,28 +158,21 @@ std::string fault_of(const Nurbs& n) {
 }
 
 CubicPieces cubic_pieces(const Nurbs& n) {
-  CubicPieces pieces;
-  if (n.degree <= 3 && in_bezier_form(n) && equal_weights(n)) {
-    pieces.begin_m = n.points_m.front();
-    pieces.end_m = n.points_m.back();
-    if (n.degree == 1 && (n.points_m.size() == 2 || is_straight(n.points_m))) return pieces;
-    if (n.degree > 1) {
-      const auto cubic = n.degree == 2 ? raised_from_quadratic(n.points_m) : n.points_m;
-      pieces.control_points_m.assign(cubic.begin() + 1, cubic.end() - 1);
-      return pieces;
-    }
-  }
-  pieces.exact = false;
   if (n.degree == 1) {
-    const auto points = corners_of(n);
-    pieces.begin_m = points.front();
-    pieces.end_m = points.back();
-    if (points.size() > 2) pieces.control_points_m = smooth_through(points);
+    auto way = round_corners(n.points_m);
+    return {n.points_m.front(), n.points_m.back(), std::move(way.control_points_m), way.off_m};
+  }
+  CubicPieces pieces{n.points_m.front(), n.points_m.back(), {}, 0.0};
+  if (n.degree <= 3 && in_bezier_form(n) && equal_weights(n)) {
+    const auto cubic = n.degree == 2 ? raised_from_quadratic(n.points_m) : n.points_m;
+    pieces.control_points_m.assign(cubic.begin() + 1, cubic.end() - 1);
     return pieces;
   }
   const auto cubics = pieces_along(n);
-  pieces.begin_m = cubics.empty() ? n.points_m.front() : cubics.front().begin_m;
-  pieces.end_m = cubics.empty() ? n.points_m.back() : cubics.back().end_m;
+  pieces.off_m = kNurbsByCubics_m;
+  if (cubics.empty()) return pieces;
+  pieces.begin_m = cubics.front().begin_m;
+  pieces.end_m = cubics.back().end_m;
   for (std::size_t i = 0; i < cubics.size(); ++i) {
     if (i > 0) pieces.control_points_m.push_back(cubics[i].begin_m);
     pieces.control_points_m.push_back(cubics[i].first_m);

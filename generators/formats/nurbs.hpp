@@ -24,12 +24,13 @@ std::string fault_of(const Nurbs& nurbs);
 struct CubicPieces {
   Vec2 begin_m = Vec2::Zero(), end_m = Vec2::Zero();
   std::vector<Vec2> control_points_m;  // none: straight; else 2, 5, 8, ...
-  bool exact = true;                   // false: pieces near the given curve, or corners that are rounded
+  double off_m = 0.0;                  // how far they are from the given curve at most; 0: they are the curve
 };
 
-// Exact for clamped curves with equal weights in Bezier form, up to degree 3, and for polylines without corners. A
-// polyline with corners becomes a smooth curve through them. Pieces of any other curve are within kNurbsByCubics_m and
-// kNurbsByCubics_rad of it, except beside corners, which are rounded. Requires: `nurbs` is valid.
+// Exact for clamped curves with equal weights in Bezier form, up to degree 3, and for polylines without corners. The
+// corners of other polylines are rounded (round_corners). Pieces of any other curve are within kNurbsByCubics_m and
+// kNurbsByCubics_rad of it. Their corners remain, unless they are less than kSmoothedKink_rad. Requires: `nurbs` is
+// valid.
 CubicPieces cubic_pieces(const Nurbs& nurbs);
 
 }  // namespace fleetproof

@@ -19,6 +19,7 @@
 #include "generators/formats/opentcs_left_out.hpp"
 #include "generators/formats/opentcs_positions.hpp"
 #include "generators/formats/opentcs_purposes.hpp"
+#include "generators/formats/opentcs_shapes.hpp"
 #include "generators/formats/opentcs_speeds.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/name_list.hpp"
@@ -186,38 +187,19 @@ class ModelReader {
       return warn(path, fmt::format("locked path {} is left out", in_quotes(segment.name)));
     if (segment.from == segment.to)
       xml_.refuse(path, fmt::format("path {} leads from a point to itself; leave it out", in_quotes(segment.name)));
-    bend(path, segment);
+    shapes_.bend(drawing_.paths.at(segment.name), layout_, segment);
     if (!speeds_.say_travel(path, segment))
       return warn(path, fmt::format("path {} is left out: both of its velocities are 0", in_quotes(segment.name)));
     layout_.segments.push_back(std::move(segment));
     paths_.push_back(path);
   }
 
-  void bend(const pugi::xml_node& path, Segment& segment) {
-    const auto& drawn = drawing_.paths.at(segment.name);
-    if (drawn.connection == "BEZIER" || drawn.connection == "BEZIER_3") {
-      segment.control_points_m = drawn.control_points_m;
-      return smooth(path, segment);
-    }
-    const bool unused = drawn.connection == "DIRECT" && !drawn.control_points_m.empty();
-    if (unused || drawn.connection != "DIRECT")
-      straightened_[drawn.connection + (unused ? " with control points" : "")].push_back(segment.name);
-  }
-
-  void smooth(const pugi::xml_node& path, Segment& segment) {
-    const double kink = largest_kink_rad(segment);
-    if (kink <= kKink_rad || kink > kSmoothedKink_rad) return;
-    smooth_joints(segment);
-    warn(path,
-         fmt::format("the two curves of path {} meet at an angle of {:.3f} rad; their control points were aligned",
-                     in_quotes(segment.name), kink));
-  }
-
   void note_shapes(const pugi::xml_node& model) {
-    for (const auto& [connection, names] : straightened_)
-      warn(model, fmt::format("{} paths are drawn as {}; here they are straight ({})", names.size(), connection,
-                              name_list(names)));
-    for (const auto& sentence : {settle_positions(layout_, drawing_.points_m), detours_of(layout_)}) {
+    const auto moved = settle_positions(layout_, drawing_.points_m);
+    shapes_.redraw(layout_);
+    auto sentences = shapes_.sentences(layout_);
+    sentences.insert(sentences.end(), {moved, detours_of(layout_)});
+    for (const auto& sentence : sentences) {
       if (!sentence.empty()) warn(model, sentence);
     }
   }
@@ -373,6 +355,7 @@ class ModelReader {
   std::vector<std::string>& warnings_;
   const ReadChoice& choice_;
   OpenTcsDrawing drawing_;
+  OpenTcsShapes shapes_;
   OpenTcsSpeeds speeds_{xml_};
   Layout layout_;
   std::vector<pugi::xml_node> paths_;                   // by segment, as long as no two of them are merged
@@ -382,7 +365,6 @@ class ModelReader {
   std::set<std::string_view> members_;                  // names of all that a block may hold
   std::map<std::string, StationId> stations_;
   std::map<std::string, pugi::xml_node> location_types_;
-  std::map<std::string, std::vector<std::string>> straightened_;  // names of paths, by their connection
 };
 
 }  // namespace

@@ -40,6 +40,7 @@ class LevelReader {
     yaml_.refuse_second_keys(root_);
     const auto level = choose_level();
     yaml_.refuse_second_keys(level);
+    if (!level["lanes"].IsDefined()) refuse_choice(level);
     const auto vertices = yaml_.list(level, "vertices", "the level"), lanes = yaml_.list(level, "lanes", "the level");
     for (const auto vertex : vertices) vertices_.push_back(vertex);
     if (vertices_.empty()) yaml_.refuse(vertices, "the level is empty: it has no vertex");
@@ -77,14 +78,14 @@ class LevelReader {
     warnings_.push_back(fmt::format("{}: {}", yaml_.place(node), sentence));
   }
 
-  [[noreturn]] void refuse_choice(const YAML::Node& lanes) const {
+  [[noreturn]] void refuse_choice(const YAML::Node& at) const {
     std::vector<std::string> levels;
     for (const auto entry : root_["levels"]) levels.push_back(entry.first.Scalar());
     yaml_.refuse(
-        lanes,
+        at,
         told_.graphs.empty()
-            ? fmt::format("level {} has no lane; levels of the file: {}", in_quotes(read_.name),
-                          name_list(levels, kListed))
+            ? fmt::format("level {} has no lane; add some, or choose another level; levels of the file: {}",
+                          in_quotes(read_.name), name_list(levels, kListed))
             : fmt::format("no lane of level {} belongs to graph {}; graphs of its lanes: {}; levels of the file: {}",
                           in_quotes(read_.name), choice_.graph_idx, fmt::join(told_.graphs, ", "),
                           name_list(levels, kListed)));

@@ -36,6 +36,8 @@ void join(Segment& there, const Segment& back) {
   there.blocks = std::move(blocks);
 }
 
+std::set<std::uint32_t> blocks_of(const Segment& segment) { return {segment.blocks.begin(), segment.blocks.end()}; }
+
 // One-way segments there and back on one track, which the same AGVs may drive.
 bool are_twins(const Segment& there, const Segment& back) {
   return there.from == back.to && there.to == back.from && !there.bidirectional && !back.bidirectional &&
@@ -59,8 +61,8 @@ std::vector<std::string> names_on_a_track_again(const Layout& layout) {
 
 }  // namespace
 
-std::vector<std::string> merge_antiparallel(Layout& layout) {
-  std::vector<std::string> names;
+MergedTwins merge_antiparallel(Layout& layout) {
+  MergedTwins merged;
   std::vector<Segment> kept;
   std::multimap<std::pair<std::size_t, std::size_t>, std::size_t> waiting;  // by (from, to): one-way segments in `kept`
   for (auto& segment : layout.segments) {
@@ -69,8 +71,10 @@ std::vector<std::string> merge_antiparallel(Layout& layout) {
     const auto twin =
         std::find_if(begin, end, [&](const auto& entry) { return are_twins(kept[entry.second], segment); });
     if (twin != end) {
-      join(kept[twin->second], segment);
-      names.push_back(kept[twin->second].name);
+      Segment& there = kept[twin->second];
+      merged.names.push_back(there.name);
+      if (blocks_of(there) != blocks_of(segment)) merged.in_other_blocks.push_back(there.name);
+      join(there, segment);
       waiting.erase(twin);
       continue;
     }
@@ -78,7 +82,7 @@ std::vector<std::string> merge_antiparallel(Layout& layout) {
     kept.push_back(std::move(segment));
   }
   layout.segments = std::move(kept);
-  return names;
+  return merged;
 }
 
 void merge_pairs(Layout& layout, const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
@@ -98,11 +102,16 @@ void merge_pairs(Layout& layout, const std::vector<std::pair<std::size_t, std::s
 
 void settle_twins(Layout& layout, TwinPaths twins, std::string_view source, std::vector<std::string>& warnings) {
   if (twins == TwinPaths::Keep) return;
-  if (const auto names = merge_antiparallel(layout); !names.empty())
+  const auto [merged, in_other_blocks] = merge_antiparallel(layout);
+  if (!merged.empty())
     warnings.push_back(
         fmt::format("{}: {} pairs of one-way segments there and back on one track became two-way segments "
                     "({})",
-                    source, names.size(), name_list(names)));
+                    source, merged.size(), name_list(merged)));
+  if (!in_other_blocks.empty())
+    warnings.push_back(
+        fmt::format("{}: {} of these pairs had blocks of one direction alone ({}); here both directions belong to them",
+                    source, in_other_blocks.size(), name_list(in_other_blocks)));
   if (const auto names = names_on_a_track_again(layout); !names.empty())
     warnings.push_back(fmt::format(
         "{}: {} segments lie on the track of another one and stay beside it, because both lead the same way, one is "

@@ -13,10 +13,16 @@ namespace fleetproof {
 // Two one-way segments there and back on one track stay two segments, or become one bidirectional segment.
 enum class TwinPaths : std::uint8_t { Keep, Merge };
 
+// Names of segments.
+struct MergedTwins {
+  std::vector<std::string> names;
+  std::vector<std::string> in_other_blocks;  // those of which one direction was in a block, and the other was not
+};
+
 // Merges two one-way segments that lead there and back between two stations on one track (control points mirrored, to
 // within 1 mm) with the same permissions. They become one bidirectional segment: the first in the list, which keeps its
-// name. Returns the names of these segments.
-std::vector<std::string> merge_antiparallel(Layout& layout);
+// name and gets the blocks of both.
+MergedTwins merge_antiparallel(Layout& layout);
 
 // The same of these pairs of segments alone, there and back, by index. A pair that is no such twin stays as it is.
 void merge_pairs(Layout& layout, const std::vector<std::pair<std::size_t, std::size_t>>& pairs);

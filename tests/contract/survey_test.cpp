@@ -23,6 +23,8 @@ TEST_F(Survey, FindsWhatIsImported) {
   // As the survey counts them; today.xml was counted by hand, too. Stations, drives, metres, for storage, charging,
   // parking; drives with limits, backward, with permissions, in blocks; stations with headings, without turning.
   for (const char* row : {"today.xml | 5 | 8 | 57.18 | 2 | 1 | 1 | 7 | 3 | 0 | 5 | 1 | 0 |",
+                          "polylines.xml | 2 | 2 | 39.57 | 0 | 0 | 0 | 2 | 0 | 0 | 0 | 0 | 0 |",
+                          "polylines.lif.json | 2 | 2 | 39.57 | 2 | 0 | 0 | 0 | 0 | 0 | 0 | 1 | 0 |",
                           "rules.lif.json | 5 | 10 | 55.35 | 3 | 1 | 0 | 1 | 2 | 3 | 0 | 1 | 1 |",
                           "turn_on_a_spot.lif.json | 2 | 2 | 10.00 | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 0 |",
                           "turntable.lif.json | 5 | 7 | 48.00 | 2 | 1 | 0 | 0 | 2 | 5 | 0 | 1 | 1 |",

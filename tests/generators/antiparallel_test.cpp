@@ -26,7 +26,7 @@ TEST(Antiparallel, EachWayKeepsItsSpeedLimit) {
   layout.segments[0].speed_limit_mps = 1.5;
   layout.segments[1].speed_limit_mps = 0.5;
   layout.segments[1].width_m = 2.0;
-  ASSERT_EQ(merge_antiparallel(layout).size(), 1U);
+  ASSERT_EQ(merge_antiparallel(layout).names.size(), 1U);
   ASSERT_EQ(layout.segments.size(), 1U);
   EXPECT_TRUE(layout.segments[0].bidirectional);
   EXPECT_EQ(layout.segments[0].name, "there");
@@ -39,8 +39,25 @@ TEST(Antiparallel, TheSegmentBelongsToTheBlocksOfBoth) {
   Layout layout = twins();
   layout.segments[0].blocks = {0, 2};
   layout.segments[1].blocks = {1, 2};
-  ASSERT_EQ(merge_antiparallel(layout).size(), 1U);
+  ASSERT_EQ(merge_antiparallel(layout).names.size(), 1U);
   EXPECT_EQ(layout.segments[0].blocks, (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
+TEST(Antiparallel, ABlockOfOneDirectionAloneIsTold) {
+  const auto told = [](const std::vector<std::uint32_t>& there, const std::vector<std::uint32_t>& back) {
+    Layout layout = twins();
+    layout.segments[0].blocks = there;
+    layout.segments[1].blocks = back;
+    std::vector<std::string> sentences;
+    settle_twins(layout, TwinPaths::Merge, "file", sentences);
+    return sentences.size() == 2 ? sentences[1] : "";
+  };
+  const std::string sentence =
+      "file: 1 of these pairs had blocks of one direction alone (\"there\"); here both directions belong to them";
+  EXPECT_EQ(told({0}, {}), sentence);
+  EXPECT_EQ(told({}, {0}), sentence);
+  EXPECT_EQ(told({0, 1}, {1}), sentence);
+  EXPECT_EQ(told({0, 1}, {1, 0}), "");
 }
 
 TEST(Antiparallel, WhatStaysOnATrackIsTold) {

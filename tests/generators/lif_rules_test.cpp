@@ -70,6 +70,25 @@ TEST(LifRules, OneTypeOfVehicleIsEveryAgv) {
   EXPECT_THAT(plant.sentences, HasSubstr("rules for 1 types of vehicles (\"fork\"); here they hold for every AGV"));
 }
 
+TEST(LifRules, RulesThatLifForbidsAreTold) {
+  const std::string tug_forward = R"({"vehicleTypeId": "tug", "loadRestriction": {"unloaded": false}})";
+  const auto twice = import({kBoth, kBoth, kBoth, tug_forward + ", " + kTug + ", " + kFork, kBoth, kBoth});
+  EXPECT_THAT(permissions(twice, 0), IsEmpty());
+  EXPECT_THAT(twice.sentences, HasSubstr("1 nodes and edges have two rules for one type of vehicle (\"ab\")"));
+  const auto nameless = import({kBoth, "{}", kBoth, kBoth, kBoth, kBoth});
+  EXPECT_THAT(permissions(nameless, 0), IsEmpty());
+  EXPECT_THAT(nameless.sentences, HasSubstr("1 nodes and edges have a rule that names no type of vehicle (\"b\")"));
+  EXPECT_THAT(import({kBoth, kBoth, kBoth, kBoth, kBoth, kBoth}).sentences,
+              testing::AllOf(testing::Not(HasSubstr("two rules")), testing::Not(HasSubstr("no type"))));
+}
+
+TEST(LifRules, ATypeWithABadNameIsRefusedByName) {
+  const std::string rule = fmt::format(R"({{"vehicleTypeId": "{}"}})", std::string(201, 'x'));
+  const auto refused = independent::refusal([&](const std::string& text) { return import({.ab = text}); }, rule);
+  EXPECT_THAT(refused, HasSubstr("the type of vehicle \"xxx"));
+  EXPECT_THAT(refused, HasSubstr("the name is longer than 200 bytes"));
+}
+
 TEST(LifRules, ATypeNeedsARuleAtTheEdgeAndAtBothNodes) {
   const auto plant = import({kBoth, kBoth, kFork, kTug, kBoth, ""});
   EXPECT_THAT(permissions(plant, 0), ElementsAre("tug:any"));

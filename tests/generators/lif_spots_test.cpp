@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/base/error.hpp"
 #include "damage.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
@@ -147,10 +148,42 @@ TEST(LifSpots, ANodeWithoutTurnsIsNotSaidOfTheOthers) {
 TEST(LifSpots, HeadingsThatDifferAreTold) {
   const auto alike = import({.c = R"({"theta": 0})"});
   EXPECT_EQ(alike.layout.stations[1].heading, std::optional(Vec2(1.0, 0.0)));
-  EXPECT_THAT(alike.sentences, Not(HasSubstr("several headings")));
+  EXPECT_THAT(alike.sentences, Not(HasSubstr("one heading")));
   const auto unlike = import({.b = R"({"theta": 0})", .c = R"({"theta": 1.57})"});
   EXPECT_EQ(unlike.layout.stations[1].heading, std::nullopt);
-  EXPECT_THAT(unlike.sentences, HasSubstr("the nodes of 1 stations ask for several headings (\"b\" with \"c\")"));
+  EXPECT_THAT(unlike.sentences,
+              HasSubstr("the nodes of 1 stations do not ask for one heading (\"b\" with \"c\"); here the one for "
+                        "which those with tasks ask holds for all tasks there; if they ask for several, an AGV stands "
+                        "as it arrives"));
+}
+
+TEST(LifSpots, TheHeadingOfATaskIsThatOfItsNode) {
+  const std::string pick = R"("actions": [{"actionType": "pick"}])";
+  const auto elsewhere = import({.b = R"({"theta": 0})", .c = "{" + pick + "}"});
+  EXPECT_EQ(elsewhere.layout.stations[1].heading, std::nullopt) << "the node with the task asks for none";
+  EXPECT_THAT(elsewhere.sentences, HasSubstr("do not ask for one heading"));
+  const auto here = import({.b = R"({"theta": 1.57})", .c = R"({"theta": 0, )" + pick + "}"});
+  EXPECT_EQ(here.layout.stations[1].heading, std::optional(Vec2(1.0, 0.0)));
+  EXPECT_THAT(here.sentences, HasSubstr("do not ask for one heading"));
+  const auto by_edge = import({.b = R"({"theta": 0})", .c = R"({"theta": 1.57})", .ab = "{" + pick + "}"});
+  EXPECT_EQ(by_edge.layout.stations[1].heading, std::optional(Vec2(1.0, 0.0)));
+  const auto both = import({.b = R"({"theta": 0, )" + pick + "}", .c = "{" + pick + "}"});
+  EXPECT_EQ(both.layout.stations[1].heading, std::optional(Vec2(1.0, 0.0)));
+  EXPECT_THAT(both.sentences, HasSubstr("do not ask for one heading"));
+}
+
+TEST(LifSpots, AnEdgeBetweenNodesThatAreOneStationIsRefused) {
+  const auto loop = edge("b", "c",
+                         "{\"trajectory\": {\"knotVector\": [0, 0, 0.5, 1, 1], \"controlPoints\": [{\"x\": 5, "
+                         "\"y\": 0}, {\"x\": 7, \"y\": 2}, {\"x\": 5, \"y\": 0}]}}");
+  std::string named = loop;
+  named.replace(named.find("\"bc\""), 4, "\"loop\"");
+  try {
+    import({.more_edges = ", " + named});
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("its two nodes are one station here, because edges of no length join them"));
+  }
 }
 
 TEST(LifSpots, TypesAreAskedForAtTheNodesOfTheFile) {

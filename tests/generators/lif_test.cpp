@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "damage.hpp"
 #include "generators/families/layout_family.hpp"
@@ -109,19 +110,51 @@ TEST(Lif, RationalCurvesAreFollowedClosely) {
       2, "0,0,0,0.5,0.5,1,1,1",
       R"({"x":0,"y":0},{"x":0,"y":3,)" + w + R"(},{"x":3,"y":3},{"x":6,"y":3,)" + w + R"(},{"x":6,"y":0})")));
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_EQ(warnings[0], "l.json:7: the trajectory of edge \"ab\" is replaced by a smooth curve through points of it");
+  EXPECT_EQ(warnings[0],
+            "l.json:7: the trajectories of 1 edges are no cubic Bezier curves (\"ab\"); here they are such curves, "
+            "which are less than 1e-06 m off");
   for (const auto& point : independent::samples(layout, layout.segments[0]))
     EXPECT_NEAR((point - Vec2(3, 0)).norm(), 3.0, 0.001);
+}
+
+// From a to b past (3, 3): the corner is rounded, and an AGV arrives along the last leg.
+TEST(Lif, PolylinesKeepTheirLegs) {
+  const auto bent = trajectory(1, "0,0,0.5,1,1", R"({"x":0,"y":0},{"x":3,"y":3},{"x":6,"y":0})");
+  const auto [layout, warnings] = import(sample(bent));
+  EXPECT_EQ(warnings,
+            std::vector<std::string>{
+                "l.json:7: the trajectories of 1 edges are polylines with corners (\"ab\"); here an arc leads "
+                "round each corner, and passes by it at 0.207 m at most"});
+  for (const Vec2& p : independent::samples(layout, layout.segments[0])) {
+    const double off_m = std::abs(p.y() - (3.0 - std::abs(p.x() - 3.0))) / std::numbers::sqrt2;
+    EXPECT_LT(off_m, 0.15) << p.transpose();
+    if (std::abs(p.x() - 3.0) > 0.36) {
+      EXPECT_LT(off_m, 1e-9) << p.transpose();
+    }
+  }
+  const auto headed = replaced(sample(bent), R"("vehicleTypeId": "v", "actions")",
+                               R"("vehicleTypeId": "v", "theta": -0.785398, "actions")");
+  EXPECT_TRUE(import(headed).layout.stations[1].heading.has_value()) << "the heading with which the edge arrives";
+}
+
+TEST(Lif, OneSentenceTellsOfAllTrajectories) {
+  const auto bent = trajectory(1, "0,0,0.5,1,1", R"({"x":0,"y":0},{"x":3,"y":3},{"x":6,"y":0})"),
+             bent_back = trajectory(1, "0,0,0.5,1,1", R"({"x":6,"y":0},{"x":3,"y":1},{"x":0,"y":0})");
+  const auto [layout, warnings] = import(sample(bent, bent_back));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("of 2 edges are polylines with corners (\"ab\", \"ba\")"), std::string::npos);
 }
 
 TEST(Lif, WarnsOfTrajectoriesThatMissTheirNodesOrRunBackwards) {
   EXPECT_EQ(import(sample(kBack)).warnings,
             std::vector<std::string>{
-                "l.json:7: the trajectory of edge \"ab\" runs from its end to its start; it is turned round"});
+                "l.json:7: the trajectories of 1 edges run from the end to the start (\"ab\"); they are turned round"});
   EXPECT_EQ(import(sample(kBack)).layout.segments[0].control_points_m, (std::vector<Vec2>{{2, 1}, {4, 1}}));
-  EXPECT_EQ(import(sample(replaced(kThere, "{\"x\":0,\"y\":0}", "{\"x\":0.25,\"y\":0}"))).warnings,
-            std::vector<std::string>{
-                "l.json:7: the trajectory of edge \"ab\" ends 0.250 m beside its node; it is drawn to the node"});
+  EXPECT_EQ(
+      import(sample(replaced(kThere, "{\"x\":0,\"y\":0}", "{\"x\":0.25,\"y\":0}"))).warnings,
+      std::vector<std::string>{
+          "l.json:7: the trajectories of 1 edges end beside their nodes (\"ab\"), by up to 0.250 m; they are drawn "
+          "to the nodes"});
 }
 
 void expect_round_trip(const Layout& layout) {
@@ -242,7 +275,7 @@ TEST(Lif, TheCrossdockComesBackWithItsTwinsAsOne) {
   layout.blocks.clear();  // for which LIF has no place
   for (Segment& segment : layout.segments) segment.blocks.clear();
   const auto text = to_lif(layout);
-  EXPECT_EQ(merge_antiparallel(layout).size(), 12U);
+  EXPECT_EQ(merge_antiparallel(layout).names.size(), 12U);
   EXPECT_EQ(to_text(import(text).layout), to_text(layout));
   expect_round_trip(layout);
 }

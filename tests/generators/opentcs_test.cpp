@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/error.hpp"
 #include "damage.hpp"
@@ -110,6 +111,40 @@ Import import(const std::string& text) {
   result.layout = parse_opentcs(text, "m.xml", result.warnings, choice);
   std::erase_if(result.warnings, [](const std::string& w) { return w.find("stand beside") != std::string::npos; });
   return result;
+}
+
+// There by (4, 2), and back by (0, -2), in units of 100 mm and 50 mm: two tracks, which keep their legs.
+TEST(OpenTcs, PolylinesKeepTheirLegs) {
+  auto text = replaced(kModel, R"(<pathLayout connectionType="DIRECT"/>)",
+                       R"(<pathLayout connectionType="POLYPATH"><controlPoint x="40" y="-40"/></pathLayout>)");
+  text = replaced(text, R"(<pathLayout connectionType="DIRECT"/>)",
+                  R"(<pathLayout connectionType="POLYPATH"><controlPoint x="0" y="40"/></pathLayout>)");
+  std::vector<std::string> told;
+  const Layout layout = parse_opentcs(text, "m.xml", told);
+  ASSERT_EQ(layout.segments.size(), 2U) << "two tracks are no twins";
+  EXPECT_EQ(told[0].substr(0, told[0].find(';')), "m.xml:1: 2 paths are drawn as POLYPATH (\"ab\", \"ba\")");
+  const double ab_m = std::hypot(4.0, 2.0) + 2.0;
+  EXPECT_NEAR(segment_curve(layout, layout.segments[0]).length_m(), ab_m, 0.5);
+  const Vec2 moved = layout.stations[0].position_m;  // the floor begins at 0
+  const Curve there = segment_curve(layout, layout.segments[0]);
+  EXPECT_LT((there.pose_at(there.length_m()).heading - Vec2(0.0, -1.0)).norm(), 1e-9);
+  for (double s_m = 0.0; s_m < there.length_m() - 2.0 - 0.6; s_m += 0.1) {
+    const Vec2 p = there.pose_at(s_m).position_m - moved;
+    EXPECT_LT(std::abs(p.y() - 0.5 * p.x()), 1e-6) << s_m;
+  }
+}
+
+TEST(OpenTcs, APolylineThatIsDrivenBackwardIsTheSameTrack) {
+  auto text =
+      replaced(kModel, R"(length="4000" locked="false"><pathLayout connectionType="DIRECT"/>)",
+               R"(length="4000" maxVelocity="0" maxReverseVelocity="500"><pathLayout connectionType="POLYPATH">)"
+               R"(<controlPoint x="20" y="-40"/><controlPoint x="40" y="-40"/></pathLayout>)");
+  const auto [layout, warnings] = import(text);
+  const Segment& back = layout.segments[0];
+  ASSERT_EQ(layout.stations[back.from.index()].name, "b");
+  const Curve curve = segment_curve(layout, back);
+  EXPECT_LT((curve.pose_at(0.0).heading - Vec2(0.0, 1.0)).norm(), 1e-9);
+  EXPECT_LT((curve.pose_at(curve.length_m()).heading - Vec2(-1.0, -1.0).normalized()).norm(), 1e-9);
 }
 
 TEST(OpenTcs, WarnsOfWhatItLeavesOutGuessesAndChanges) {

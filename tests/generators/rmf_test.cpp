@@ -188,8 +188,10 @@ TEST(Rmf, TheFirstLevelWithLanesIsRead) {
   EXPECT_EQ(layout.name, "depot L1");
   ASSERT_FALSE(warnings.empty());
   EXPECT_EQ(warnings[0], "b.yaml:4: of 2 levels, \"L1\" is read (levels: \"Basement\", \"L1\")");
-  EXPECT_EQ(independent::refusal([](const std::string& t) { import_graph(t, {.level = "Basement"}); }, text),
-            "b.yaml:5: the level has no \"lanes\"; add them");
+  EXPECT_EQ(
+      independent::refusal([](const std::string& t) { import_graph(t, {.level = "Basement"}); }, text),
+      "b.yaml:5: level \"Basement\" has no lane; add some, or choose another level; levels of the file: \"Basement\", "
+      "\"L1\"");
 }
 
 TEST(Rmf, AnotherGraphOrLevelCanBeChosen) {

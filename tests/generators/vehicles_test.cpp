@@ -118,6 +118,15 @@ TEST(Factsheet, IsAVehicle) {
               AllOf(HasSubstr("f.json:2: gives no maximumAngularSpeed; turn_speed_radps stays 1"),
                     HasSubstr("5 parts of the factsheet are left out (\"headerId\", \"typeSpecification.agvClass\", "
                               "\"physicalParameters.speedMin\" and 2 more)")));
+  EXPECT_THAT(fleet.sentences, testing::Not(HasSubstr("gives no envelope")));
+}
+
+TEST(Factsheet, WithoutAnEnvelopeSaysWhereTheBodyIsTakenToBe) {
+  const std::string size = R"({"physicalParameters": {"length": 2, "width": 1})";
+  const auto sentence = HasSubstr(
+      "f.json:1: gives no envelope; the reference point is taken to be the middle of the body (centre_ahead_m 0)");
+  EXPECT_THAT(import_sheet(size + "}").sentences, sentence);
+  EXPECT_THAT(import_sheet(size + R"(, "agvGeometry": {"envelopes2d": []}})").sentences, sentence);
 }
 
 TEST(Factsheet, HasTheSpellingOfVersion3) {

@@ -2,7 +2,7 @@
 import json
 from math import dist, pi
 
-from plant import ANY, BACKWARD, EMPTY, FORWARD, LOADED, Drive, Plant, Station, course, path_length
+from plant import ANY, BACKWARD, EMPTY, FORWARD, LOADED, Drive, Plant, Station, course, path_length, rounded_length
 
 ON_THE_NODE_M = 0.05
 ONE_PLACE_M = 0.001
@@ -87,6 +87,9 @@ def spline_length(trajectory, ends):
     """A NURBS by de Boor's recursion. None if its ends are not on the nodes: then it is changed."""
     degree, knots = int(trajectory.get("degree", 1)), trajectory["knotVector"]
     controls = [(p["x"], p["y"], p.get("weight", 1.0)) for p in trajectory["controlPoints"]]
+    if degree == 1:
+        points = [(x, y) for x, y, _ in controls]
+        return rounded_length(points) if misses(points, ends) < ON_THE_NODE_M else None
     points = []
     for k in range(4001):
         t = knots[degree] + (knots[-degree - 1] - knots[degree]) * k / 4000
@@ -98,13 +101,24 @@ def spline_length(trajectory, ends):
                 a = (t - low) / (high - low) if high > low else 0.0
                 d[j] = tuple((1.0 - a) * u + a * v for u, v in zip(d[j - 1], d[j]))
         points.append((d[degree][0] / d[degree][2], d[degree][1] / d[degree][2]))
-    off = min(max(dist(points[0], a), dist(points[-1], b)) for a, b in (ends, ends[::-1]))
-    return path_length(points) if off < ON_THE_NODE_M else None
+    return path_length(points) if misses(points, ends) < ON_THE_NODE_M else None
+
+
+def misses(points, ends):
+    return min(max(dist(points[0], a), dist(points[-1], b)) for a, b in (ends, ends[::-1]))
 
 
 def heading_of(node):
     angles = {round(entry["theta"] * 180.0 / pi, 4) for entry in rules_of(node) if "theta" in entry}
     return angles.pop() if len(angles) == 1 else None
+
+
+def heading_at(joined, nodes, driven):
+    """Of nodes at one place those count at which AGVs have something to do, or all if there are none."""
+    busy = [name for name in joined if purposes_of(nodes[name]) or
+            any(purposes_of(edge) for edge in driven if edge["endNodeId"] == name)]
+    asked = {heading_of(nodes[name]) for name in busy or joined} - {None}
+    return asked.pop() if len(asked) == 1 else None
 
 
 def turning_of(name, edges):
@@ -213,9 +227,8 @@ def read(path, level=None):
 
 def station_of(joined, nodes, driven, turns):
     """Of nodes at one place: AGVs turn there if they may at one of the nodes, or on an edge between them."""
-    headings = {heading_of(nodes[name]) for name in joined} - {None}
     return Station(joined[0], *place_of(nodes[joined[0]]), set().union(*(purposes_of(nodes[name]) for name in joined)),
-                   headings.pop() if len(headings) == 1 else None,
+                   heading_at(joined, nodes, driven),
                    any(turning_of(name, driven) for name in joined) or any(map(turns_on, turns)))
 
 

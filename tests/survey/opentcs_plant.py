@@ -3,7 +3,7 @@ import re
 import xml.etree.ElementTree as xml
 from math import isnan
 
-from plant import BACKWARD, Drive, Plant, Station, bezier_length, course
+from plant import BACKWARD, Drive, Plant, Station, bezier_length, course, rounded_length
 
 PURPOSES = (("charging", r"charg"), ("parking", r"park"),
             ("storage", r"load|transfer|storage|store|pick|drop|deliver|fetch|jacking|pack|work"))
@@ -42,7 +42,7 @@ class Drawing:
         return position(point.find("pointLayout"))
 
     def bend(self, path):
-        """The control points of a curve in metres; none for all that is drawn straight or is a style of drawing."""
+        """The kind of a path and its points in metres; none for all that is drawn straight or is a style of drawing."""
         layout = path.find("pathLayout")
         if layout is not None:
             kind = layout.get("connectionType", "DIRECT")
@@ -51,10 +51,10 @@ class Drawing:
             words = self.elements.get(path.get("name"), {})
             kind = words.get("CONN_TYPE", "DIRECT")
             pairs = [pair.split(",") for pair in words.get("CONTROL_POINTS", "").split(";") if pair]
-        if kind.upper() not in BENDS:
-            return []
+        if kind.upper() not in BENDS and kind.upper() != "POLYPATH":
+            return "DIRECT", []
         # The y axis of the drawing points down.
-        return [(float(x) * self.scale[0] / 1000.0, -float(y) * self.scale[1] / 1000.0) for x, y in pairs]
+        return kind.upper(), [(float(x) * self.scale[0] / 1000.0, -float(y) * self.scale[1] / 1000.0) for x, y in pairs]
 
 
 def allowed(element):
@@ -89,8 +89,9 @@ def limit(velocity):
 def add_path(plant, path, drawing, blocks, where):
     start, end = path.get("sourcePoint"), path.get("destinationPoint")
     ends = [where(plant.stations[start]), where(plant.stations[end])]
-    way = [ends[0], *drawing.bend(path), ends[1]]
-    length = bezier_length(way)
+    kind, points = drawing.bend(path)
+    way = [ends[0], *points, ends[1]]
+    length = rounded_length(way) if kind == "POLYPATH" else bezier_length(way)
     if length < 0.01:
         plant.faults.append(path.get("name"))
     ahead, back = (float(path.get(k)) if k in path.attrib else None for k in ("maxVelocity", "maxReverseVelocity"))

@@ -1,7 +1,7 @@
 """What a layout file describes, as the survey sees it: stations, and drives. A drive is one way to go from a station to
 another: in one direction, with one end of the AGV first. A two-way segment has two drives, a segment that is driven
 with either end first twice as many."""
-from math import atan2, degrees, dist
+from math import atan2, degrees, dist, radians, tan
 
 FORWARD, BACKWARD = "forward", "backward"
 ANY, EMPTY, LOADED = "any", "empty", "loaded"
@@ -89,6 +89,18 @@ def course(points):
 
 def path_length(points):
     return sum(dist(a, b) for a, b in zip(points, points[1:]))
+
+
+def rounded_length(points, cut=0.5):
+    """Of straight legs: a circle leads round each corner, from `cut` before it, or from the middle of the leg."""
+    legs = [(a, b) for a, b in zip(points, points[1:]) if dist(a, b) > 1e-6]
+    total = sum(dist(a, b) for a, b in legs)
+    for (a, b), (_, c) in zip(legs, legs[1:]):
+        turn = abs((angle_of(c[0] - b[0], c[1] - b[1]) - angle_of(b[0] - a[0], b[1] - a[1]) + 180.0) % 360.0 - 180.0)
+        if 0.001 < turn < 168.0:
+            reach = min(cut, dist(a, b) / 2.0, dist(b, c) / 2.0)
+            total -= 2.0 * reach - radians(turn) * reach / tan(radians(turn / 2.0))
+    return total
 
 
 def bezier_length(points, steps=400):
