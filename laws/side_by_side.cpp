@@ -12,16 +12,23 @@ constexpr double kAlong = 0.985;  // cosine of 10 degrees
 constexpr double kSlack_m = 1e-6;
 constexpr double kSurely_m = 1e-3;  // more than slack and rounding
 
-double distance_m(const Vec2& p, const Vec2& a, const Vec2& b) {
+// Of a point from a straight piece of a middle line.
+struct Distance {
+  double distance_m;
+  bool is_beside;  // not before or behind it
+};
+
+Distance distance(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 way = b - a;
   const double square = way.squaredNorm();
-  const double share = square > 0.0 ? std::clamp((p - a).dot(way) / square, 0.0, 1.0) : 0.0;
-  return (p - (a + share * way)).norm();
+  const double share = square > 0.0 ? (p - a).dot(way) / square : -1.0;
+  const double inside = std::clamp(share, 0.0, 1.0);
+  return {(p - (a + inside * way)).norm(), share == inside};
 }
 
 struct Gaps {
   double bands_m = 1e300;  // smallest anywhere
-  double along_m = 1e300;  // smallest where they run along each other
+  double along_m = 1e300;  // smallest where they run along each other, and not one behind the other
 };
 
 // From the points of one track to the middle line of the other one. False as soon as the bands overlap. Gaps of
@@ -33,10 +40,11 @@ bool measure(const Track& a, const Track& b, double within_m, double matters_m, 
     if (!near.overlaps({p.position_m, p.position_m})) continue;
     for (std::size_t i = 0; i + 1 < b.points.size(); ++i) {
       const auto& q = b.points[i];
-      const double gap_m = distance_m(p.position_m, q.position_m, b.points[i + 1].position_m) - widths_m;
+      const auto [distance_m, is_beside] = distance(p.position_m, q.position_m, b.points[i + 1].position_m);
+      const double gap_m = distance_m - widths_m;
       if (gap_m < -kSlack_m) return false;
       gaps.bands_m = std::min(gaps.bands_m, gap_m);
-      if (std::abs(p.heading.dot(q.heading)) >= kAlong) gaps.along_m = std::min(gaps.along_m, gap_m);
+      if (is_beside && std::abs(p.heading.dot(q.heading)) >= kAlong) gaps.along_m = std::min(gaps.along_m, gap_m);
       i += b.points_beyond(gap_m, matters_m);
     }
   }

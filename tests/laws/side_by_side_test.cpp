@@ -41,6 +41,18 @@ TEST(TightGap, IsNotBetweenLanesAtAnAngle) {
   EXPECT_FALSE(beside(line(0.0), across).tight_gap);
 }
 
+// 0.05 m more than the bodies need beside each other.
+TEST(TightGap, IsNotBetweenLanesOneBehindTheOther) {
+  const double end_m = 20.0 + 0.8 + 0.8;  // of the tracks: half a body beyond both ends
+  const auto behind = [&](double gap_m, double y_m) {
+    return Curve::straight({end_m + 1.0 + gap_m, y_m}, {end_m + 20.0, y_m});
+  };
+  EXPECT_FALSE(beside(line(0.0), behind(0.05, 0.0)).tight_gap);
+  EXPECT_FALSE(beside(behind(0.05, 0.0), line(0.0)).tight_gap);
+  EXPECT_FALSE(beside(line(0.0), behind(0.05, 0.0).reversed()).tight_gap);
+  EXPECT_TRUE(beside(line(0.0), behind(-2.0, 1.05)).tight_gap) << "a metre of them is beside each other";
+}
+
 TEST(CurveBesideLane, IsABodyInABendWithinThirtyCentimetres) {
   EXPECT_TRUE(beside(line(0.0), swing_down_to(1.25)).curve_beside_lane);
   EXPECT_TRUE(beside(swing_down_to(1.25), line(0.0)).curve_beside_lane);
