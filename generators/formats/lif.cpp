@@ -90,15 +90,15 @@ class LifReader {
     };
     tell(types_.sentence());
     for (const auto& sentence : types_.odd_rules()) tell(sentence);
-    for (const auto& sentence : turns_.settle(layout_)) tell(sentence);
+    for (const auto& sentence : rules_.turns.settle(layout_)) tell(sentence);
     if (told_.of_types > 0)
       tell(fmt::format("{} edges have a speed limit for each type of vehicle; the lowest is taken for all",
                        told_.of_types));
     if (!told_.act.empty())
       tell(fmt::format("{} edges have actions to pick, drop or charge ({}); here their end nodes are for that",
                        told_.act.size(), name_list(told_.act)));
-    trajectories_.tell(warnings_);
-    for (const auto& sentence : travel_.sentences()) tell(sentence);
+    rules_.trajectories.tell(warnings_);
+    for (const auto& sentence : rules_.travel.sentences()) tell(sentence);
     if (!told_.torn.empty())
       tell(fmt::format("{} nodes ask each type of vehicle for another heading ({}); here an AGV stands as it arrives",
                        told_.torn.size(), name_list(told_.torn)));
@@ -185,17 +185,17 @@ class LifReader {
     add_purposes(to->index(), acts);
     if (LifSpots::stays(edge, layout_.stations[from->index()].position_m, layout_.stations[to->index()].position_m)) {
       spots_.add(edge, *from, *to, permissions->empty());
-      return turns_.add(edge, *from, *to, false);
+      return rules_.turns.add(edge, *from, *to, false);
     }
     if (*from == *to)
       edge.at("endNodeId").refuse("the edge leads from a node back to itself; put another node on its trajectory");
     types_.count(*permissions);
     segment.permissions = std::move(*permissions);
-    trajectories_.bend(types, layout_.stations[from->index()].position_m, layout_.stations[to->index()].position_m,
-                       segment);
+    rules_.trajectories.bend(types, layout_.stations[from->index()].position_m,
+                             layout_.stations[to->index()].position_m, segment);
     limit_speed(types, segment);
     segment.width_m = corridor_width_m(types);
-    turns_.add(edge, segment.from, segment.to, travel_.add(types, straight_way(segment), segment));
+    rules_.turns.add(edge, segment.from, segment.to, rules_.travel.add(types, straight_way(segment), segment));
     if (acts.has(Purpose::Storage) || acts.has(Purpose::Charging)) told_.act.push_back(segment.name);
     layout_.segments.push_back(std::move(segment));
     edges_.push_back(edge);
@@ -301,14 +301,15 @@ class LifReader {
     std::set<std::size_t> by_actions;        // stations of which actions say what they are for
   } purposes_;
   LifTypes types_{{}, {}};
-  LifTrajectories trajectories_;
-  LifTravel travel_;
-  LifTurns turns_;
+  struct {
+    LifTrajectories trajectories;
+    LifTravel travel;
+    LifTurns turns;
+  } rules_;
   LifSpots spots_;
   struct {
-    std::size_t of_types = 0;       // edges
-    std::vector<std::string> torn;  // names of nodes
-    std::vector<std::string> act;   // names of edges
+    std::size_t of_types = 0;            // edges
+    std::vector<std::string> torn, act;  // names of nodes, and of edges
   } told_;
 };
 
