@@ -23,6 +23,7 @@
 #include "core/scenario/field.hpp"
 #include "generators/map/permitted_types.hpp"
 #include "generators/text/text_file.hpp"
+#include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -109,7 +110,7 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   for (const std::string& path_of_object : file.agent_files) is_plugin.push_back(!path_of_object.empty());
   for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i].program, place_of(i) + ": factors.agents");
   if (file.fresh_seed) file.plan.seed = fresh_seed(file.plan, programs);
-  add_default_gates(file.plan, is_plugin);
+  say_where_fleets_are(file.places, [&] { add_default_gates(file.plan, is_plugin); });
   for (const std::string& warning : file.warnings) talk("warning: {}\n", warning);
   constexpr std::size_t kTold = 3;
   for (std::size_t i = 0; i < std::min(kTold, file.notes.size()); ++i) talk("warning: {}\n", file.notes[i]);
@@ -118,8 +119,18 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   return file;
 }
 
-void try_first_worlds(const CampaignPlan& plan) {
-  for (const std::string& sentence : build_first_worlds(plan)) talk("warning: {}\n", sentence);
+void try_first_worlds(const CampaignPlan& plan, const PlanPlaces& places) {
+  say_where_fleets_are(places, [&] {
+    for (const std::string& sentence : build_first_worlds(plan)) talk("warning: {}\n", sentence);
+  });
+}
+
+void say_where_fleets_are(const PlanPlaces& places, const std::function<void()>& step) {
+  try {
+    step();
+  } catch (const NoRoom& crowded) {
+    throw InputError(places.of("factors.fleet_sizes"), "factors.fleet_sizes: " + crowded.sentence);
+  }
 }
 
 void meet_plugins(const std::string& archive_path, const CampaignRecord& campaign, std::span<const AgentFactor> agents,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,8 +22,11 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs);
 void refuse_results(const std::string& path, std::string_view remedy);
 
 // Draws the first worlds of each layout and fleet size, and prints warnings on stderr: worlds without room, fleets that
-// may be too large. Throws what build_first_worlds() throws.
-void try_first_worlds(const CampaignPlan& plan);
+// may be too large. Throws InputError at the place of the fleet sizes if a fleet finds no room.
+void try_first_worlds(const CampaignPlan& plan, const PlanPlaces& places);
+
+// Calls `step`. If it throws NoRoom, throws InputError at the place of the fleet sizes instead.
+void say_where_fleets_are(const PlanPlaces& places, const std::function<void()>& step);
 
 // &AgentPrograms::know or &AgentPrograms::load.
 using MeetPlugin = std::string (AgentPrograms::*)(const std::string& path, bool global_symbols);

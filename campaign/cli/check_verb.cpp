@@ -8,6 +8,7 @@
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/plan/first_worlds.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/case_file.hpp"
 #include "generators/formats/importer.hpp"
@@ -24,26 +25,29 @@ constexpr std::uint64_t kReplicatesDrawn = 20;
 // Enough for an estimate; `plan` measures for longer.
 constexpr std::chrono::seconds kPilotTime{1};
 
-// Draws the worlds of the first replicates, one for each layout and fleet size, and prints how many draws were refused
-// and why.
+// Draws the worlds of the first replicates, fewer of large floors, one for each layout and fleet size, and prints how
+// many draws were refused and why.
 void tell_rejections(const CampaignPlan& plan) {
   const ScenarioSource source(plan);
   const std::uint64_t replicates = std::min(plan.replicates, kReplicatesDrawn);
   RejectionCounts counts;
-  const auto draw = [&](std::uint64_t run_index) {
+  bool fewer = false;
+  const auto draw = [&](std::uint64_t run_index) -> std::size_t {
     try {
-      (void)source.world(run_index, counts);
+      return source.world(run_index, counts).map->station_count();
     } catch (const NoRoom&) {
-      // try_first_worlds() has said it.
+      return 0;  // try_first_worlds() has said it
     }
   };
-  for (std::uint64_t replicate = 0; replicate < replicates; ++replicate) {
-    for (std::uint64_t cell = 0; cell < plan.cell_count(); cell += plan.cells_per_world())
-      draw(replicate * plan.cell_count() + cell);
+  for (std::uint64_t cell = 0; cell < plan.cell_count(); cell += plan.cells_per_world()) {
+    const std::uint64_t wanted = worlds_to_draw(replicates, draw(cell));
+    fewer |= wanted < replicates;
+    for (std::uint64_t replicate = 1; replicate < wanted; ++replicate) draw(replicate * plan.cell_count() + cell);
   }
   const auto text = rejection_text(counts);
-  put("worlds of the first {} replicates: {} drawn, {} more refused{}{}", replicates, counts.worlds,
-      counts.worlds_rejected, text.empty() ? "" : "; refused in them and in their starts: ", text);
+  put("worlds of the first {} replicates{}: {} drawn, {} more refused{}{}", replicates,
+      fewer ? " (fewer on large floors)" : "", counts.worlds, counts.worlds_rejected,
+      text.empty() ? "" : "; refused in them and in their starts: ", text);
   if (counts.pairs_wanted > 0) put("; {} of {} pairs made to meet", counts.pairs_made, counts.pairs_wanted);
   put("\n");
   if (counts.worlds_without_storage > 0)
@@ -56,7 +60,7 @@ void check_campaign(const std::string& path) {
   AgentPrograms programs;
   const CampaignFile file = load_campaign(path, programs);
   const CampaignPlan& plan = file.plan;
-  try_first_worlds(plan);
+  try_first_worlds(plan, file.places);
   const Pilot pilot = run_pilot(plan, programs, 1, {.time = kPilotTime, .runs = plan.cell_count()});
   put("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {} of one core, as {} took {:.1f} s\n", path,
       plan.cell_count(), plan.replicates, plan.run_count(), plan.horizon_s,

@@ -231,11 +231,12 @@ void print_json(const Forecast& forecast) {
 int plan(const PlanWords& words) {
   AgentPrograms programs;
   Forecast forecast;
-  forecast.plan = load_campaign(words.campaign, programs).plan;
+  const CampaignFile file = load_campaign(words.campaign, programs);
+  forecast.plan = file.plan;
   const int workers = worker_count(words.jobs);
   std::optional<std::chrono::seconds> budget;
   if (!words.max_time.empty()) budget = duration_of(words.max_time, "--max-time");
-  try_first_worlds(forecast.plan);
+  try_first_worlds(forecast.plan, file.places);
   forecast.pilot = run_pilot(forecast.plan, programs, workers, {.time = kPilotLength});
   forecast.file = {forecast.plan.replicates, forecast.pilot.forecast_s(forecast.plan.replicates)};
   if (budget) {

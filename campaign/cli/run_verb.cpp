@@ -209,7 +209,8 @@ int run(RunWords words) {
       tell();
     };
     listener.wants_status = [] { return status_wanted.exchange(false); };
-    result = run_campaign(file.plan, programs, words.archive, options, listener);
+    say_where_fleets_are(file.places,
+                         [&] { result = run_campaign(file.plan, programs, words.archive, options, listener); });
     session.end(result, interrupted().load());
   }
   return finish(result, words, attempt);

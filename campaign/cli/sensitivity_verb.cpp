@@ -94,7 +94,8 @@ void keep_fuller_measurement(const std::string& path, const std::vector<std::str
 
 int sensitivity(const SensitivityWords& words) {
   AgentPrograms programs;
-  CampaignPlan plan = load_campaign(words.campaign, programs).plan;
+  CampaignFile campaign = load_campaign(words.campaign, programs);
+  CampaignPlan& plan = campaign.plan;
   if (words.seed) plan.seed = *words.seed;
   SensitivityOptions options;
   options.workers = worker_count(words.jobs);
@@ -109,7 +110,7 @@ int sensitivity(const SensitivityWords& words) {
   const OutputFile file{words.out.empty() ? usual : words.out, "--output", OutputKind::Sensitivity};
   require_writable(file);
   if (words.out.empty()) keep_fuller_measurement(usual, options.agents, worlds_of(plan_text(plan)));
-  try_first_worlds(plan);
+  try_first_worlds(plan, campaign.places);
   const auto measured = measure(plan, programs, options, seeds);
   const SensitivityRecord record = summary_of(plan, programs, measured);
   if (words.json) {

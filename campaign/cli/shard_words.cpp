@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "campaign/batch/session_log.hpp"
+#include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/run/release.hpp"
@@ -88,7 +89,8 @@ int simulate_shard(const ShardWords& words, const ShardCall& call) {
     listener.planned = [&](const ChunkRange& owned, std::uint64_t published) {
       tell_plan(choice, ChunkGrid(plan.run_count()), owned, published);
     };
-    result = run_shard(plan, call.programs, folder, choice.shard, options, listener);
+    say_where_fleets_are(call.file.places,
+                         [&] { result = run_shard(plan, call.programs, folder, choice.shard, options, listener); });
     session.end(result.runs, options.interrupted->load(), ShardChunks{result.owned, result.published});
   }
   if (!result.runs.audit_failure.empty())

@@ -3,16 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "campaign/plan/scenario_source.hpp"
 #include "core/base/outside_text.hpp"
+#include "generators/families/layout_family.hpp"
 #include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr std::uint64_t kMostWorlds = 16;
-// Large floors take long to draw, and chance makes less of a difference there.
+// At most so many in all worlds of a layout, beyond the first.
 constexpr std::uint64_t kStationsDrawn = 2000;
 
 struct Crowding {
@@ -22,10 +24,9 @@ struct Crowding {
 
 // `index`: a run in the first world.
 Crowding crowding(const CampaignPlan& plan, const ScenarioSource& scenarios, std::uint64_t index,
-                  std::uint64_t stations) {
+                  std::size_t stations) {
   Crowding found;
-  found.worlds = std::clamp<std::uint64_t>(kStationsDrawn / std::max<std::uint64_t>(stations, 1), 1, kMostWorlds);
-  found.worlds = std::min(found.worlds, plan.replicates);
+  found.worlds = std::min(worlds_to_draw(kMostWorlds, stations), plan.replicates);
   for (std::uint64_t replicate = 1; replicate < found.worlds; ++replicate) {
     try {
       RejectionCounts ignored;
@@ -38,7 +39,21 @@ Crowding crowding(const CampaignPlan& plan, const ScenarioSource& scenarios, std
   return found;
 }
 
+// Empty if the layout is no plant that is too small for what its name asks for.
+std::string too_small(const CampaignPlan& plan, const std::string& layout, std::size_t agvs, std::size_t stations) {
+  const auto& factor = *std::ranges::find(plan.layouts, layout, &LayoutFactor::name);
+  if (factor.map != nullptr) return "";
+  const auto provocation = family_range(layout).provocation;
+  if (!provocation || stations >= fewest_stations(*provocation)) return "";
+  return fmt::format("{}: a plant for {} AGVs has {} stations and cannot contain it; name a size, as in \"{}/{}\"",
+                     in_quotes(layout), agvs, stations, layout, fewest_stations(*provocation));
+}
+
 }  // namespace
+
+std::uint64_t worlds_to_draw(std::uint64_t most, std::size_t stations) {
+  return std::clamp<std::uint64_t>(kStationsDrawn / std::max<std::uint64_t>(stations, 1), 1, most);
+}
 
 std::vector<std::string> build_first_worlds(const CampaignPlan& plan) {
   const ScenarioSource scenarios(plan);
@@ -46,7 +61,9 @@ std::vector<std::string> build_first_worlds(const CampaignPlan& plan) {
   for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world()) {
     const Scenario world = scenarios.scenario(index);
     const std::size_t stations = world.map->station_count(), agvs = world.agvs.size();
-    const std::string layout = in_quotes(scenarios.place(index).cell.layout);
+    const std::string name = scenarios.place(index).cell.layout, layout = in_quotes(name);
+    if (auto sentence = too_small(plan, name, agvs, stations); !sentence.empty())
+      sentences.push_back(std::move(sentence));
     if (const Crowding found = crowding(plan, scenarios, index, stations); found.without_room > 0)
       sentences.push_back(
           fmt::format("{}: no room for {} AGVs in {} of the first {} worlds{}; the runs there end "

@@ -22,6 +22,8 @@ namespace {
 
 constexpr std::uint32_t kClosedOneIn = 10;
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 constexpr Entry<MakeLayout> kFamilies[] = {
     {"aisle-grid",
      "4-6 aisles between 2-3 cross aisles, one-way or two-way, with storage bays, docks, parking and chargers; 49-83 "
@@ -52,7 +54,8 @@ constexpr Entry<MakeLayout> kFamilies[] = {
      make_close_pass},
     {"plant",
      "zones of aisles inside rings of two one-way lanes, with docks, buffer lanes and charger rows; 20-10000 stations, "
-     "as in plant/2000, else 40 for each AGV and at most 5000",
+     "as in plant/2000, else 40 for each AGV and at most 5000; more of one thing, as in plant/tight-gap: crossing, "
+     "curve-beside-lane, tight-gap, overhang-pass, bottleneck, four-way, back-in",
      make_plant},
 };
 
@@ -66,9 +69,7 @@ Layout make(const FamilyRange& choice, Draws& draws, std::uint32_t fleet_size) {
 void read_plant_word(std::string_view word, FamilyRange& choice) {
   const bool is_first_knob = !choice.provocation && choice.range == Range::Normal;
   const auto provocation = value_of<Provocation>(word);
-  std::uint32_t stations = 0;
-  const char* const end = word.data() + word.size();
-  const auto [rest, fault] = std::from_chars(word.data(), end, stations);
+  const bool is_number = !word.empty() && word[0] != '0' && std::ranges::all_of(word, is_digit);
   const bool is_knob = word == "stress" || provocation;
   if (is_knob && !is_first_knob)
     throw InputError("layout", fmt::format("plant has no range {} beside another one; name one of them, or one layout "
@@ -78,11 +79,11 @@ void read_plant_word(std::string_view word, FamilyRange& choice) {
     choice.range = Range::Stress;
   } else if (provocation) {
     choice.provocation = provocation;
-  } else if (choice.stations == 0 && fault == std::errc() && rest == end && word[0] != '0') {
-    if (stations < kFewestStations || stations > kMostStations)
-      throw InputError("layout", fmt::format("a plant of {} stations is refused; ask for {} to {}", stations,
+  } else if (choice.stations == 0 && is_number) {
+    const auto read = std::from_chars(word.data(), word.data() + word.size(), choice.stations);
+    if (read.ec != std::errc() || choice.stations < kFewestStations || choice.stations > kMostStations)
+      throw InputError("layout", fmt::format("a plant of {} stations is refused; ask for {} to {}", word,
                                              kFewestStations, kMostStations));
-    choice.stations = stations;
   } else {
     std::vector<std::string_view> words(kWordsOf<Provocation>.begin(), kWordsOf<Provocation>.end());
     words.emplace_back("stress");
@@ -96,9 +97,14 @@ FamilyRange plant_range(const Entry<MakeLayout>& family, std::string_view words)
   while (true) {
     const auto slash = words.find('/');
     read_plant_word(words.substr(0, slash), choice);
-    if (slash == std::string_view::npos) return choice;
+    if (slash == std::string_view::npos) break;
     words.remove_prefix(slash + 1);
   }
+  if (choice.provocation && choice.stations > 0 && choice.stations < fewest_stations(*choice.provocation))
+    throw InputError("layout",
+                     fmt::format("a plant of {} stations cannot contain {}; ask for {} or more", choice.stations,
+                                 in_quotes(name_of(*choice.provocation)), fewest_stations(*choice.provocation)));
+  return choice;
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ struct FamilyRange {
 };
 
 // Reads "aisle-grid" or "aisle-grid/stress"; of plants also "plant/2000", "plant/tight-gap" and "plant/stress/2000".
-// Throws InputError with a hint if there is no such family, range, size or provocation.
+// Throws InputError with a hint if there is no such family, range, size or provocation, or if a plant of this size
+// cannot contain it.
 FamilyRange family_range(std::string_view name);
 
 // Draws a layout of a family and range. Under stress, one layout in ten has no open place to wait (waiting_room.hpp),

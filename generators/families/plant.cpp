@@ -141,6 +141,23 @@ std::string name_of_plant(const PlantWish& wish) {
 
 }  // namespace
 
+std::uint32_t fewest_stations(Provocation provocation) {
+  switch (provocation) {
+    case Provocation::BackIn:
+      return kFewestStations;
+    case Provocation::TightGap:  // in passing bays
+      return kFewestWithBays;
+    case Provocation::Crossing:
+    case Provocation::CurveBesideLane:
+    case Provocation::OverhangPass:
+    case Provocation::FourWay:
+      return kFewestWithTwoLanes;
+    case Provocation::Bottleneck:
+      return kFewestWithTwoZones;
+  }
+  return kMostStations;
+}
+
 std::uint32_t plant_stations(std::uint32_t fleet_size) {
   return std::clamp(std::min(fleet_size, kMostStationsOfFleet) * kStationsPerAgv, kFewestStations,
                     kMostStationsOfFleet);

@@ -41,6 +41,8 @@ constexpr const char* name_of(Provocation provocation) {
 }
 
 inline constexpr std::uint32_t kFewestStations = 20, kMostStations = 10'000;
+// The fewest stations of a plant that can contain it.
+std::uint32_t fewest_stations(Provocation provocation);
 // A plant that belongs to a fleet has so many stations for each AGV, but at least the fewest, and at most so many.
 inline constexpr std::uint32_t kStationsPerAgv = 40, kMostStationsOfFleet = 5000;
 
@@ -55,8 +57,8 @@ std::uint32_t plant_stations(std::uint32_t fleet_size);
 
 // Draws a plant: zones of storage aisles inside a ring of two one-way lanes, with docks, buffer lanes and charger rows
 // outside the ring, and corridors between the zones. It has `wish.stations` stations, to 10 %. Strongly connected by
-// construction: both lanes of a ring are circles, every mouth leads to the inner lane and back, and one mouth of each
-// zone at least leads to the outer lane and back. Plants below 80 stations have one lane.
+// construction: both lanes of a ring are circles, every mouth of an aisle leads to the inner lane and back, and one of
+// each zone at least leads to the outer lane and back. Plants below 80 stations have one lane.
 Layout make_plant(Draws& draws, const PlantWish& wish);
 Layout make_plant(Draws& draws, Range range);
 

@@ -52,6 +52,11 @@ const QuickestWays& Timetable::from(StationId station) {
   return ways;
 }
 
+void Timetable::forget() {
+  for (auto& ways : ways_) ways.arrivals = {};
+  searches_ = 0;
+}
+
 Duration Timetable::turn(std::uint32_t before, std::uint32_t after) const {
   Duration& known = turns_[hops_[before].first_turn + hops_[after].place];
   if (known < Duration::zero()) known = duration_of_turn(before, after);
@@ -135,6 +140,7 @@ bool Timetable::follow(QuickestWays& ways) {
   later_.clear();
   for (const auto lane : map_.lanes_from(end)) later_.push_back(there + turn(followed.back(), lane));
   ways.arrivals = beyond.arrivals;
+  ++searches_;
   for (auto& arrival : ways.arrivals) {
     if (arrival.lane == kNone) continue;
     const Duration shift = later_[hops_[arrival.first].place];
@@ -150,6 +156,7 @@ bool Timetable::follow(QuickestWays& ways) {
 // In whole nanoseconds.
 void Timetable::search(QuickestWays& ways) {
   ways.arrivals.assign(map_.station_count(), {});
+  ++searches_;
   open_->rewind();
   const auto hop = [&](std::uint32_t lane) { return std::pair(hops_[lane].to, hops_[lane].drive.count()); };
   search_ways(map_, ways.from, *open_, reached_, hop, [&](StationId station) {

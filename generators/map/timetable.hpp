@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -40,6 +41,11 @@ class Timetable {
 
   const QuickestWays& from(StationId station);
 
+  // How many arrivals it keeps, of 32 bytes each.
+  std::size_t kept() const { return searches_ * ways_.size(); }
+  // Frees them. What from() has returned is gone; later answers are the same.
+  void forget();
+
  private:
   void search(QuickestWays& ways);
   void find_ways_on();
@@ -64,6 +70,7 @@ class Timetable {
   std::vector<std::uint32_t> onward_;
   mutable std::vector<Duration> turns_;  // by lane, and place of the next one; negative: not asked for yet
   std::vector<QuickestWays> ways_;       // by station; empty: not asked for yet
+  std::size_t searches_ = 0;             // those of them that are not empty
 
   // Memory of a search, kept for the next.
   std::vector<ReachedStation<std::int64_t>> reached_;  // by station, in ns

@@ -19,6 +19,9 @@ constexpr Duration kTie = std::chrono::milliseconds(1);
 // start both AGVs anywhere and look at more places, at all places from which AGVs may meet head-on. This is necessary
 // if all places to wait are dead ends off one-way lanes.
 constexpr std::uint32_t kTries = 64, kHastyTries = 3, kHastyTriesForTies = 7, kFewOthers = 8, kManyOthers = 24;
+// On floors of more stations, also draws for head-on meetings look at kManyOthers: ways from all stations to all others
+// take 32 bytes for each pair of stations. Larger floors need more memory and time.
+constexpr std::size_t kLargeFloor = 2'000, kMostKept = kLargeFloor * kLargeFloor;
 
 // A start for the second AGV at which the two meet. Its quickest way to `through` ends with the lane on which, or after
 // which, they meet.
@@ -61,7 +64,8 @@ class PairMaker {
       const bool hasty = i < (ties_ ? kHastyTriesForTies : kHastyTries);
       if (ties_ && best && !hasty) break;  // the rest of the difference is removed by a later start
       const bool head_on = best && !ties_;
-      const std::size_t looked_at = hasty && !ties_ ? kFewOthers : head_on ? anywhere_.size() : kManyOthers;
+      const bool all = head_on && map_.station_count() <= kLargeFloor;
+      const std::size_t looked_at = hasty && !ties_ ? kFewOthers : all ? anywhere_.size() : kManyOthers;
       const auto found = draw(draws, hasty ? starts_ : anywhere_, looked_at, head_on);
       if (!found || (best && !is_better(found->meeting, best->meeting))) continue;
       best = found;
@@ -92,6 +96,7 @@ class PairMaker {
                             bool head_on) {
     const auto start = starts[draws.below(static_cast<std::uint32_t>(starts.size()))];
     const auto goal = goals_[one_][draws.below(static_cast<std::uint32_t>(goals_[one_].size()))];
+    if (timetable_.kept() > kMostKept) timetable_.forget();
     const auto& ways = timetable_.from(start);
     if (start == goal || !ways.at(goal).unique || !may_go(ways, goal, one_) || !has_room(start, goal, std::nullopt))
       return std::nullopt;

@@ -139,6 +139,10 @@ class WorldMaker {
     std::ranges::sort(placed_);
     return placed_.empty() ? 0 : static_cast<std::uint32_t>(placed_[(placed_.size() - 1) / 2]);
   }
+  // With more than one AGV for two stations, a fleet may stand still.
+  std::uint32_t fleet_that_moves() const {
+    return std::max(1U, static_cast<std::uint32_t>(scenario_.map->station_count() / 2));
+  }
 
   RejectionCounts counts;
 
@@ -271,11 +275,14 @@ MadeWorld make_world(const WorldSpec& spec, std::uint64_t seed, std::uint32_t he
   const std::uint32_t fits = std::min(maker.fleet_that_fits(), spec.fleet_size);
   const std::string found = fmt::format("cannot place {} AGVs on {} in {} draws ({})", spec.fleet_size,
                                         in_quotes(called(spec)), kAttempts, rejection_text(maker.counts));
-  if (fits == 0 || fits == spec.fleet_size)  // there is room: something else is wrong
+  if (fits == 0 || fits == spec.fleet_size)  // something else is wrong
     throw NoRoom(found + "; ask for fewer or for a larger layout", 0);
-  throw NoRoom(fmt::format("{}; {} fit on {}: ask for {} or fewer, or for a larger layout", found, fits,
-                           in_quotes(called(spec)), fits),
-               fits);
+  const std::uint32_t moves = std::min(fits, maker.fleet_that_moves());
+  throw NoRoom(
+      fmt::format("{}; {} fit on {}{}: ask for {} or fewer, or for a larger layout", found, fits,
+                  in_quotes(called(spec)),
+                  moves < fits ? ", but with more than one for two stations a fleet may stand still" : "", moves),
+      fits);
 }
 
 bool shapes_world(Stream stream) {

@@ -52,7 +52,9 @@ struct WorldSpec {
 // Thrown if 32 draws of a world leave no room for the fleet.
 class NoRoom : public InputError {
  public:
-  NoRoom(std::string_view what, std::uint32_t that_fit) : InputError("fleet_size", what), fits(that_fit) {}
+  NoRoom(std::string_view what, std::uint32_t that_fit)
+      : InputError("fleet_size", what), sentence(what), fits(that_fit) {}
+  std::string sentence;
   std::uint32_t fits;  // the number of AGVs for which there is room; 0: not known
 };
 

@@ -72,6 +72,41 @@ TEST_F(FleetRules, AFleetThatFillsTheFloorIsToldBeforeTheCampaign) {
   EXPECT_THAT(told("check c.toml", 10), Not(HasSubstr("stand still")));
 }
 
+TEST_F(FleetRules, APlantTooSmallForItsKnobIsToldBeforeTheCampaign) {
+  const auto told = [&](const std::string& layout, int fleet) {
+    write("c.toml", "horizon_s = 1\nreplicates = 1\n[factors]\nagents = [\"reckless\"]\nlayouts = [\"" + layout +
+                        "\"]\nfleet_sizes = [" + std::to_string(fleet) + "]\n");
+    return run("check c.toml");
+  };
+  EXPECT_THAT(told("plant/four-way", 1).err,
+              HasSubstr("warning: \"plant/four-way\": a plant for 1 AGVs has 38 stations and cannot contain it; name a "
+                        "size, as in \"plant/four-way/80\"\n"));
+  EXPECT_THAT(told("plant/four-way", 2).err, Not(HasSubstr("cannot contain")));
+  EXPECT_THAT(told("plant/four-way/80", 1).err, Not(HasSubstr("cannot contain")));
+  const auto refused = told("plant/four-way/40", 1);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("c.toml:5:12: "));
+  EXPECT_THAT(refused.err, HasSubstr("a plant of 40 stations cannot contain \"four-way\"; ask for 80 or more"));
+}
+
+// The number that fits is one with which the fleet can move.
+TEST_F(FleetRules, AFleetWithoutRoomIsRefusedAtItsPlace) {
+  write("c.toml",
+        "horizon_s = 1\nreplicates = 1\n[factors]\nagents = [\"reckless\"]\nlayouts = [\"plant/20\"]\n"
+        "fleet_sizes = [2, 30]\n");
+  for (const char* verb : {"check c.toml", "plan c.toml", "sensitivity c.toml --runs 1 --agent asks-once",
+                           "run c.toml --db c.db", "run c.toml --shard 1/1 --out shards"}) {
+    const auto refused = run(verb);
+    EXPECT_EQ(refused.exit_code, 2) << verb;
+    EXPECT_THAT(refused.err, HasSubstr("c.toml:6:15: factors.fleet_sizes: cannot place 30 AGVs on \"plant/20\""))
+        << verb;
+    EXPECT_THAT(refused.err,
+                HasSubstr("19 fit on \"plant/20\", but with more than one for two stations a fleet may stand "
+                          "still: ask for 10 or fewer, or for a larger layout\n"))
+        << verb;
+  }
+}
+
 // The first floor that is drawn has room for the fleet, most of the others have not.
 TEST_F(FleetRules, AFleetForWhichOtherFloorsHaveNoRoomIsToldBeforeTheCampaign) {
   write("c.toml",

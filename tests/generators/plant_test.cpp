@@ -1,6 +1,7 @@
 // Plants of all sizes: what every plant keeps, and what each knob changes. Measured without the code that draws them.
 #include "generators/families/plant.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/outcome/probe_names.hpp"
 #include "generators/families/layout_family.hpp"
+#include "generators/formats/layout_file.hpp"
 #include "generators/map/layout_check.hpp"
 #include "independent_check.hpp"
 
@@ -18,10 +20,11 @@ namespace {
 
 constexpr std::uint64_t kSeeds = 12;
 
-Layout drawn(std::string_view name, std::uint64_t seed) {
+Layout drawn(const FamilyRange& choice, std::uint64_t seed) {
   Draws draws(stream_key(seed, Stream::Layout));
-  return draw_layout(family_range(name), draws);
+  return draw_layout(choice, draws);
 }
+Layout drawn(std::string_view name, std::uint64_t seed) { return drawn(family_range(name), seed); }
 
 std::vector<std::string> knobs() {
   std::vector<std::string> names{"plant", "plant/stress"};
@@ -73,7 +76,9 @@ TEST_P(PlantOfSize, IsSoundStronglyConnectedAndHasTheStationsAskedFor) {
   const std::uint32_t size = GetParam();
   for (const std::string& knob : knobs()) {
     for (std::uint64_t seed = 0; seed < (size < 1000 ? kSeeds : 2); ++seed) {
-      const Layout layout = drawn(knob + "/" + std::to_string(size), seed);
+      FamilyRange choice = family_range(knob);
+      choice.stations = size;  // of a fleet, also if it is too small for the knob
+      const Layout layout = drawn(choice, seed);
       SCOPED_TRACE(knob + " " + std::to_string(seed));
       ASSERT_TRUE(problems_of(layout).empty()) << problems_of(layout)[0].sentence;
       EXPECT_GE(layout.stations.size(), size - size / 10);
@@ -223,6 +228,33 @@ TEST(Plant, BelongsToAFleetUnlessASizeIsNamed) {
   EXPECT_EQ(plant_stations(4'000'000'000), kMostStationsOfFleet);
 }
 
+// With the fewest stations, some of these plants differ from the one without the knob; with one fewer, none may.
+TEST(Plant, AKnobIsRefusedBelowTheSizeAtWhichItDoesSomething) {
+  const auto differs = [](Provocation provocation, std::uint32_t stations) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      Draws plain(seed), turned(seed);
+      Layout with = make_plant(turned, {Range::Normal, stations, provocation});
+      Layout without = make_plant(plain, {Range::Normal, stations, std::nullopt});
+      with.name = without.name = "";
+      if (to_text(with) != to_text(without)) return true;
+    }
+    return false;
+  };
+  for (const std::string_view word : kWordsOf<Provocation>) {
+    const auto provocation = value_of<Provocation>(word).value();
+    const std::uint32_t fewest = fewest_stations(provocation);
+    EXPECT_TRUE(differs(provocation, fewest)) << word;
+    EXPECT_EQ(family_range(fmt::format("plant/{}/{}", word, fewest)).stations, fewest);
+    if (fewest == kFewestStations) continue;
+    if (provocation != Provocation::OverhangPass) {  // its sharper corners are there, but no lane beside them
+      EXPECT_FALSE(differs(provocation, fewest - 1)) << word;
+    }
+    for (const auto& name :
+         {fmt::format("plant/{}/{}", word, fewest - 1), fmt::format("plant/{}/{}", fewest - 1, word)})
+      EXPECT_THROW(family_range(name), InputError) << name;
+  }
+}
+
 TEST(Plant, NamesSayRangeOrProvocationAndSizeInAnyOrder) {
   const FamilyRange choice = family_range("plant/2000/four-way");
   EXPECT_EQ(choice.stations, 2000U);
@@ -238,7 +270,8 @@ TEST(Plant, NamesSayRangeOrProvocationAndSizeInAnyOrder) {
   };
   EXPECT_NE(error_of("plant/tigth-gap").find("did you mean \"tight-gap\""), std::string::npos);
   EXPECT_NE(error_of("plant/19").find("ask for 20 to 10000"), std::string::npos);
-  EXPECT_NE(error_of("plant/10001").find("ask for 20 to 10000"), std::string::npos);
+  for (const char* size : {"plant/10001", "plant/99999999999", "plant/stress/99999999999999999999999"})
+    EXPECT_NE(error_of(size).find("ask for 20 to 10000"), std::string::npos) << error_of(size);
   for (const char* wrong :
        {"plant/", "plant/20/30", "plant/stress/tight-gap", "plant/20x", "plant/-20", "plant//20", "plant/040"})
     EXPECT_NE(error_of(wrong).find("plant has no range"), std::string::npos) << wrong;

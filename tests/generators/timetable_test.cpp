@@ -107,5 +107,28 @@ TEST(Timetable, KnowsTheQuickestWaysInWhateverOrderItIsAsked) {
   }
 }
 
+TEST(Timetable, AnswersTheSameAfterItHasForgotten) {
+  const VehicleType type;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Draws draws(seed);
+    const LogicalMap map(ring(draws));
+    Timetable once(map, type), often(map, type);
+    for (const auto s : draw_some(draws, map.station_count(), map.station_count())) {
+      often.forget();
+      EXPECT_EQ(often.kept(), 0U);
+      const auto &a = once.from(StationId{s}), &b = often.from(StationId{s});
+      EXPECT_GE(often.kept(), map.station_count());
+      for (std::size_t to = 0; to < map.station_count(); ++to) {
+        const auto &one = a.at(StationId{to}), &other = b.at(StationId{to});
+        EXPECT_EQ(std::tuple(one.drives_off, one.arrives, one.lane, one.first, one.unique),
+                  std::tuple(other.drives_off, other.arrives, other.lane, other.first, other.unique))
+            << seed << ": " << s << " to " << to;
+      }
+    }
+    EXPECT_LE(once.kept(), map.station_count() * map.station_count());
+    if (HasFailure()) return;
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof

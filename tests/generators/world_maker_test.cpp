@@ -225,22 +225,27 @@ TEST(WorldRefusals, NameFieldAndRemedy) {
   EXPECT_NE(refusal(time).find("horizon"), std::string::npos);
   EXPECT_NE(refusal(family).find("known: aisle-grid"), std::string::npos) << refusal(family);
   EXPECT_NE(refusal(crowd).find("cannot place 1000 AGVs"), std::string::npos) << refusal(crowd);
-  EXPECT_NE(refusal(narrow).find("2 fit on \"pair\": ask for 2 or fewer"), std::string::npos) << refusal(narrow);
+  EXPECT_NE(refusal(narrow).find("2 fit on \"pair\", but with more than one for two "
+                                 "stations a fleet may stand still: ask for 1 or fewer"),
+            std::string::npos)
+      << refusal(narrow);
   EXPECT_NE(refusal(vehicle).find("width_m"), std::string::npos) << refusal(vehicle);
 }
 
-// The number in the refusal fits in other worlds, too, and it is not far too small: twice as many do not.
+// The numbers in the refusal fit in other worlds, too, and how many fit is not far too small: twice as many do not.
 TEST(WorldRefusals, SayHowManyAgvsFit) {
   for (const char* layout : {"corridor-sidings", "loop-spurs", "plant/60", "plant/stress/200"}) {
     WorldSpec spec;
     spec.layout = std::string(layout);
     spec.fleet_size = 400;
     const std::string text = refusal(spec);
-    const auto at = text.find("ask for ");
+    const auto at = text.find("ask for "), before = text.find("; ");
     ASSERT_NE(at, std::string::npos) << text;
     EXPECT_NE(text.find("fit on \"" + std::string(layout).substr(0, 5)), std::string::npos) << text;
-    const auto fits = static_cast<std::uint32_t>(std::stoul(text.substr(at + 8)));
-    ASSERT_GE(fits, 5U) << text;
+    const auto fits = static_cast<std::uint32_t>(std::stoul(text.substr(before + 2))),
+               wise = static_cast<std::uint32_t>(std::stoul(text.substr(at + 8)));
+    ASSERT_GE(wise, 5U) << text;
+    ASSERT_LE(wise, fits) << text;
     RejectionCounts counts;
     spec.fleet_size = fits;
     for (std::uint64_t seed = 100; seed < 120; ++seed) {

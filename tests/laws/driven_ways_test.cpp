@@ -148,7 +148,7 @@ TEST_P(WaysOfFamily, HavePointsWhereTheirCurvesHaveThem) {
 
 INSTANTIATE_TEST_SUITE_P(All, WaysOfFamily,
                          testing::Values("aisle-grid", "loop-spurs/stress", "random-planar/stress", "fishbone",
-                                         "dense-crossing", "plant/overhang-pass/40", "plant/tight-gap/40"));
+                                         "dense-crossing", "plant/overhang-pass/80", "plant/tight-gap/40"));
 
 TEST(DrivenWays, CountEveryMeetingOfTheirDrives) {
   const auto map = map_of("aisle-grid", 1);
