@@ -7,13 +7,13 @@
 
 namespace fleetproof {
 
-// A kind of thing in a file of another program that the import does not use. In its sentence {0} is how many there are,
-// and {1} the names of the first.
+// A kind of thing in a file of another program that the import does not use, or changes. In its sentence {0} is how
+// many there are, and {1} the names of the first.
 struct Topic {
   std::string_view sentence;
 };
 
-// What an import does not use, by topic. A topic is identified by its address.
+// What an import does not use or changes, by topic. A topic is identified by its address.
 class LeftOutThings {
  public:
   // `place` is "file:line". A name counts once in each topic.

@@ -16,6 +16,7 @@
 #include "core/base/tolerances.hpp"
 #include "core/scenario/vehicle_fields.hpp"
 #include "generators/formats/heading.hpp"
+#include "generators/formats/left_out.hpp"
 #include "generators/formats/lif_actions.hpp"
 #include "generators/formats/lif_corridor.hpp"
 #include "generators/formats/lif_layouts.hpp"
@@ -35,6 +36,20 @@
 
 namespace fleetproof {
 namespace {
+
+constexpr Topic kElsewhere{"{0} edges lead to another layout and are left out ({1})"};
+constexpr Topic kForNobody{
+    "no AGV may drive {0} edges ({1}): no type of vehicle has a rule at them and at both of their nodes, with a load "
+    "or "
+    "without one; they are left out"};
+constexpr Topic kTwoLimits{
+    "{0} edges have two speed limits, \"maxSpeed\" and \"maximumSpeed\" ({1}); the lower counts"};
+constexpr Topic kNodeElsewhere{"{0} nodes of stations are in another layout and are left out ({1})"};
+constexpr Topic kTakenForStorage{
+    "no action says what {0} nodes are for, which belong to stations ({1}); they are taken to be for storage"};
+constexpr Topic kWithoutTransfer{
+    "no action says what {0} nodes are for, which belong to stations ({1}); they forbid to pick or drop, so AGVs only "
+    "pass"};
 
 class LifReader {
  public:
@@ -59,6 +74,7 @@ class LifReader {
     if (const auto stations = layout.find("stations")) {
       for (const auto& station : stations->items()) note_station(station);
     }
+    changed_.tell(warnings_);
     for (const auto& [index, purposes] : purposes_.stated) layout_.stations[index].purposes = purposes;
     note_left_out(JsonReader(root_, source_), layout, choice_.purposes, warnings_);
     note_types(layout);
@@ -171,17 +187,13 @@ class LifReader {
     Segment segment;
     segment.name = name_in(edge.at("edgeId"), ids_.edges);
     const auto from = station_in(edge.at("startNodeId")), to = station_in(edge.at("endNodeId"));
-    if (!from || !to)
-      return warn(edge, fmt::format("edge {} leads to another layout and is left out", in_quotes(segment.name)));
+    if (!from || !to) return changed_.add(kElsewhere, edge.place(), segment.name);
     segment.from = *from;
     segment.to = *to;
     const auto types = rules_by_type(edge);
     const auto acts = purposes_of_actions(types, choice_.purposes);
     auto permissions = types_.permissions(edge, nodes_[from->index()], nodes_[to->index()]);
-    if (!permissions)
-      return warn(edge, fmt::format("no AGV may drive edge {}: no type of vehicle has a rule at it and at both of its "
-                                    "nodes, with a load or without one; it is left out",
-                                    in_quotes(segment.name)));
+    if (!permissions) return changed_.add(kForNobody, edge.place(), segment.name);
     add_purposes(to->index(), acts);
     if (LifSpots::stays(edge, layout_.stations[from->index()].position_m, layout_.stations[to->index()].position_m)) {
       spots_.add(edge, *from, *to, permissions->empty());
@@ -223,8 +235,7 @@ class LifReader {
         if (!(limit->number() >= kSlowest && limit->number() <= kFastest))
           limit->refuse(fmt::format("expected a speed of {} to {} m/s", kSlowest, kFastest));
         if (std::isfinite(limits_mps.back()) && limits_mps.back() != limit->number())
-          warn(*limit, fmt::format("edge {} has two speed limits, \"maxSpeed\" and \"maximumSpeed\"; the lower counts",
-                                   in_quotes(segment.name)));
+          changed_.add(kTwoLimits, limit->place(), segment.name);
         limits_mps.back() = std::min(limits_mps.back(), limit->number());
       }
     }
@@ -235,13 +246,11 @@ class LifReader {
   }
 
   void note_station(const JsonReader& station) {
-    std::string name;
-    if (const auto id = station.find("stationId"); id && !id->text().empty()) name = name_in(*id, ids_.stations);
+    if (const auto id = station.find("stationId"); id && !id->text().empty()) name_in(*id, ids_.stations);
     for (const auto& id : station.at("interactionNodeIds").items()) {
       const auto node = station_in(id);
       if (!node) {
-        warn(id, fmt::format("node {} of station {} is in another layout and is left out", in_quotes(id.text()),
-                             in_quotes(name)));
+        changed_.add(kNodeElsewhere, id.place(), id.text());
         continue;
       }
       const auto index = node->index();
@@ -249,9 +258,7 @@ class LifReader {
       if (is_known || layout_.stations[index].purposes != Purposes(Purpose::Routing)) continue;
       const bool may_transfer = !forbid_transfers(rules_by_type(nodes_[index]));
       if (may_transfer) add_purposes(index, Purpose::Storage);
-      warn(id, fmt::format(
-                   "no action says what node {} is for, which belongs to a station; {}", in_quotes(id.text()),
-                   may_transfer ? "it is taken to be for storage" : "it forbids to pick or drop, so AGVs only pass"));
+      changed_.add(may_transfer ? kTakenForStorage : kWithoutTransfer, id.place(), id.text());
     }
   }
 
@@ -300,6 +307,7 @@ class LifReader {
     std::map<std::size_t, Purposes> stated;  // by station: given in the description of the station
     std::set<std::size_t> by_actions;        // stations of which actions say what they are for
   } purposes_;
+  LeftOutThings changed_;
   LifTypes types_{{}, {}};
   struct {
     LifTrajectories trajectories;

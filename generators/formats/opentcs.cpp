@@ -15,6 +15,7 @@
 #include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
 #include "generators/formats/heading.hpp"
+#include "generators/formats/left_out.hpp"
 #include "generators/formats/opentcs_drawing.hpp"
 #include "generators/formats/opentcs_left_out.hpp"
 #include "generators/formats/opentcs_positions.hpp"
@@ -32,6 +33,18 @@ namespace {
 constexpr double kNewestVersion = 7.0;
 constexpr double kLargestAngle_deg = 1e5;
 constexpr double kToleratedLength = 0.02;  // share by which a stored length may be wrong
+
+constexpr Topic kSpelledTwice{
+    "{0} points have a coordinate twice, as positionX or Y and as xPosition or yPosition, with different values ({1}); "
+    "positionX and positionY count"};
+constexpr Topic kReportPosition{"{0} report positions become stations at which AGVs can stop ({1})"};
+constexpr Topic kLockedPath{"{0} locked paths are left out ({1})"};
+constexpr Topic kWithoutVelocity{"{0} paths are left out ({1}): both of their velocities are 0"};
+constexpr Topic kLockedLocation{"{0} locations are locked ({1}); points linked to them keep their purposes"};
+constexpr Topic kUnlinkedLocation{"{0} locations are linked to no point ({1}); no AGV can serve them"};
+constexpr Topic kUnknownOperation{
+    "links of {0} locations allow no operation that is known here ({1}); their points keep their purposes"};
+constexpr Topic kEmptyBlock{"{0} blocks hold no path that is read ({1}); they are left out"};
 
 class ModelReader {
  public:
@@ -52,11 +65,6 @@ class ModelReader {
     }
     drawing_ = read_drawing(xml_, model, warnings_);
     for (const auto point : model.children("point")) add_point(point);
-    if (!spelled_twice_.empty())
-      warn(model,
-           fmt::format("{} points have a coordinate twice, as positionX or Y and as xPosition or yPosition, with "
-                       "different values ({}); positionX and positionY count",
-                       spelled_twice_.size(), name_list({spelled_twice_.begin(), spelled_twice_.end()})));
     if (layout_.stations.empty()) xml_.refuse(model, "the model is empty: it has no <point>");
     for (const auto path : model.children("path")) add_path(path);
     if (layout_.segments.empty()) xml_.refuse(model, "the model has no <path> that may be driven; add or unlock some");
@@ -65,6 +73,7 @@ class ModelReader {
     for (const auto location : model.children("location")) add_location(location);
     note_operations(model);
     for (const auto block : model.children("block")) add_block(block);
+    changed_.tell(warnings_);
     fit_floor(layout_, kFloorMargin_m);
     refuse_problems(model);
     compare_lengths(model);
@@ -118,7 +127,8 @@ class ModelReader {
   double coordinate_mm(const pugi::xml_node& point, const char* name, const char* old_name) {
     const bool has_old = xml_.has(point, old_name), has_new = xml_.has(point, name);
     const double value_mm = xml_.number(point, has_old && !has_new ? old_name : name);
-    if (has_old && has_new && xml_.number(point, old_name) != value_mm) spelled_twice_.insert(xml_.text(point, "name"));
+    if (has_old && has_new && xml_.number(point, old_name) != value_mm)
+      changed_.add(kSpelledTwice, xml_.place(point), xml_.text(point, "name"));
     return value_mm;
   }
 
@@ -135,8 +145,7 @@ class ModelReader {
     if (!type.empty() && type != "PARK_POSITION" && type != "HALT_POSITION" && type != "REPORT_POSITION")
       warn(point, fmt::format("type {} of point {} is unknown here; it is taken as HALT_POSITION", in_quotes(type),
                               in_quotes(station.name)));
-    if (type == "REPORT_POSITION")
-      warn(point, fmt::format("report position {} becomes a station at which AGVs can stop", in_quotes(station.name)));
+    if (type == "REPORT_POSITION") changed_.add(kReportPosition, xml_.place(point), station.name);
     stations_.emplace(station.name, StationId{layout_.stations.size()});
     layout_.stations.push_back(std::move(station));
   }
@@ -183,13 +192,11 @@ class ModelReader {
     segment.name = name_of_new(path);
     segment.from = station_in(path, "sourcePoint");
     segment.to = station_in(path, "destinationPoint");
-    if (xml_.truth(path, "locked"))
-      return warn(path, fmt::format("locked path {} is left out", in_quotes(segment.name)));
+    if (xml_.truth(path, "locked")) return changed_.add(kLockedPath, xml_.place(path), segment.name);
     if (segment.from == segment.to)
       xml_.refuse(path, fmt::format("path {} leads from a point to itself; leave it out", in_quotes(segment.name)));
     shapes_.bend(drawing_.paths.at(segment.name), layout_, segment);
-    if (!speeds_.say_travel(path, segment))
-      return warn(path, fmt::format("path {} is left out: both of its velocities are 0", in_quotes(segment.name)));
+    if (!speeds_.say_travel(path, segment)) return changed_.add(kWithoutVelocity, xml_.place(path), segment.name);
     layout_.segments.push_back(std::move(segment));
     paths_.push_back(path);
   }
@@ -256,19 +263,14 @@ class ModelReader {
                                         in_quotes(name), in_quotes(type), remedy(type, known)));
     }
     const bool locked = xml_.truth(location, "locked");
-    if (locked)
-      warn(location, fmt::format("location {} is locked; points linked to it keep their purposes", in_quotes(name)));
-    if (!location.child("link"))
-      warn(location, fmt::format("location {} is linked to no point; no AGV can serve it", in_quotes(name)));
+    if (locked) changed_.add(kLockedLocation, xml_.place(location), name);
+    if (!location.child("link")) changed_.add(kUnlinkedLocation, xml_.place(location), name);
     for (const auto link : location.children("link")) {
       auto& purposes = layout_.stations[station_in(link, "point").index()].purposes;
       const auto words = words_of(found->second, link.child("allowedOperation") ? link : found->second);
       const auto allowed = purpose_of_link(words_of(found->second, found->second), words, choice_.purposes);
       if (!locked) purposes = purposes | allowed.purposes;
-      if (allowed.source == kNothingAllowed)
-        warn(link, fmt::format("the link of location {} to point {} allows no operation that is known here ({}); the "
-                               "point keeps its purposes",
-                               in_quotes(name), in_quotes(xml_.text(link, "point")), name_list(words.operations)));
+      if (allowed.source == kNothingAllowed) changed_.add(kUnknownOperation, xml_.place(link), name);
     }
   }
 
@@ -290,7 +292,7 @@ class ModelReader {
       holds_one = true;
     }
     if (holds_one) return layout_.blocks.push_back(std::move(made));
-    warn(block, fmt::format("block {} holds no path that is read; it is left out", in_quotes(made.name)));
+    changed_.add(kEmptyBlock, xml_.place(block), made.name);
   }
 
   void require_member(const pugi::xml_node& member) {
@@ -355,13 +357,13 @@ class ModelReader {
   std::vector<std::string>& warnings_;
   const ReadChoice& choice_;
   OpenTcsDrawing drawing_;
+  LeftOutThings changed_;
   OpenTcsShapes shapes_;
   OpenTcsSpeeds speeds_{xml_};
   Layout layout_;
   std::vector<pugi::xml_node> paths_;                   // by segment, as long as no two of them are merged
   std::vector<std::string> headed_;                     // names of points
   std::map<std::string, std::set<std::string>> taken_;  // names, by element
-  std::set<std::string> spelled_twice_;                 // names of points
   std::set<std::string_view> members_;                  // names of all that a block may hold
   std::map<std::string, StationId> stations_;
   std::map<std::string, pugi::xml_node> location_types_;

@@ -65,6 +65,9 @@ class LevelReader {
                                   ? ""
                                   : fmt::format("; {} more names of theirs are left out ({})", told_.other_names.size(),
                                                 name_list(told_.other_names))));
+    if (!told_.in_lifts.empty())
+      warn(level, fmt::format("{} vertices lie in lifts ({}); here they are part of the floor", told_.in_lifts.size(),
+                              name_list(told_.in_lifts)));
     if (told_.other_graphs > 0) warn(lanes, fmt::format("{} lanes of other graphs are left out", told_.other_graphs));
     note_left_out(yaml_, root_, level, read_, warnings_);
     fit_floor(layout_, kFloorMargin_m);
@@ -224,8 +227,7 @@ class LevelReader {
     give(is_set(words, "is_parking_spot"), Purpose::Parking);
     give(names_something(words, "pickup_dispenser"), Purpose::Storage);
     give(names_something(words, "dropoff_ingestor"), Purpose::Storage);
-    if (names_something(words, "lift_cabin") || names_something(words, "lift"))
-      warn(vertex, fmt::format("vertex {} lies in a lift; here it is part of the floor", in_quotes(station.name)));
+    if (names_something(words, "lift_cabin") || names_something(words, "lift")) told_.in_lifts.push_back(station.name);
   }
 
   bool is_of_other_graph(const YAML::Node& graph) const {
@@ -346,6 +348,7 @@ class LevelReader {
     std::vector<std::string> joined, other_names;  // names of stations, and of vertices that are part of one
     std::set<std::string> graphs;                  // other ones, by number
     std::vector<std::string> other_end_back;       // names of segments
+    std::vector<std::string> in_lifts;             // names of stations
   } told_;
 };
 

@@ -182,8 +182,8 @@ TEST(LifThings, AStationWhereAnAgvMustNotDropIsNotTakenForStorage) {
     for (const auto& sentence : all) joined += sentence + "\n";
     return joined;
   };
-  EXPECT_NE(sentences_with("drop").find("it forbids to pick or drop, so AGVs only pass"), std::string::npos);
-  EXPECT_NE(sentences_with("dance").find("it is taken to be for storage"), std::string::npos);
+  EXPECT_NE(sentences_with("drop").find("they forbid to pick or drop, so AGVs only pass"), std::string::npos);
+  EXPECT_NE(sentences_with("dance").find("they are taken to be for storage"), std::string::npos);
 }
 
 TEST(LifThings, AVersionOfTheFutureAndNotesOfOriginsAreNamed) {

@@ -108,7 +108,7 @@ TEST(LifRules, OneRuleCanBeForSeveralTypes) {
   ASSERT_EQ(plant.layout.segments.size(), 2U);
   EXPECT_THAT(permissions(plant, 0), ElementsAre("tug:any"));
   EXPECT_THAT(permissions(plant, 1), IsEmpty());
-  EXPECT_THAT(plant.sentences, HasSubstr("no AGV may drive edge \"cb\"")) << "a rule for no type is for nobody";
+  EXPECT_THAT(plant.sentences, HasSubstr("no AGV may drive 1 edges (\"cb\")")) << "a rule for no type is for nobody";
 
   const auto robot = [](const std::string& manufacturer) {
     return R"({"mobileRobotTypes": [{"manufacturer": ")" + manufacturer + R"(", "seriesName": "A"}]})";
@@ -153,7 +153,7 @@ TEST(LifRules, ANodeMayRestrictLoads) {
   EXPECT_THAT(permissions(plant, 2), ElementsAre(":empty"));
   const std::string loaded = R"({"vehicleTypeId": "fork", "loadRestriction": {"unloaded": false, "loaded": true}})";
   EXPECT_THAT(import({.a = kFork, .b = kFork, .c = empty, .ab = kFork, .bc = loaded, .cb = kFork}).sentences,
-              HasSubstr("no AGV may drive edge \"bc\""));
+              HasSubstr("no AGV may drive 1 edges (\"bc\")"));
 }
 
 // As in LIF 2.0: what must be done, what can be done, and what must not be done.
@@ -174,7 +174,7 @@ TEST(LifRules, ThreeListsOfActionsSayWhatANodeIsFor) {
 TEST(LifRules, AnEdgeForNobodyIsLeftOut) {
   const auto plant = import({kBoth, kBoth, kFork, kBoth, kTug, kFork});
   EXPECT_EQ(plant.layout.segments.size(), 2U);
-  EXPECT_THAT(plant.sentences, HasSubstr("l.json:5: no AGV may drive edge \"bc\""));
+  EXPECT_THAT(plant.sentences, HasSubstr("l.json:5: no AGV may drive 1 edges (\"bc\")"));
 }
 
 TEST(LifRules, LoadsAreByType) {
@@ -360,7 +360,7 @@ TEST(LifLevels, NodesOfAnotherLayoutAreNamed) {
   std::vector<std::string> warnings;
   parse_lif(text, "l.json", warnings, {TwinPaths::Merge, {}, "hall"});
   EXPECT_THAT(fmt::format("{}", fmt::join(warnings, "\n")),
-              HasSubstr("node \"c\" of station \"S\" is in another layout and is left out"));
+              HasSubstr("1 nodes of stations are in another layout and are left out (\"c\")"));
 }
 
 TEST(LifLevels, LayoutsBesideOriginsCountToo) {

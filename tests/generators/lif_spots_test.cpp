@@ -197,7 +197,7 @@ TEST(LifSpots, TypesAreAskedForAtTheNodesOfTheFile) {
 TEST(LifSpots, AnEdgeForNobodyJoinsNothing) {
   const auto plant = import({kFork, kFork, R"({"vehicleTypeId": "tug"})", kBoth, kFork, kFork, kBoth});
   EXPECT_THAT(stations(plant), ElementsAre("a", "b", "c", "d"));
-  EXPECT_THAT(plant.sentences, HasSubstr("l.json:6: no AGV may drive edge \"bc\""));
+  EXPECT_THAT(plant.sentences, HasSubstr("l.json:6: no AGV may drive 1 edges (\"bc\")"));
 }
 
 TEST(LifSpots, ATurnedNodeOfAStationNeedsNoPurposeOfItsOwn) {
@@ -213,7 +213,10 @@ TEST(LifSpots, AWordOfTheUserIsNoGap) {
                     .stations = R"({"stationId": "S", "interactionNodeIds": ["a"]})"};
   const auto guessed = import(plant);
   EXPECT_TRUE(guessed.layout.stations[0].purposes.has(Purpose::Storage));
-  EXPECT_THAT(guessed.sentences, HasSubstr("no action says what node \"a\" is for, which belongs to a station"));
+  EXPECT_THAT(
+      guessed.sentences,
+      HasSubstr(
+          "no action says what 1 nodes are for, which belong to stations (\"a\"); they are taken to be for storage"));
   const auto told = import(plant, purpose_words_of("wait=routing", "--purposes"));
   EXPECT_EQ(told.layout.stations[0].purposes, Purpose::Routing);
   EXPECT_THAT(told.sentences, Not(HasSubstr("what node")));

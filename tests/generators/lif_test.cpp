@@ -232,7 +232,7 @@ TEST(Lif, OfTwoSpeedLimitsTheLowerCountsAndIsTold) {
     const auto read = import(sample(both));
     EXPECT_EQ(read.layout.segments[0].speed_limit_mps, 0.8);
     ASSERT_EQ(read.warnings.size(), 1U);
-    EXPECT_NE(read.warnings[0].find("edge \"ab\" has two speed limits, \"maxSpeed\" and \"maximumSpeed\""),
+    EXPECT_NE(read.warnings[0].find("1 edges have two speed limits, \"maxSpeed\" and \"maximumSpeed\" (\"ab\")"),
               std::string::npos);
   }
   EXPECT_TRUE(import(sample(R"(, "maxSpeed": 1.2, "maximumSpeed": 1.2)")).warnings.empty());

@@ -169,8 +169,8 @@ TEST(OpenTcs, WarnsOfWhatItLeavesOutGuessesAndChanges) {
   EXPECT_EQ(warning("version=\"6.0.0\"", "version=\"8.1\""),
             "m.xml:1: version \"8.1\" is newer than 7; it is read as version 7");
   EXPECT_EQ(warning("HALT_POSITION", "REPORT_POSITION"),
-            "m.xml:2: report position \"a\" becomes a station at which AGVs can stop");
-  EXPECT_EQ(warning("locked=\"false\"", "locked=\"true\""), "m.xml:4: locked path \"ab\" is left out");
+            "m.xml:2: 1 report positions become stations at which AGVs can stop (\"a\")");
+  EXPECT_EQ(warning("locked=\"false\"", "locked=\"true\""), "m.xml:4: 1 locked paths are left out (\"ab\")");
   EXPECT_EQ(import(replaced(plain, "locked=\"false\"", "locked=\"true\"")).layout.segments.size(), 1U);
 }
 
@@ -236,8 +236,8 @@ TEST(OpenTcs, ACoordinateInTwoSpellingsIsNamedIfTheyDiffer) {
     const auto differs = with(fmt::format("{}=\"{}\"", key, at_mm + 1.0));
     EXPECT_EQ(differs.layout.stations[0].position_m, plain.layout.stations[0].position_m);
     EXPECT_EQ(
-        differs.warnings[0],
-        "m.xml:1: 1 points have a coordinate twice, as positionX or Y and as xPosition or yPosition, with different "
+        differs.warnings[1],
+        "m.xml:2: 1 points have a coordinate twice, as positionX or Y and as xPosition or yPosition, with different "
         "values (\"a\"); positionX and positionY count");
   }
 }
@@ -284,7 +284,7 @@ TEST(OpenTcs, APathIsDrivenBackwardFromItsDestination) {
   EXPECT_EQ(only.speed_limit_mps, 0.3);
   const auto none = with("maxVelocity=\"0\"");
   EXPECT_EQ(none.layout.segments.size(), 1U);
-  EXPECT_EQ(none.warnings[0], "m.xml:4: path \"ab\" is left out: both of its velocities are 0");
+  EXPECT_EQ(none.warnings[1], "m.xml:4: 1 paths are left out (\"ab\"): both of their velocities are 0");
 }
 
 TEST(OpenTcs, BlocksHoldTheirPaths) {
@@ -302,7 +302,7 @@ TEST(OpenTcs, BlocksHoldTheirPaths) {
     return std::ranges::any_of(warnings, [&](const std::string& w) { return w.find(words) != std::string::npos; });
   };
   EXPECT_TRUE(says("1 members of blocks are no paths (\"a\"); here a block holds paths alone"));
-  EXPECT_TRUE(says("block \"void\" holds no path that is read; it is left out"));
+  EXPECT_TRUE(says("1 blocks hold no path that is read (\"void\"); they are left out"));
   const auto slip = replaced(text, "member name=\"ba\"", "member name=\"b a\"");
   EXPECT_EQ(independent::refusal([&](const std::string& t) { parse_opentcs(t, "m.xml", warnings); }, slip),
             "m.xml:9: a member of a block is \"b a\", but there is no such path, point or location; did you mean "
@@ -355,7 +355,7 @@ TEST(RealLayouts, OpenTcsPersistenceSample) {
   EXPECT_EQ(layout.segments.size(), 6U);
   EXPECT_EQ(curved(layout), 2U);
   EXPECT_TRUE(std::ranges::any_of(warnings, [](const std::string& w) {
-    return w.find("locked path \"Point-0013 --- Point-0014\"") != std::string::npos;
+    return w.find("1 locked paths are left out (\"Point-0013 --- Point-0014\")") != std::string::npos;
   }));
 }
 

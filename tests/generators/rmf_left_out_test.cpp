@@ -68,7 +68,7 @@ const Thing kThings[] = {
     {"VERTEX", "is_parking_spot: [4, true], ", ""},
     {"VERTEX", "pickup_dispenser: [1, rack], ", ""},
     {"VERTEX", "dropoff_ingestor: [1, rack], ", ""},
-    {"VERTEX", "lift_cabin: [1, north], ", "\"dock\" lies in a lift"},
+    {"VERTEX", "lift_cabin: [1, north], ", "1 vertices lie in lifts (\"dock\")"},
     {"VERTEX", "is_holding_point: [4, true], ", "is_holding_point of 1 vertices"},
     {"VERTEX", "is_passthrough_point: [4, true], ", "is_passthrough_point of 1 vertices"},
     {"VERTEX", "is_cleaning_zone: [4, true], ", "\"is_cleaning_zone\""},
