@@ -39,14 +39,14 @@ Crowding crowding(const CampaignPlan& plan, const ScenarioSource& scenarios, std
   return found;
 }
 
-// Empty if the layout is no plant that is too small for what its name asks for.
-std::string too_small(const CampaignPlan& plan, const std::string& layout, std::size_t agvs, std::size_t stations) {
-  const auto& factor = *std::ranges::find(plan.layouts, layout, &LayoutFactor::name);
-  if (factor.map != nullptr) return "";
-  const auto provocation = family_range(layout).provocation;
-  if (!provocation || stations >= fewest_stations(*provocation)) return "";
+// Empty if the layout is no plant that is too small for what its name asks for. A size in the name has been checked.
+std::string too_small(const CampaignPlan& plan, const std::string& layout, std::uint32_t agvs) {
+  if (std::ranges::find(plan.layouts, layout, &LayoutFactor::name)->map != nullptr) return "";
+  const FamilyRange choice = family_range(layout);
+  const std::uint32_t stations = plant_stations(agvs);
+  if (!choice.provocation || choice.stations > 0 || stations >= fewest_stations(*choice.provocation)) return "";
   return fmt::format("{}: a plant for {} AGVs has {} stations and cannot contain it; name a size, as in \"{}/{}\"",
-                     in_quotes(layout), agvs, stations, layout, fewest_stations(*provocation));
+                     in_quotes(layout), agvs, stations, layout, fewest_stations(*choice.provocation));
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ std::vector<std::string> build_first_worlds(const CampaignPlan& plan) {
     const Scenario world = scenarios.scenario(index);
     const std::size_t stations = world.map->station_count(), agvs = world.agvs.size();
     const std::string name = scenarios.place(index).cell.layout, layout = in_quotes(name);
-    if (auto sentence = too_small(plan, name, agvs, stations); !sentence.empty())
+    if (auto sentence = too_small(plan, name, static_cast<std::uint32_t>(agvs)); !sentence.empty())
       sentences.push_back(std::move(sentence));
     if (const Crowding found = crowding(plan, scenarios, index, stations); found.without_room > 0)
       sentences.push_back(

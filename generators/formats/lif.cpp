@@ -39,9 +39,8 @@ namespace {
 
 constexpr Topic kElsewhere{"{0} edges lead to another layout and are left out ({1})"};
 constexpr Topic kForNobody{
-    "no AGV may drive {0} edges ({1}): no type of vehicle has a rule at them and at both of their nodes, with a load "
-    "or "
-    "without one; they are left out"};
+    "no AGV may drive {0} edges ({1}), because no type of vehicle has a rule at them and at both of their nodes, "
+    "with a load or without one; they are left out"};
 constexpr Topic kTwoLimits{
     "{0} edges have two speed limits, \"maxSpeed\" and \"maximumSpeed\" ({1}); the lower counts"};
 constexpr Topic kNodeElsewhere{"{0} nodes of stations are in another layout and are left out ({1})"};

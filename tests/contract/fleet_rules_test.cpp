@@ -79,7 +79,7 @@ TEST_F(FleetRules, APlantTooSmallForItsKnobIsToldBeforeTheCampaign) {
     return run("check c.toml");
   };
   EXPECT_THAT(told("plant/four-way", 1).err,
-              HasSubstr("warning: \"plant/four-way\": a plant for 1 AGVs has 38 stations and cannot contain it; name a "
+              HasSubstr("warning: \"plant/four-way\": a plant for 1 AGVs has 40 stations and cannot contain it; name a "
                         "size, as in \"plant/four-way/80\"\n"));
   EXPECT_THAT(told("plant/four-way", 2).err, Not(HasSubstr("cannot contain")));
   EXPECT_THAT(told("plant/four-way/80", 1).err, Not(HasSubstr("cannot contain")));
