@@ -57,6 +57,8 @@ Layout drawn(const GenerateWords& words) {
     throw InputError("--stress",
                      fmt::format("has no meaning for {}, which names another range of plants", words.family));
   if (words.stress) choice.range = Range::Stress;
+  // Without a size, draw_layout() draws for five AGVs, for which every knob has room.
+  if (const auto small = too_small(choice, 5); !small.empty()) talk("warning: {}\n", small);
   Draws draws(key);
   return draw_layout(choice, draws);
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "campaign/plan/scenario_source.hpp"
 #include "core/base/outside_text.hpp"
@@ -39,16 +38,6 @@ Crowding crowding(const CampaignPlan& plan, const ScenarioSource& scenarios, std
   return found;
 }
 
-// Empty if the layout is no plant that is too small for what its name asks for. A size in the name has been checked.
-std::string too_small(const CampaignPlan& plan, const std::string& layout, std::uint32_t agvs) {
-  if (std::ranges::find(plan.layouts, layout, &LayoutFactor::name)->map != nullptr) return "";
-  const FamilyRange choice = family_range(layout);
-  const std::uint32_t stations = plant_stations(agvs);
-  if (!choice.provocation || choice.stations > 0 || stations >= fewest_stations(*choice.provocation)) return "";
-  return fmt::format("{}: a plant for {} AGVs has {} stations and cannot contain it; name a size, as in \"{}/{}\"",
-                     in_quotes(layout), agvs, stations, layout, fewest_stations(*choice.provocation));
-}
-
 }  // namespace
 
 std::uint64_t worlds_to_draw(std::uint64_t most, std::size_t stations) {
@@ -62,8 +51,9 @@ std::vector<std::string> build_first_worlds(const CampaignPlan& plan) {
     const Scenario world = scenarios.scenario(index);
     const std::size_t stations = world.map->station_count(), agvs = world.agvs.size();
     const std::string name = scenarios.place(index).cell.layout, layout = in_quotes(name);
-    if (auto sentence = too_small(plan, name, static_cast<std::uint32_t>(agvs)); !sentence.empty())
-      sentences.push_back(std::move(sentence));
+    const bool is_drawn = std::ranges::find(plan.layouts, name, &LayoutFactor::name)->map == nullptr;
+    const auto small = is_drawn ? too_small(family_range(name), static_cast<std::uint32_t>(agvs)) : "";
+    if (!small.empty()) sentences.push_back(layout + ": " + small);
     if (const Crowding found = crowding(plan, scenarios, index, stations); found.without_room > 0)
       sentences.push_back(
           fmt::format("{}: no room for {} AGVs in {} of the first {} worlds{}; the runs there end "

@@ -100,10 +100,6 @@ FamilyRange plant_range(const Entry<MakeLayout>& family, std::string_view words)
     if (slash == std::string_view::npos) break;
     words.remove_prefix(slash + 1);
   }
-  if (choice.provocation && choice.stations > 0 && choice.stations < fewest_stations(*choice.provocation))
-    throw InputError("layout",
-                     fmt::format("a plant of {} stations cannot contain {}; ask for {} or more", choice.stations,
-                                 in_quotes(name_of(*choice.provocation)), fewest_stations(*choice.provocation)));
   return choice;
 }
 
@@ -129,6 +125,16 @@ FamilyRange family_range(std::string_view name) {
                                            in_quotes(range.substr(1)), name_hint(range.substr(1), kRanges)));
   }
   return {&family, Range::Stress};
+}
+
+std::string too_small(const FamilyRange& choice, std::uint32_t fleet_size) {
+  if (!choice.provocation) return "";
+  const std::uint32_t stations = choice.stations > 0 ? choice.stations : plant_stations(fleet_size),
+                      fewest = fewest_stations(*choice.provocation);
+  if (stations >= fewest) return "";
+  const char* knob = name_of(*choice.provocation);
+  return fmt::format("a plant of {} stations cannot contain \"{}\"; ask for {} or more, as in \"plant/{}/{}\"",
+                     stations, knob, fewest, knob, fewest);
 }
 
 std::shared_ptr<const LogicalMap> draw_map(FamilyRange choice, Draws& draws, std::uint32_t fleet_size) {

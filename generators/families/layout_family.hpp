@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/random.hpp"
@@ -37,9 +38,11 @@ struct FamilyRange {
 };
 
 // Reads "aisle-grid" or "aisle-grid/stress"; of plants also "plant/2000", "plant/tight-gap" and "plant/stress/2000".
-// Throws InputError with a hint if there is no such family, range, size or provocation, or if a plant of this size
-// cannot contain it.
+// Throws InputError with a hint if there is no such family, range, size or provocation.
 FamilyRange family_range(std::string_view name);
+
+// Says so if a plant of this size, or for this fleet, cannot contain what its name asks for; else empty.
+std::string too_small(const FamilyRange& choice, std::uint32_t fleet_size);
 
 // Draws a layout of a family and range. Under stress, one layout in ten has no open place to wait (waiting_room.hpp),
 // on purpose; every other layout has at least one. The search for open places needs the map: draw_map() returns it, so

@@ -229,7 +229,7 @@ TEST(Plant, BelongsToAFleetUnlessASizeIsNamed) {
 }
 
 // With the fewest stations, some of these plants differ from the one without the knob; with one fewer, none may.
-TEST(Plant, AKnobIsRefusedBelowTheSizeAtWhichItDoesSomething) {
+TEST(Plant, SaysSoBelowTheSizeAtWhichAKnobDoesSomething) {
   const auto differs = [](Provocation provocation, std::uint32_t stations) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       Draws plain(seed), turned(seed);
@@ -244,14 +244,17 @@ TEST(Plant, AKnobIsRefusedBelowTheSizeAtWhichItDoesSomething) {
     const auto provocation = value_of<Provocation>(word).value();
     const std::uint32_t fewest = fewest_stations(provocation);
     EXPECT_TRUE(differs(provocation, fewest)) << word;
-    EXPECT_EQ(family_range(fmt::format("plant/{}/{}", word, fewest)).stations, fewest);
+    EXPECT_EQ(too_small(family_range(fmt::format("plant/{}/{}", word, fewest)), 1), "") << word;
+    EXPECT_EQ(too_small(family_range(fmt::format("plant/{}", word)), 5), "") << word;
     if (fewest == kFewestStations) continue;
     if (provocation != Provocation::OverhangPass) {  // its sharper corners are there, but no lane beside them
       EXPECT_FALSE(differs(provocation, fewest - 1)) << word;
     }
     for (const auto& name :
          {fmt::format("plant/{}/{}", word, fewest - 1), fmt::format("plant/{}/{}", fewest - 1, word)})
-      EXPECT_THROW(family_range(name), InputError) << name;
+      EXPECT_EQ(too_small(family_range(name), 100),
+                fmt::format("a plant of {} stations cannot contain \"{}\"; ask for {} or more, as in \"plant/{}/{}\"",
+                            fewest - 1, word, fewest, word, fewest));
   }
 }
 
