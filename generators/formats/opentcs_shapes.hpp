@@ -9,7 +9,7 @@
 
 namespace fleetproof {
 
-// The shapes of the paths of an openTCS plant model: straight, curved, or along points with an arc at each.
+// How the paths of an openTCS plant model run: straight, along a curve, or in straight legs with an arc at each corner.
 class OpenTcsShapes {
  public:
   // Draws the segment, which has the ends of its path.

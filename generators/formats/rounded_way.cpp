@@ -19,8 +19,6 @@ std::vector<Vec2> without_doubles(const std::vector<Vec2>& points_m) {
   return kept;
 }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // Whether all points lie on the line between the outermost ones, in this order.
 bool is_straight(const std::vector<Vec2>& p) {
   const Vec2 way = p.back() - p.front();
@@ -36,7 +34,7 @@ bool is_straight(const std::vector<Vec2>& p) {
   return true;
 }
 
-// The points of cubic pieces, from the begin of the first to the end of the last.
+// Where cubic pieces begin and end, and their control points.
 class Pieces {
  public:
   explicit Pieces(const Vec2& begin_m) : points_m_{begin_m} {}
