@@ -167,9 +167,9 @@ class TableReader {
 
   bool truth(const std::string& word, std::string_view column, bool if_empty) const {
     if (word.empty()) return if_empty;
-    if (word != "true" && word != "1" && word != "false" && word != "0")
-      refuse(fmt::format("{} is {}; expected true or false", column, in_quotes(word)));
-    return word == "true" || word == "1";
+    if (word == "true" || word == "TRUE" || word == "1") return true;
+    if (word == "false" || word == "FALSE" || word == "0") return false;
+    refuse(fmt::format("{} is {}; expected true or false", column, in_quotes(word)));
   }
 
   template <HasWords Enum>

@@ -22,7 +22,7 @@ namespace fleetproof {
 // Without it, the file's name is the name, and the floor lies 3 m around everything.
 // Columns come in any order. Lengths are in metres. These columns may be left out:
 // - `purposes`: words, separated by blanks. Empty: routing. The word none: no purpose.
-// - `bidirectional`: true, false, 1 or 0. Empty: false.
+// - `bidirectional`: true, false, 1 or 0, or TRUE and FALSE as a spreadsheet writes them. Empty: false.
 // - `name` of an edge. Empty: "dock-fork".
 // - `control_points`: x y x y ... Empty: straight.
 // - `speed_limit_mps`, `back_speed_limit_mps` (of the other direction), `width_m`. Empty: none, or not known.

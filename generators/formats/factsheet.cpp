@@ -18,6 +18,7 @@ namespace fleetproof {
 namespace {
 
 constexpr Topic kOther{"{0} parts of the factsheet are left out ({1})"};
+constexpr Topic kMaker{"the manufacturer only serves to find the vehicle in the permissions of a layout"};
 constexpr double kSameSize = 0.01;  // share by which a body and its envelope may differ
 
 constexpr std::string_view kSize = "physicalParameters", kType = "typeSpecification", kLoads = "loadSpecification";
@@ -183,7 +184,8 @@ class FactsheetReader {
       if (key == kLoads) note_loads_left_out(things);
       if (key == kSize || key == kLoads || std::ranges::find(kGeometry, key) != std::end(kGeometry)) continue;
       if (key != kType) {
-        things.add(kOther, root_.at(key).place(), key);
+        const bool is_maker = key == "manufacturer" && !vehicle_.manufacturer.empty();
+        things.add(is_maker ? kMaker : kOther, root_.at(key).place(), key);
         continue;
       }
       for (const auto& inner : root_.at(key).value().keys) {

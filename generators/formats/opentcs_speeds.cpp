@@ -41,6 +41,7 @@ double drive_s(const Layout& layout, const Segment& segment) {
 bool OpenTcsSpeeds::say_travel(const pugi::xml_node& path, Segment& segment) {
   const auto forward = velocity_mps(xml_, path, "maxVelocity"),
              backward = velocity_mps(xml_, path, "maxReverseVelocity");
+  if (!forward) silent_.push_back(segment.name);
   if (std::max(forward.value_or(0.0), backward.value_or(0.0)) > kFastest) unlimited_.push_back(segment.name);
   const bool reverses = backward.value_or(0.0) > 0.0;
   if (forward.value_or(1.0) > 0.0) {
@@ -61,6 +62,9 @@ bool OpenTcsSpeeds::say_travel(const pugi::xml_node& path, Segment& segment) {
 
 std::vector<std::string> OpenTcsSpeeds::sentences(const Layout& layout) const {
   std::vector<std::string> sentences, slow;
+  if (!silent_.empty())
+    sentences.push_back(fmt::format("{} paths give no maxVelocity; they are driven forward without a limit ({})",
+                                    silent_.size(), name_list(silent_)));
   if (!unlimited_.empty())
     sentences.push_back(fmt::format("{} paths have a velocity above {:g} m/s, which counts as no limit ({})",
                                     unlimited_.size(), kFastest, name_list(unlimited_)));

@@ -1,6 +1,7 @@
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/csv_text.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "damage.hpp"
@@ -100,6 +101,17 @@ TEST(CsvLayout, AStationMayHaveNoPurposeAtAll) {
   const auto again = import(to_csv(layout));
   EXPECT_EQ(again.stations[1].purposes, Purposes::from_bits(0));
   EXPECT_EQ(again.stations[2].purposes, Purposes(Purpose::Routing));
+}
+
+TEST(CsvLayout, TakesTheTruthThatASpreadsheetWrites) {
+  for (const char* word : {"true", "TRUE", "1"})
+    EXPECT_TRUE(
+        import(replaced(kTables, "dock,fork,true", fmt::format("dock,fork,{}", word))).segments[0].bidirectional)
+        << word;
+  for (const char* word : {"false", "FALSE", "0"})
+    EXPECT_FALSE(
+        import(replaced(kTables, "dock,fork,true", fmt::format("dock,fork,{}", word))).segments[0].bidirectional)
+        << word;
 }
 
 TEST(CsvLayoutErrors, NamePlaceValueAndRemedy) {

@@ -62,7 +62,8 @@ struct Import {
 Import import(const Case& c, const std::string& link = "", const ReadChoice& choice = {}) {
   const auto text = fmt::format(
       "<model version='0.0.3' name='m'>\n<point name='a' xPosition='0' yPosition='0'/><point name='b' xPosition='9000' "
-      "yPosition='0'/>\n<path name='ab' sourcePoint='a' destinationPoint='b' length='9000'/>\n<locationType "
+      "yPosition='0'/>\n<path name='ab' sourcePoint='a' destinationPoint='b' length='9000' "
+      "maxVelocity='1000'/>\n<locationType "
       "name='{}'>{}<property name='tcs:defaultLocationTypeSymbol' value='{}'/></locationType>\n<location name='L' "
       "type='{}'><link point='a'>{}</link></location></model>",
       c.name, c.operations, c.symbol, c.name, link);

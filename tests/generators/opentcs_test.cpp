@@ -109,7 +109,9 @@ Import import(const std::string& text) {
   ReadChoice choice;
   choice.twins = TwinPaths::Keep;
   result.layout = parse_opentcs(text, "m.xml", result.warnings, choice);
-  std::erase_if(result.warnings, [](const std::string& w) { return w.find("stand beside") != std::string::npos; });
+  std::erase_if(result.warnings, [](const std::string& w) {
+    return w.find("stand beside") != std::string::npos || w.find("give no maxVelocity") != std::string::npos;
+  });
   return result;
 }
 
@@ -222,6 +224,24 @@ TEST(OpenTcs, NamesVelocitiesThatAreNoLimitOrTakeVeryLong) {
   EXPECT_EQ(told("maxVelocity=\"1\""), slow);
   EXPECT_EQ(told("maxVelocity=\"1000\" maxReverseVelocity=\"1\""), slow);
   EXPECT_EQ(told("maxReverseVelocity=\"1\""), slow) << "forward without a limit";
+}
+
+TEST(OpenTcs, NamesThePathsWithoutAVelocity) {
+  const auto told = [](const std::string& there, const std::string& back) {
+    std::vector<std::string> warnings;
+    parse_opentcs(
+        replaced(replaced(kModel, "name=\"ab\"", "name=\"ab\" " + there), "name=\"ba\"", "name=\"ba\" " + back),
+        "m.xml", warnings, {.twins = TwinPaths::Keep});
+    for (const auto& sentence : warnings) {
+      if (sentence.find("maxVelocity") != std::string::npos) return sentence;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(told("", ""),
+            "m.xml:1: 2 paths give no maxVelocity; they are driven forward without a limit (\"ab\", \"ba\")");
+  EXPECT_EQ(told("maxVelocity=\"1000\"", "maxReverseVelocity=\"500\""),
+            "m.xml:1: 1 paths give no maxVelocity; they are driven forward without a limit (\"ba\")");
+  EXPECT_EQ(told("maxVelocity=\"1000\"", "maxVelocity=\"0\" maxReverseVelocity=\"500\""), "");
 }
 
 TEST(OpenTcs, ACoordinateInTwoSpellingsIsNamedIfTheyDiffer) {

@@ -207,8 +207,14 @@ TEST(Factsheet, IsCalledAsThePermissionsOfALayoutCallIt) {
   EXPECT_EQ(name("S", "k"), "k.S");
   layout.segments[1].permissions = {{"S", LoadState::Any}};
   EXPECT_EQ(name("S", "m"), "S");
-  std::vector<std::string> none;
-  EXPECT_EQ(parse_factsheet(R"({"manufacturer": "k",)" + kSheet.substr(1), "f.json", none).manufacturer, "k");
+  const auto made_by = [](const std::string& maker) { return R"({"manufacturer": )" + maker + "," + kSheet.substr(1); };
+  std::vector<std::string> told;
+  EXPECT_EQ(parse_factsheet(made_by("\"k\""), "f.json", told).manufacturer, "k");
+  EXPECT_THAT(told,
+              testing::Contains("f.json:1: the manufacturer only serves to find the vehicle in the permissions of "
+                                "a layout"));
+  EXPECT_THAT(import_sheet(made_by("7")).sentences,
+              HasSubstr("6 parts of the factsheet are left out (\"manufacturer\""));
 }
 
 TEST(Factsheet, EachMalformedValueHasOneError) {
