@@ -17,8 +17,10 @@ constexpr const char* kNew = R"(<model version="7.0.0" name="m">
 <point name="a" positionX="0" positionY="0"><outgoingPath name="ab"/><pointLayout/></point>
 <point name="b" positionX="9000" positionY="0"/>
 <point name="c" positionX="12000" positionY="3000"/>
-<path name="ab" sourcePoint="a" destinationPoint="b" length="9000"><pathLayout connectionType="DIRECT"/></path>
-<path name="bc" sourcePoint="b" destinationPoint="c" length="4712"><pathLayout connectionType="BEZIER">
+<path name="ab" sourcePoint="a" destinationPoint="b" length="9000" maxVelocity="1000">
+  <pathLayout connectionType="DIRECT"/></path>
+<path name="bc" sourcePoint="b" destinationPoint="c" length="4712" maxVelocity="1000">
+  <pathLayout connectionType="BEZIER">
   <controlPoint x="213" y="0"/><controlPoint x="240" y="-27"/></pathLayout></path>
 <locationType name="T"><allowedOperation name="LOAD"/><locationTypeLayout/></locationType>
 <location name="L" type="T"><link point="b"/></location>
@@ -28,7 +30,7 @@ constexpr const char* kNew = R"(<model version="7.0.0" name="m">
 constexpr const char* kOld = R"(<model version="0.0.2" name="m">
 <point name="a" xPosition="0" yPosition="0"/>
 <point name="b" xPosition="9000" yPosition="0"/>
-<path name="ab" sourcePoint="a" destinationPoint="b" length="9000"/>
+<path name="ab" sourcePoint="a" destinationPoint="b" length="9000" maxVelocity="1000"/>
 <locationType name="T"><allowedOperation name="LOAD"/></locationType>
 <location name="L" type="T"><link point="b"/></location>
 <visualLayout scaleX="50" scaleY="50"><modelLayoutElement visualizedObjectName="a"/>
