@@ -41,6 +41,7 @@ class PairMaker {
         reachability_(reachability),
         counts_(counts),
         ties_(ties),
+        has_rules_(has_rules(map_.layout())),
         type_(scenario.vehicle_types[0]),
         timetable_(map_, type_),
         starts_(places_to_start(map_, reachability)),
@@ -220,7 +221,7 @@ class PairMaker {
   // Whether the plant permits the quickest way to an empty AGV of this type, from its start on. The timetable knows no
   // rules.
   bool may_go(const QuickestWays& ways, StationId goal, std::uint32_t type) const {
-    if (!has_rules(map_.layout())) return true;
+    if (!has_rules_) return true;
     const auto lanes = ways.lanes(map_, goal);
     return !lanes.empty() && reachability_.may_start_along(lanes.front(), type) &&
            std::ranges::all_of(lanes, [&](std::uint32_t lane) { return reachability_.permits(lane, false, type); });
@@ -248,7 +249,7 @@ class PairMaker {
   const LogicalMap& map_;
   const Reachability& reachability_;
   RejectionCounts& counts_;
-  bool ties_;
+  bool ties_, has_rules_;
   const VehicleType& type_;
   Timetable timetable_;
   std::vector<StationId> starts_, anywhere_;
