@@ -26,7 +26,7 @@ namespace fleetproof {
 // - `name` of an edge. Empty: "dock-fork".
 // - `control_points`: x y x y ... Empty: straight.
 // - `speed_limit_mps`, `back_speed_limit_mps` (of the other direction), `width_m`. Empty: none, or not known.
-// - `turning` and `heading` of a node: true or false; a direction x y.
+// - `turning` and `heading` of a node: as `bidirectional`, but empty is true; a direction x y.
 // - `travel`, `back_travel` of an edge: forward, backward or either.
 // - `permissions` of an edge: TYPE:any|TYPE:loaded. `blocks`: NAME:one-vehicle|NAME:same-direction. In a name, a bar or
 //   backslash stands after a backslash.
