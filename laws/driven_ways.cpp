@@ -12,7 +12,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kRounding_m = 1e-3;
+constexpr double kWayRounding_m = 1e-3;
 constexpr std::size_t kFirst = 64;
 
 }  // namespace
@@ -40,7 +40,7 @@ void DrivenWays::begins(const Piece& drive) {
   if (newest != nullptr && ways_[newest->way].curve == drive.curve) return void(newest->until = drive.end + kLookAhead);
   ends(drive.entity, drive.begin);
   const Number way = number_of(drive);
-  const double reach_m = widest_m_ + 0.5 * longest_m_ + std::max(kBesideACurve_m, margin_m_) + kRounding_m;
+  const double reach_m = widest_m_ + 0.5 * longest_m_ + std::max(kBesideACurve_m, margin_m_) + kWayRounding_m;
   const Box near = ways_[way].box.grown(reach_m);
   for (const std::uint32_t other : boxes_.overlapping(near)) {
     if (other == drive.entity.index()) continue;
@@ -135,14 +135,14 @@ class DrivenWays::Judge {
     const double ends_m = 0.5 * std::max(a.footprint.length_m, b.footprint.length_m);
     const bool straight = a.curve->is_straight() && b.curve->is_straight();
     const double beside_m = straight ? kTightGap_m : kBesideACurve_m + ends_m;
-    return a.box.grown(widths_m + std::max(ways_.margin_m_, beside_m) + kRounding_m).overlaps(b.box);
+    return a.box.grown(widths_m + std::max(ways_.margin_m_, beside_m) + kWayRounding_m).overlaps(b.box);
   }
 
   // Most of these need no points of tracks.
   void add_straight(const Pair& pair, const Way& earlier, const Way& later) {
     const auto a = MiddleLine::of(*earlier.curve, earlier.footprint), b = MiddleLine::of(*later.curve, later.footprint);
     const double widths_m = 0.5 * (earlier.footprint.width_m + later.footprint.width_m);
-    if (MiddleLine::are_apart(a, b, widths_m + std::max(ways_.margin_m_, kTightGap_m) + kRounding_m)) return;
+    if (MiddleLine::are_apart(a, b, widths_m + std::max(ways_.margin_m_, kTightGap_m) + kWayRounding_m)) return;
     const bool follows = surely_following(a, b, widths_m + ways_.margin_m_);
     const Encounter encounter = follows ? Encounter{EncounterKind::Following}
                                         : encounter_of(track_of(pair.earlier), track_of(pair.later), ways_.margin_m_);

@@ -20,14 +20,14 @@ constexpr std::size_t kPartLetGo = 8;  // of them, the eighth part at least: sel
 // Of the instants a second apart from `next` on, the last one before `t`. Requires: next < t.
 SimTime last_of(SimTime next, SimTime t) { return next + (t - next - Duration{1}) / kSecond * kSecond; }
 
-struct AgvState {
+struct Operation {
   bool safe = false, busy = false;
   SimTime in_contract_since = kStart;
   std::optional<std::size_t> incident;  // its safe mode, being accused
 };
 
 struct Fleet {
-  std::vector<AgvState> agvs;
+  std::vector<Operation> agvs;
   std::size_t safe = 0, busy = 0;  // AGVs
 };
 
@@ -37,7 +37,7 @@ class NormalOperationLaw final : public Law {
       : scenario_(scenario),
         quality_(scenario.agvs.size()),
         most_waiting_(std::max(kMostWaiting, kMostWaitingOfAgv * scenario.agvs.size())),
-        fleet_{std::vector<AgvState>(scenario.agvs.size())},
+        fleet_{std::vector<Operation>(scenario.agvs.size())},
         faults_(scenario) {}
 
   Pieces hears_pieces() const override { return Pieces::None; }
@@ -167,7 +167,7 @@ bool NormalOperationLaw::stands_still(SimTime now) const {
 
 void NormalOperationLaw::nothing_goes_on() {
   if (incidents_.empty()) return;
-  for (AgvState& agv : fleet_.agvs) agv.incident.reset();
+  for (Operation& agv : fleet_.agvs) agv.incident.reset();
   standstill_.reset();
 }
 
@@ -194,7 +194,7 @@ void NormalOperationLaw::look(SimTime now) {
 }
 
 void NormalOperationLaw::look_at_safe_mode(std::size_t agv, SimTime now) {
-  AgvState& state = fleet_.agvs[agv];
+  Operation& state = fleet_.agvs[agv];
   if (!state.safe || now - state.in_contract_since <= seconds(scenario_.law.reaction_s)) {
     state.incident.reset();
     return;

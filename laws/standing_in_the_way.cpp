@@ -6,7 +6,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kStep_m = 0.1;  // between poses of the way
+constexpr double kPoseStep_m = 0.1;  // between poses of the way
 
 }  // namespace
 
@@ -26,7 +26,7 @@ StationId station_of(const LogicalMap& map, const Vec2& position_m) {
 EntityId first_in_the_way(const Scenario& scenario, const Whereabouts& bodies, EntityId agv, const Lane& lane,
                           SimTime now) {
   const Footprint& footprint = bodies.of(agv).footprint;
-  const int steps = static_cast<int>(lane.curve.length_m() / kStep_m) + 1;
+  const int steps = static_cast<int>(lane.curve.length_m() / kPoseStep_m) + 1;
   for (int step = 0; step <= steps; ++step) {
     const OrientedRectangle mine = placed(footprint, lane.curve.pose_at(lane.curve.length_m() * step / steps));
     for (std::size_t i = 0; i < bodies.body_count(); ++i) {

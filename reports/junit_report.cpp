@@ -79,7 +79,7 @@ std::string class_step(std::string text) {
 }
 
 // "all.ring.fleet_of_5,_loss_40_%,_delay_0,5_s"
-std::string where_text(const GateRecord& gate) {
+std::string place_of(const GateRecord& gate) {
   std::string text = class_step(name_of(gate.region));
   if (!gate.where.layout.empty()) text += "." + class_step(gate.where.layout);
   CellFilter others = gate.where;
@@ -103,7 +103,7 @@ std::string case_element(const ReportInput& input, std::size_t index) {
   return fmt::format(
       "    <testcase name=\"{}\" classname=\"fleetproof.{}.{}\" time=\"0\">\n{}"
       "      <system-out>{}</system-out>\n    </testcase>\n",
-      escaped(name_of_case(gate)), escaped(where_text(gate)), escaped(class_step(gate.agent)),
+      escaped(name_of_case(gate)), escaped(place_of(gate)), escaped(class_step(gate.agent)),
       outcome_element(input, index),
       escaped(gate.agent + " " + finding_text(input, index) + "; " + figures_text(input, index)));
 }

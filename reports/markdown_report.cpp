@@ -7,7 +7,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kMostRows = 60;
+constexpr std::size_t kMostMarkdownRows = 60;
 
 // Text in Markdown. Names come from outside. They must not start a tag, link, column, code, formula or emphasis. "<= 2
 // s" stays as it is.
@@ -32,7 +32,7 @@ std::string code_block(const std::string& command, const std::string& indent) {
   return command.empty() ? "" : fmt::format("\n{0}```sh\n{0}{1}\n{0}```\n", indent, command);
 }
 
-void print(std::string& out, const Table& table) {
+void append(std::string& out, const Table& table) {
   for (const auto& column : table.columns) out += "| " + escaped(column.head) + " ";
   out += "|\n";
   for (const auto& column : table.columns) out += column.right_aligned ? "|---:" : "|---";
@@ -44,7 +44,7 @@ void print(std::string& out, const Table& table) {
   out += "\n";
 }
 
-void print(std::string& out, const std::vector<Remark>& remarks) {
+void append(std::string& out, const std::vector<Remark>& remarks) {
   for (const auto& remark : remarks) out += "- " + escaped(remark.text) + "\n" + code_block(remark.command, "  ");
   out += "\n";
 }
@@ -52,16 +52,16 @@ void print(std::string& out, const std::vector<Remark>& remarks) {
 }  // namespace
 
 std::string render_markdown(const ReportInput& input) {
-  const auto page = build_page(input, kMostRows);
+  const auto page = build_page(input, kMostMarkdownRows);
   std::string out = "# " + escaped(page.title) + "\n\n";
   for (const auto& headline : page.headlines) {
     out += fmt::format("**{}**: {}\n\n", headline.word, escaped(headline.text));
-    print(out, headline.details);
+    append(out, headline.details);
   }
   for (const auto& section : page.sections) {
     out += "## " + escaped(section.title) + "\n\n";
-    if (!section.table.columns.empty()) print(out, section.table);
-    print(out, section.remarks);
+    if (!section.table.columns.empty()) append(out, section.table);
+    append(out, section.remarks);
   }
   return out;
 }

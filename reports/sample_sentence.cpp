@@ -11,12 +11,12 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kMostListed = 8;
+constexpr std::size_t kMostInASentence = 8;
 
 std::string listed(const FactorInfo& factor, const std::set<double>& values) {
   std::vector<std::string> words;
   for (const double value : values) words.push_back(factor_text(factor, value));
-  if (words.size() > kMostListed) words = {words.front(), "...", words.back()};
+  if (words.size() > kMostInASentence) words = {words.front(), "...", words.back()};
   return joined(words);
 }
 
@@ -24,8 +24,8 @@ std::string listed(const std::set<std::string>& names) {
   std::vector<std::string> words;
   for (const auto& name : names) words.push_back(printable(name, 40));
   const auto all = words.size();
-  if (all > kMostListed) words.resize(kMostListed);
-  return joined(words) + (all > kMostListed ? fmt::format(" and {} more", all - kMostListed) : "");
+  if (all > kMostInASentence) words.resize(kMostInASentence);
+  return joined(words) + (all > kMostInASentence ? fmt::format(" and {} more", all - kMostInASentence) : "");
 }
 
 // The factors of a cell: its lower and its upper bounds, which are the same unless they are drawn.
@@ -50,10 +50,10 @@ std::string combinations(const std::set<Span>& spans) {
   if (spans.size() == combined) return joined(lists, "; ");
   std::vector<std::string> words;
   for (const Span& span : spans) {
-    if (words.size() < kMostListed) words.push_back(factor_spans(span.lowest, span.lowest, " with "));
+    if (words.size() < kMostInASentence) words.push_back(factor_spans(span.lowest, span.lowest, " with "));
   }
   return joined(words, "; ") +
-         (spans.size() > kMostListed ? fmt::format("; and {} more", spans.size() - kMostListed) : "");
+         (spans.size() > kMostInASentence ? fmt::format("; and {} more", spans.size() - kMostInASentence) : "");
 }
 
 // "loss <= 40 %", "10 % <= loss <= 40 %", "loss = 40 %".
@@ -87,9 +87,9 @@ std::string where(const std::set<Span>& spans, const std::string& sampling) {
   if (spans.size() == 1) return fmt::format("wherever {} ({}{})", region(*spans.begin()), how_drawn(sampling), average);
   std::vector<std::string> words;
   for (const Span& span : spans) {
-    if (words.size() < kMostListed) words.push_back(region(span));
+    if (words.size() < kMostInASentence) words.push_back(region(span));
   }
-  const auto more = spans.size() > kMostListed ? fmt::format("; or {} more", spans.size() - kMostListed) : "";
+  const auto more = spans.size() > kMostInASentence ? fmt::format("; or {} more", spans.size() - kMostInASentence) : "";
   return fmt::format("wherever {}{} ({}{})", joined(words, "; or "), more, how_drawn(sampling), average);
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kWidth = 118;  // of sentences
 constexpr std::size_t kWidestTable = 140;
 constexpr std::size_t kGap = 2;
-constexpr std::size_t kMostRows = 500;
+constexpr std::size_t kMostTextRows = 500;
 
 // In characters, not bytes.
 std::size_t width_of(const std::string& text) {
@@ -104,14 +104,14 @@ std::string top_of(const Page& page) {
 
 // The head of the page, and the table that stands first.
 std::string render_summary(const ReportInput& input) {
-  const auto page = build_page(input, kMostRows);
+  const auto page = build_page(input, kMostTextRows);
   std::string out = top_of(page);
   if (const Table& gates = page.sections.front().table; !gates.columns.empty()) print(out, gates);
   return out + "\n";
 }
 
 std::string render_text(const ReportInput& input) {
-  const auto page = build_page(input, kMostRows);
+  const auto page = build_page(input, kMostTextRows);
   std::string out = top_of(page);
   for (const auto& section : page.sections) {
     out += section.title + "\n" + std::string(width_of(section.title), '-') + "\n";

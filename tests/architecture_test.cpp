@@ -12,7 +12,7 @@
 
 #include "tests/architecture/source_tree.hpp"
 
-namespace fleetproof {
+namespace fleetproof::architecture_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ TEST(Architecture, FindsWhatIsPlanted) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::architecture_test

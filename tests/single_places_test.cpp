@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+namespace fleetproof::single_places_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,3 +107,4 @@ TEST(SinglePlaces, PackagesAreNamedInTheirListAlone) {
 }
 
 }  // namespace
+}  // namespace fleetproof::single_places_test

@@ -95,7 +95,7 @@ std::uint64_t Sensitivity::detected() const {
 
 std::vector<std::string> faulty_agent_names() {
   std::vector<std::string> names;
-  for (std::uint32_t i = 0; i < fp_faulty_agent_count; ++i) names.emplace_back(fp_faulty_agents[i]->name);
+  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_faulty_agent(i); ++i) names.emplace_back(agent->name);
   return names;
 }
 

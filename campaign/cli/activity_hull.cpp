@@ -9,7 +9,7 @@
 namespace fleetproof::cli {
 namespace {
 
-constexpr double kMostSteps = 1000.0;
+constexpr double kMostHullSteps = 1000.0;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -53,7 +53,7 @@ void add_part(Hull& hull, const OrientedRectangle& one, const OrientedRectangle&
 // Between poses that are so near, no corner is farther than kHullSlack_m from its chord: the second derivative of its
 // path, times the squared length / 8, bounds the distance.
 int steps_for(double sagitta_m) {
-  return 1 + static_cast<int>(std::min(std::sqrt(sagitta_m / kHullSlack_m), kMostSteps));
+  return 1 + static_cast<int>(std::min(std::sqrt(sagitta_m / kHullSlack_m), kMostHullSteps));
 }
 
 void add_drive(Hull& hull, const Piece& piece) {

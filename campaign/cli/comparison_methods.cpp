@@ -55,7 +55,7 @@ Figures poisson_rate_ratio(const EvidenceInput& input) {
   return figures;
 }
 
-constexpr std::array kMethods = {
+constexpr std::array kComparisons = {
     EvidenceMethod{"fisher", "failing1 units1 failing2 units2", "Fisher's exact test of two probabilities of failure",
                    fisher},
     EvidenceMethod{"mcnemar", "only-old only-new", "McNemar's exact test of two releases on common seeds", mcnemar},
@@ -67,6 +67,6 @@ constexpr std::array kMethods = {
 
 }  // namespace
 
-std::span<const EvidenceMethod> comparison_methods() { return kMethods; }
+std::span<const EvidenceMethod> comparison_methods() { return kComparisons; }
 
 }  // namespace fleetproof::cli

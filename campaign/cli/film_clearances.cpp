@@ -12,7 +12,7 @@ namespace fleetproof::cli {
 namespace {
 
 constexpr std::size_t kMostCurves = 6;
-constexpr Duration kStep = std::chrono::milliseconds(40), kFineStep = std::chrono::milliseconds(4);
+constexpr Duration kCoarseStep = std::chrono::milliseconds(40), kFineStep = std::chrono::milliseconds(4);
 constexpr Duration kBefore = std::chrono::seconds(12), kAfter = std::chrono::seconds(2),
                    kFine = std::chrono::milliseconds(400);
 
@@ -27,7 +27,7 @@ std::set<SimTime> instants_of(const Meeting& m, SimTime end) {
   std::set<SimTime> instants{m.first, m.closest_at, std::min(m.last, m.closest_at + kAfter)};
   const SimTime from = std::max(kStart, m.first - kBefore);
   const SimTime to = std::min(end, std::max(m.closest_at, std::min(m.last, m.first + kAfter)) + kAfter);
-  for (SimTime t = from; t <= to; t += kStep) instants.insert(t);
+  for (SimTime t = from; t <= to; t += kCoarseStep) instants.insert(t);
   for (SimTime t = std::max(from, m.closest_at - kFine); t <= std::min(to, m.closest_at + kFine); t += kFineStep)
     instants.insert(t);
   return instants;

@@ -12,7 +12,7 @@ namespace {
 // Between points of a track the page follows a cubic. Over so much turning, or so much change of the curvature, the
 // cubic stays within a tenth of a millimetre of the curve.
 constexpr double kMostTurn_rad = 0.2;
-constexpr int kMostSteps = 2000;
+constexpr int kMostLaneSteps = 2000;
 
 std::int64_t thousandth(std::int64_t ns) { return (ns >= 0 ? ns + 500 : ns - 500) / 1000; }
 
@@ -28,7 +28,7 @@ void add_points(web::Track& track, const Curve& curve) {
     const double end_m = curve.ends_m()[part], length_m = end_m - begin_m;
     const MostBending& most = curve.parts()[part].most();
     const double turns = std::max(most.per_m * length_m, std::sqrt(most.per_m2) * length_m) / kMostTurn_rad;
-    const int steps = std::clamp(static_cast<int>(std::ceil(turns)), 1, kMostSteps);
+    const int steps = std::clamp(static_cast<int>(std::ceil(turns)), 1, kMostLaneSteps);
     for (int i = 1; i <= steps; ++i) track.points.push_back(point_at(curve, begin_m + length_m * i / steps));
     begin_m = end_m;
   }

@@ -17,7 +17,7 @@
 namespace fleetproof::cli {
 namespace {
 
-constexpr Duration kStep = std::chrono::milliseconds(1);
+constexpr Duration kShapeStep = std::chrono::milliseconds(1);
 constexpr Duration kAround = std::chrono::seconds(2);  // about a violation, if a size is varied
 constexpr double kAtStation_m = 1e-3;
 
@@ -62,7 +62,7 @@ class ShapeStory {
   // The least distance that is kept from the other body; none if it is below the safety distance.
   std::optional<double> kept_m(SimTime from, SimTime to, const Otherwise& otherwise) const {
     double least_m = std::numeric_limits<double>::infinity();
-    for (SimTime t = from;; t = std::min(t + kStep, to)) {
+    for (SimTime t = from;; t = std::min(t + kShapeStep, to)) {
       const Piece* other = piece_at(bodies_, other_, t);
       if (other != nullptr && piece_at(bodies_, one_, t) != nullptr)
         least_m = std::min(least_m, distance_m(otherwise(t), other->body_at(t)));

@@ -26,7 +26,7 @@
 namespace fleetproof::cli {
 namespace {
 
-constexpr std::uint64_t kMostFailures = 100, kShrinkTrials = 4000;
+constexpr std::uint64_t kMostFailuresLookedAt = 100, kShrinkTrials = 4000;
 
 struct FindingsWords {
   std::string archive, file, out;
@@ -46,7 +46,7 @@ class FindingsDesk {
         plan_(parse_plan(archive_.campaign().plan_json)),
         file_(words.file),
         out_(words.out.empty() ? findings_path(words.archive) : words.out),
-        runs_(failing_runs(archive_, plan_, words.most.value_or(kMostFailures))) {
+        runs_(failing_runs(archive_, plan_, words.most.value_or(kMostFailuresLookedAt))) {
     meet_plugins(words.archive, archive_.campaign(), plan_.agents, words.plugins, programs_, &AgentPrograms::know);
     tell_rebuilt_plugins(archive_.campaign(), plan_.agents, programs_);
     if (words.add) require_writable({words.file, "--file", OutputKind::Findings});

@@ -84,7 +84,7 @@ Figures hours_needed(const EvidenceInput& input) {
   return figures;
 }
 
-constexpr std::array kMethods = {
+constexpr std::array kFixedSizeMethods = {
     EvidenceMethod{"clopper-pearson", "failing units [confidence]",
                    "exact bounds on the probability of failure, for a fixed number of trials", clopper_pearson},
     EvidenceMethod{"zero-failure-bound", "units [confidence]", "the upper bound if no trial fails", zero_failures},
@@ -101,6 +101,6 @@ constexpr std::array kMethods = {
 
 }  // namespace
 
-std::span<const EvidenceMethod> fixed_size_methods() { return kMethods; }
+std::span<const EvidenceMethod> fixed_size_methods() { return kFixedSizeMethods; }
 
 }  // namespace fleetproof::cli

@@ -149,7 +149,7 @@ Figures incident_dispersion(const EvidenceInput& input) {
   return figures;
 }
 
-constexpr std::array kMethods = {
+constexpr std::array kGroupedMethods = {
     EvidenceMethod{"stratified-zero-failure", "weights units [failing] [confidence]",
                    "bounds on the probability of failure over an operational profile; lists as in 0.9,0.1", stratified},
     EvidenceMethod{"envelope", "failing units limit [confidence] [path]",
@@ -162,6 +162,6 @@ constexpr std::array kMethods = {
 
 }  // namespace
 
-std::span<const EvidenceMethod> grouped_methods() { return kMethods; }
+std::span<const EvidenceMethod> grouped_methods() { return kGroupedMethods; }
 
 }  // namespace fleetproof::cli

@@ -45,17 +45,17 @@ std::vector<Row> generator_rows() {
   return rows;
 }
 
-struct Kind {
+struct Listed {
   std::string_view name;
   std::vector<Row> (*rows)();
 };
 
 constexpr std::array kinds = {
-    Kind{"agents", agent_rows},
-    Kind{"laws", [] { return rows_of(laws()); }},
-    Kind{"generators", generator_rows},
-    Kind{"importers", [] { return rows_of(importers()); }},
-    Kind{"reports", [] { return rows_of(report_formats()); }},
+    Listed{"agents", agent_rows},
+    Listed{"laws", [] { return rows_of(laws()); }},
+    Listed{"generators", generator_rows},
+    Listed{"importers", [] { return rows_of(importers()); }},
+    Listed{"reports", [] { return rows_of(report_formats()); }},
 };
 
 // Every key of campaign files and scenario files.
@@ -88,7 +88,7 @@ int list(const std::string& what, bool json) {
     return kDemonstrated;
   }
   std::vector<std::string_view> names{kFields, kSchema};
-  for (const Kind& kind : kinds) {
+  for (const Listed& kind : kinds) {
     names.push_back(kind.name);
     if (kind.name != what) continue;
     std::string text;

@@ -78,28 +78,28 @@ bool is_found_findings(std::string_view text) { return has_key(text, "findings")
 bool is_explanation(std::string_view text) { return text.starts_with("# F-"); }
 bool is_fleet(std::string_view text) { return text.starts_with("# vehicles of "); }
 
-struct Kind {
+struct KnownKind {
   std::string_view noun;
   bool (*is_one)(std::string_view text);
 };
 
 // In the order of OutputKind.
-constexpr Kind kKinds[] = {{"a layout file", is_layout},
-                           {"a LIF file", is_lif},
-                           {"a CSV layout", is_csv},
-                           {"an SVG picture", is_picture},
-                           {"a scenario file", is_scenario},
-                           {"a report", is_report},
-                           {"a measured sensitivity", is_sensitivity},
-                           {"a trace", is_trace},
-                           {"a file of pieces", is_pieces},
-                           {"a file of poses", is_poses},
-                           {"a Chrome trace", is_chrome_trace},
-                           {"a replay page", is_replay_page},
-                           {"a file of vehicles", is_fleet},
-                           {"a findings file", is_findings},
-                           {"findings of a campaign", is_found_findings},
-                           {"an explanation", is_explanation}};
+constexpr KnownKind kKinds[] = {{"a layout file", is_layout},
+                                {"a LIF file", is_lif},
+                                {"a CSV layout", is_csv},
+                                {"an SVG picture", is_picture},
+                                {"a scenario file", is_scenario},
+                                {"a report", is_report},
+                                {"a measured sensitivity", is_sensitivity},
+                                {"a trace", is_trace},
+                                {"a file of pieces", is_pieces},
+                                {"a file of poses", is_poses},
+                                {"a Chrome trace", is_chrome_trace},
+                                {"a replay page", is_replay_page},
+                                {"a file of vehicles", is_fleet},
+                                {"a findings file", is_findings},
+                                {"findings of a campaign", is_found_findings},
+                                {"an explanation", is_explanation}};
 
 std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }
 
@@ -114,7 +114,7 @@ void require_place(const OutputFile& file) {
 }  // namespace
 
 void require_writable(const OutputFile& file) {
-  const Kind& kind = kKinds[static_cast<std::size_t>(file.kind)];
+  const KnownKind& kind = kKinds[static_cast<std::size_t>(file.kind)];
   std::error_code ignored;
   if (!std::filesystem::exists(file.path, ignored)) return require_place(file);
   if (!std::filesystem::is_regular_file(file.path, ignored)) return;

@@ -54,9 +54,9 @@ std::string value_text(const Incident& incident) {
   return fmt::format("{}: {}", info_of(incident.kind).unit, incident.value);
 }
 
-std::string shown_name(const Scenario& scenario, EntityId id) { return printable(body_name(scenario, id)); }
-
 }  // namespace
+
+std::string shown_name(const Scenario& scenario, EntityId id) { return printable(body_name(scenario, id)); }
 
 std::string body_name(const Scenario& scenario, EntityId id, std::string_view load_of) {
   if (id.index() < scenario.agvs.size()) return scenario.agvs[id.index()].name;

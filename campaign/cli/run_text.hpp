@@ -13,6 +13,8 @@ namespace fleetproof::cli {
 // The name as it is in the scenario, with every character. The caller passes it through printable() before it prints
 // it. Of a fallen load: `load_of` and the AGV that dropped it.
 std::string body_name(const Scenario& scenario, EntityId id, std::string_view load_of = "load dropped by ");
+// The same, printable.
+std::string shown_name(const Scenario& scenario, EntityId id);
 
 // Where the accusations of a published rule differ from those of safety-distance.
 std::string differences_text(const Scenario& scenario, const std::vector<Difference>& differences,

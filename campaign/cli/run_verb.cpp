@@ -29,7 +29,7 @@ namespace fleetproof::cli {
 namespace {
 
 // Instead of what the campaign file says.
-struct PlanWords {
+struct ChosenPlan {
   std::optional<std::uint64_t> replicates, seed;
   std::string keep;
 };
@@ -41,7 +41,7 @@ struct TimeWords {
 struct RunWords {
   std::string campaign, archive;
   std::optional<std::uint64_t> jobs;
-  PlanWords plan;
+  ChosenPlan plan;
   std::optional<std::uint64_t> fail_fast;
   std::string ledger, findings;
   TimeWords time;

@@ -110,7 +110,7 @@ Figures gate_operating_characteristic(const EvidenceInput& input) {
   return figures;
 }
 
-constexpr std::array kMethods = {
+constexpr std::array kSequentialMethods = {
     EvidenceMethod{"beta-binomial-sequence", "failing units [confidence] [prior-a] [prior-b] [at]",
                    "bounds on the probability of failure that hold at any time", beta_binomial_sequence},
     EvidenceMethod{"gamma-poisson-sequence", "events exposure [confidence] [prior-shape] [prior-rate]",
@@ -129,6 +129,6 @@ constexpr std::array kMethods = {
 
 }  // namespace
 
-std::span<const EvidenceMethod> sequential_methods() { return kMethods; }
+std::span<const EvidenceMethod> sequential_methods() { return kSequentialMethods; }
 
 }  // namespace fleetproof::cli

@@ -11,8 +11,6 @@
 namespace fleetproof::cli {
 namespace {
 
-std::string shown_name(const Scenario& scenario, EntityId id) { return printable(body_name(scenario, id)); }
-
 const char* text_of(Assist assist) {
   switch (assist) {
     case Assist::Battery:

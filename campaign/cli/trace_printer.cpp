@@ -20,7 +20,7 @@ bool is_line(TraceKind kind) {
   return kind != TraceKind::Described && kind != TraceKind::FateDecided && kind != TraceKind::CallAccepted;
 }
 
-double to_millimetre(std::int64_t value_um) { return static_cast<double>(value_um - value_um % 1000) / 1e6; }
+double whole_millimetres_m(std::int64_t value_um) { return static_cast<double>(value_um - value_um % 1000) / 1e6; }
 
 std::string text_of(const TracedMotion& motion) {
   return fmt::format("({:.3f}, {:.3f}) {:.1f} deg, {:.3f} m/s {}", motion.position_m.x(), motion.position_m.y(),
@@ -55,13 +55,13 @@ TracePrinter::TracePrinter(const Scenario& scenario, TraceFormat format, TraceFi
     const std::string other = body_name(scenario, v.b);
     distances_.push_back(
         {v.first, v.a, kDistance, fmt::format("to {} falls below {} m", other, scenario.law.safety_distance_m), {}});
-    distances_.push_back({v.closest_at,
-                          v.a,
-                          kDistance,
-                          v.contact
-                              ? fmt::format("to {} is 0: contact", other)
-                              : fmt::format("to {} is smallest: {:.3f} m", other, to_millimetre(v.min_clearance_um)),
-                          {}});
+    distances_.push_back(
+        {v.closest_at,
+         v.a,
+         kDistance,
+         v.contact ? fmt::format("to {} is 0: contact", other)
+                   : fmt::format("to {} is smallest: {:.3f} m", other, whole_millimetres_m(v.min_clearance_um)),
+         {}});
   }
   std::ranges::stable_sort(distances_, std::ranges::greater(), &Line::at);
 }

@@ -8,7 +8,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr Duration kGrain = std::chrono::milliseconds(100), kLookBack = std::chrono::seconds(30);
+constexpr Duration kStopGrain = std::chrono::milliseconds(100), kLookBack = std::chrono::seconds(30);
 
 Scenario stopped_at(const Scenario& scenario, EntityId agv, SimTime at) {
   Scenario stopped = scenario;
@@ -31,9 +31,9 @@ Claim stop_claim(CaseHost& host, const FailingCase& failing, EntityId agv, SimTi
 LastStop last_stop_of(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern, EntityId agv) {
   LastStop found;
   found.agv = name_of_body(failing.scenario, agv);
-  const Duration end = (failing.failure.at - kStart) / kGrain * kGrain;
-  const auto count = static_cast<std::size_t>(std::min(end, kLookBack) / kGrain + 1);
-  const auto at = [&](std::size_t i) { return kStart + end - kGrain * static_cast<std::int64_t>(i); };
+  const Duration end = (failing.failure.at - kStart) / kStopGrain * kStopGrain;
+  const auto count = static_cast<std::size_t>(std::min(end, kLookBack) / kStopGrain + 1);
+  const auto at = [&](std::size_t i) { return kStart + end - kStopGrain * static_cast<std::int64_t>(i); };
   const auto runs =
       all_runs(host, {count, [&](std::size_t i) { return std::optional(stopped_at(failing.scenario, agv, at(i))); }});
   for (std::size_t i = 0; i < count && !found.at; ++i) {

@@ -14,7 +14,7 @@ namespace fleetproof {
 namespace {
 
 // "0.4", or what each replicate draws between two bounds: "0 .. 0.4".
-std::string text_of(double from, double to) {
+std::string range_text(double from, double to) {
   return from == to ? fmt::format("{}", from) : fmt::format("{} .. {}", from, to);
 }
 
@@ -22,7 +22,7 @@ std::string text_of(double from, double to) {
 std::vector<std::string> values_of(Factor factor, const std::vector<CellRecord>& cells) {
   std::vector<std::string> values;
   for (const CellRecord& cell : cells) {
-    std::string value = text_of(cell.lowest[factor], cell.highest[factor]);
+    std::string value = range_text(cell.lowest[factor], cell.highest[factor]);
     if (std::ranges::find(values, value) == values.end()) values.push_back(std::move(value));
   }
   return values;

@@ -48,7 +48,8 @@ AgentProgram program_of(const fp_agent_type& type) {
 }  // namespace
 
 AgentPrograms::AgentPrograms() {
-  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) programs_.push_back(program_of(*fp_reference_agents[i]));
+  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_reference_agent(i); ++i)
+    programs_.push_back(program_of(*agent));
 }
 
 AgentPrograms::~AgentPrograms() {

@@ -8,24 +8,16 @@
 namespace {
 using namespace fleetproof::agents;
 
-constexpr uint32_t kWithoutFault = 3;  // at the beginning of the table
+constexpr const fp_agent_type* kWithoutPlantedFault[] = {&kScripted, &kHullLock, &kReckless};
 }  // namespace
 
 extern "C" {
-const fp_agent_type* const fp_reference_agents[] = {&kScripted,           &kHullLock,           &kReckless,
-                                                    &kTimeoutGrant,       &kNoTurnSweep,        &kNoHalfDiagonal,
-                                                    &kNoOverhang,         &kOneSizeForAll,      &kKindsBySize,
-                                                    &kBackwardAsForward,  &kBendsAsChords,      &kHalfMargin,
-                                                    &kNamesNotShapes,     &kArrivalOrder,       &kStaleGrant,
-                                                    &kCountsMessages,     &kAgelessProof,       &kStraightOn,
-                                                    &kUnheardWay,         &kForgetsBoot,        &kWrapsAt256,
-                                                    &kIgnoresParked,      &kGrantsAtBoot,       &kGrantsForGood,
-                                                    &kLockExpires,        &kOvertakenGoesOn,    &kOvertakenDropsGrant,
-                                                    &kOvertakenIfGranted, &kTieWithoutNumber,   &kEarlyRelease,
-                                                    &kRestartForgetsLane, &kRestartForgetsTurn, &kFailureFreesLane,
-                                                    &kAsksOnce,           &kBothStepBack,       &kNeverMakesWay,
-                                                    &kLaneByLane};
-const uint32_t fp_reference_agent_count = std::size(fp_reference_agents);
-const fp_agent_type* const* const fp_faulty_agents = fp_reference_agents + kWithoutFault;
-const uint32_t fp_faulty_agent_count = std::size(fp_reference_agents) - kWithoutFault;
+const fp_agent_type* fp_reference_agent(uint32_t number) {
+  constexpr uint32_t others = std::size(kWithoutPlantedFault);
+  return number < others ? kWithoutPlantedFault[number] : fp_faulty_agent(number - others);
+}
+
+const fp_agent_type* fp_faulty_agent(uint32_t number) {
+  return number < kFaultyAgents.size() ? &kFaultyAgents[number] : nullptr;
+}
 }

@@ -8,11 +8,10 @@
 extern "C" {
 #endif
 
-extern const fp_agent_type* const fp_reference_agents[];
-extern const uint32_t fp_reference_agent_count;
-/* Those of them that are hull-lock with a planted fault. */
-extern const fp_agent_type* const* const fp_faulty_agents;
-extern const uint32_t fp_faulty_agent_count;
+/* The reference agents by number, from 0 on: first the others, then those with a planted fault. Null after the last. */
+const fp_agent_type* fp_reference_agent(uint32_t number);
+/* Those that are hull-lock with a planted fault, from 0 on. Null after the last. */
+const fp_agent_type* fp_faulty_agent(uint32_t number);
 
 #ifdef __cplusplus
 }

@@ -6,7 +6,7 @@
 namespace fleetproof::agents {
 namespace {
 
-constexpr double kRounding_m = 1e-3;
+constexpr double kHullRounding_m = 1e-3;
 constexpr double kSlack_m = 1.0;  // shapes are a little larger than what a body sweeps
 
 }  // namespace
@@ -26,7 +26,7 @@ bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t ag
   }
   const Box around_b = box_around(of_b);
   return std::any_of(of_a.numbers, of_a.numbers + of_a.count, [&](std::uint32_t n) {
-    return parts_.box(n).comes_within(clearance_m() + kRounding_m, around_b) && part_conflicts(n, of_b);
+    return parts_.box(n).comes_within(clearance_m() + kHullRounding_m, around_b) && part_conflicts(n, of_b);
   });
 }
 

@@ -10,7 +10,7 @@ namespace fleetproof::agents {
 namespace {
 
 enum Timer : std::uint32_t { kTickTimer = 1, kRepeatTimer = 2 };
-enum Draws : std::uint32_t { kTickDraws = 10, kPlaceDraws = 12, kRepeatDraws = 13 };
+enum LockDraws : std::uint32_t { kTickDraws = 10, kPlaceDraws = 12, kRepeatDraws = 13 };
 
 constexpr double kTick_s = 1.0;
 constexpr double kRepeat_s = 0.5;

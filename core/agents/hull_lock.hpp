@@ -132,7 +132,7 @@ void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_
                        const LockOptions& options);
 
 // hull-lock with a fault. Requires: `options` differ from the defaults in one member.
-template <const LockOptions& options>
+template <LockOptions options>
 constexpr fp_agent_type faulty_hull_lock(const char* name, const char* description) {
   return agent_type<HullLock>(name, description,
                               [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {

@@ -7,7 +7,7 @@
 namespace fleetproof::agents {
 namespace {
 
-constexpr double kRounding_m = 1e-6;  // of sums of lengths; the proof of distance has a margin of a metre
+constexpr double kClaimRounding_m = 1e-6;  // of sums of lengths; the proof of distance has a margin of a metre
 
 // Of repetitions, a STATE to all takes more than a twelfth: it tells the others news as well. It is sent at the latest
 // after a time that is longer in large fleets, so that an AGV hears about as many of them a second.
@@ -73,7 +73,8 @@ void LockProtocol::announce(std::span<const std::uint32_t> onward) {
 bool LockProtocol::continues_held(const Path& stretch) const {
   const double claim_m = length_m(map_, claim_.held) + length_m(map_, stretch);
   return stretch.station == end_of(map_, claim_.held).station && is_driveable(map_, stretch) &&
-         stretch.count <= kPathLanesMax - claim_.held.count && claim_m <= neighbours_.claim_limit_m() + kRounding_m;
+         stretch.count <= kPathLanesMax - claim_.held.count &&
+         claim_m <= neighbours_.claim_limit_m() + kClaimRounding_m;
 }
 
 void LockProtocol::open_epoch() {

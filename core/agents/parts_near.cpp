@@ -9,7 +9,7 @@
 namespace fleetproof::agents {
 namespace {
 
-constexpr double kRounding_m = 1e-3;
+constexpr double kGridRounding_m = 1e-3;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ Box Box::around(const Shape& shape) {
 }
 
 PartsNear::PartsNear(std::vector<Box> boxes, double distance_m) : own_boxes_(std::move(boxes)), boxes_(own_boxes_) {
-  grid_.distance_m = distance_m + kRounding_m;
+  grid_.distance_m = distance_m + kGridRounding_m;
   choose_cells();
   own_begin_.assign(std::size_t{grid_.columns} * grid_.rows + 1, 0);
   for (std::uint32_t part = 0; part < boxes_.size(); ++part)

@@ -5,7 +5,7 @@
 namespace fleetproof::agents {
 namespace {
 
-enum Draws : std::uint32_t { kPatienceDraws = 11 };
+enum PatienceDraws : std::uint32_t { kPatienceDraws = 11 };
 
 constexpr double kPatienceWithElders_s = 3.0;
 constexpr double kPatience_s = 10.0;  // up to half of it is added, so that two AGVs do not yield to each other at once

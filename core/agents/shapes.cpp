@@ -10,7 +10,7 @@ constexpr double kPieceAngle_rad = 0.1;  // of a bend or a turn that one rectang
 constexpr double kBeyond_rad = 1.5e-3;   // the true headings lie so far outside of those of a turn, at most
 static_assert(1.0 - 0.49 * kBeyond_rad * kBeyond_rad < kCosineOfSameHeading,
               "a turn also covers headings that count as the same, and that messages have rounded");
-constexpr double kRounding_m = 1e-6;
+constexpr double kShapeRounding_m = 1e-6;
 
 struct Rotation {
   double cosine = 1.0, sine = 0.0;
@@ -61,8 +61,8 @@ Shape body_swung(const Body& body, Rotation half) {
   const double off_m = std::abs(body.ahead_m) * half.sine, back_m = std::abs(body.ahead_m) * (1.0 - half.cosine);
   return {{body.ahead_m, 0.0},
           {1.0, 0.0},
-          body.length_m / 2.0 + body.width_m / 2.0 * half.sine + back_m + kRounding_m,
-          body.width_m / 2.0 + body.length_m / 2.0 * half.sine + off_m + kRounding_m};
+          body.length_m / 2.0 + body.width_m / 2.0 * half.sine + back_m + kShapeRounding_m,
+          body.width_m / 2.0 + body.length_m / 2.0 * half.sine + off_m + kShapeRounding_m};
 }
 
 Vec unit(Vec v) { return v * (1.0 / length(v)); }

@@ -9,7 +9,7 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr double kLookAhead_m = 12.0;
-constexpr std::uint32_t kFewAround = 8;  // if it does not hear of all, it knows the ways of so many
+constexpr std::uint32_t kWaysKnown = 8;  // if it does not hear of all, it knows the ways of so many
 constexpr double kFar_m = 70.0;          // in a divided fleet, a search for a way ends there
 constexpr std::uint32_t kLookAheadLanes = 3;
 constexpr double kOnward_m = 40.0, kOnwardInZones_m = 18.0;  // what is announced beyond a stretch
@@ -157,7 +157,7 @@ StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neigh
       routes_(map, rules_),
       lane_times_s_(agents::lane_times_s(geometry.parts().facts(), neighbours.self())),
       prices_(map, rules_, options.one_way_aisles ? lane_costs_s(geometry.parts(), neighbours.self()) : lane_times_s_,
-              neighbours.audience().hears_of_all() ? neighbours.fleet_count() : kFewAround),
+              neighbours.audience().hears_of_all() ? neighbours.fleet_count() : kWaysKnown),
       model_(model_of(geometry.parts().facts(), neighbours.self())),
       knows_remaining_costs_(options.one_way_aisles) {}
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kZonesOfClaim = 3.0;  // along the longest claim
 // Hulls that others work out from a message differ by this, because headings are rounded on the way; at the limit of
 // what counts as the same heading, by a whole turn. That does no harm: each contains the floor that its AGV covers.
-constexpr double kRounding_m = 0.05;
+constexpr double kZoneRounding_m = 0.05;
 // Every AGV tells each registrar once that it exists; a registrar that is down holds up a part of the floor.
 constexpr std::uint32_t kAgvsPerRegistrar = 64;
 constexpr double kMostZones = 60'000.0;  // on the wire they have 16 bits
@@ -78,7 +78,7 @@ std::uint32_t ZoneMap::index_of(double cells, std::uint32_t count) {
 
 // Of two hulls that come within the clearance of each other, boxes wider by half of it overlap.
 bool ZoneMap::add_zones(const Box& box, ZoneSet& zones) const {
-  const double wider_m = geometry_.clearance_m() / 2.0 + kRounding_m, per_m = 1.0 / grid_.cell_m;
+  const double wider_m = geometry_.clearance_m() / 2.0 + kZoneRounding_m, per_m = 1.0 / grid_.cell_m;
   const Vec margin{wider_m, wider_m};
   const Vec low = (box.low_m - margin - grid_.low_m) * per_m, high = (box.high_m + margin - grid_.low_m) * per_m;
   const std::uint32_t last_column = index_of(high.x, grid_.columns), last_row = index_of(high.y, grid_.rows);

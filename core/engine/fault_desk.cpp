@@ -7,7 +7,6 @@ namespace fleetproof {
 namespace {
 
 constexpr double kAppearsClear_m = 0.05;  // beyond the safety distance
-constexpr Duration kTriesAgain = std::chrono::seconds(1);
 
 Halt::Reason halt_of(Fault::Kind kind) {
   return kind == Fault::Kind::ProtectiveStop ? Halt::Reason::ProtectiveStop : Halt::Reason::Breakdown;
@@ -88,7 +87,7 @@ void FaultDesk::obstacle_appears(EntityId body) {
   if (run_.now >= kStart + obstacle.leaves) return;
   const double margin_m = run_.scenario.law.safety_distance_m + kAppearsClear_m;
   if (!run_.world.is_free(placed(obstacle.footprint, obstacle.pose), margin_m, run_.now))
-    return run_.queue.push(run_.now + kTriesAgain, body, Event::Kind::BodyAppears);
+    return run_.queue.push(run_.now + kBodyTriesAgain, body, Event::Kind::BodyAppears);
   run_.trace(body, traced::Appears{});
   run_.world.put_on_floor(body, obstacle.footprint, obstacle.pose, run_.now);
   ports_.contacts.predict(body);

@@ -10,7 +10,6 @@
 namespace fleetproof {
 namespace {
 
-constexpr Duration kTriesAgain = std::chrono::seconds(1);
 // Topics of the faults stream; the generator draws under lower ones. A standstill has a topic of its own, so that a
 // call in vain moves no other draw.
 constexpr std::uint32_t kAssistTopic = 100, kStandstillTopic = 101;
@@ -48,8 +47,8 @@ void OperatorDesk::help_with_halt(AgvId agv, Assist what, std::uint64_t halt) {
   const AgvStatus& status = run_.status(agv);
   if (status.out_of_order || std::ranges::find(status.halts, halt, &Halt::number) == status.halts.end()) return;
   if (status.is_driving()) {  // the operator does not walk up to an AGV that still moves
-    return run_.queue.push(run_.now + kTriesAgain, agv, Event::Kind::OperatorComes, static_cast<std::uint64_t>(what),
-                           halt);
+    return run_.queue.push(run_.now + kBodyTriesAgain, agv, Event::Kind::OperatorComes,
+                           static_cast<std::uint64_t>(what), halt);
   }
   if (what == Assist::Jam) {
     assisted(agv, Assist::Jam);
@@ -81,7 +80,7 @@ void OperatorDesk::take_off_floor(AgvId agv) {
   ports_.agents.goes_away(agv);
   run_.world.take_off_floor(agv, run_.now);
   run_.trace(agv, traced::Leaves{});
-  run_.queue.push(run_.now + kTriesAgain, agv, Event::Kind::BodyAppears);
+  run_.queue.push(run_.now + kBodyTriesAgain, agv, Event::Kind::BodyAppears);
 }
 
 void OperatorDesk::look_for_place(AgvId agv) {
@@ -94,7 +93,7 @@ void OperatorDesk::look_for_place(AgvId agv) {
     const OrientedRectangle body = placed(footprint, p.pose);
     return run_.world.stays_free(body, margin_m, run_.now) && !is_on_the_way(body, margin_m);
   });
-  if (place == places.end()) return run_.queue.push(run_.now + kTriesAgain, agv, Event::Kind::BodyAppears);
+  if (place == places.end()) return run_.queue.push(run_.now + kBodyTriesAgain, agv, Event::Kind::BodyAppears);
   run_.world.forget_touches(agv);
   ports_.messenger.forget_path(agv);
   ports_.sensor.forget(agv);
@@ -156,7 +155,7 @@ bool OperatorDesk::stands_still() const {
 }
 
 void OperatorDesk::looks() {
-  run_.queue.push(run_.now + kTriesAgain, EntityId{}, Event::Kind::OperatorLooks);  // the last event of its instant
+  run_.queue.push(run_.now + kBodyTriesAgain, EntityId{}, Event::Kind::OperatorLooks);  // the last event of its instant
   if (!stands_still()) still_since_ = run_.now;
   if (standstill_called_ || run_.now - std::max(still_since_, run_.last_progress) < run_.scenario.stuck_after) return;
   const AgvId agv = longest_idle();

@@ -19,6 +19,9 @@ namespace fleetproof {
 // What the draws of the motion stream are for; each is keyed by topic, AGV and number.
 enum class MotionTopic : std::uint32_t { Speed = 1, Settling, Transfer, Position };
 
+// How long a body for which the floor has no room waits until it tries again; an operator, equally.
+constexpr Duration kBodyTriesAgain = std::chrono::seconds(1);
+
 // What all parts of one run share: scenario, clock, queue, world, trace, counters, and the status of each AGV.
 struct RunContext {
   // Requires: scenario, laws and sink outlive the run. `sink` may be null.

@@ -6,7 +6,7 @@
 namespace fleetproof {
 namespace {
 
-auto order(const RecordedMessage& message) { return std::tuple(message.sender, message.receiver, message.sent); }
+auto in_order_of(const RecordedMessage& message) { return std::tuple(message.sender, message.receiver, message.sent); }
 
 }  // namespace
 
@@ -18,7 +18,7 @@ RecordedRadio::RecordedRadio(std::shared_ptr<const RadioTrace> trace) : trace_(s
 
 const RecordedMessage* RecordedRadio::at(AgvId sender, AgvId receiver, SimTime t) const {
   const auto first_from = [&](Duration from) -> const RecordedMessage* {
-    const auto found = std::ranges::lower_bound(*trace_, std::tuple(sender, receiver, from), {}, order);
+    const auto found = std::ranges::lower_bound(*trace_, std::tuple(sender, receiver, from), {}, in_order_of);
     const bool of_this_pair = found != trace_->end() && found->sender == sender && found->receiver == receiver;
     return of_this_pair ? &*found : nullptr;
   };

@@ -8,14 +8,14 @@
 namespace fleetproof {
 namespace {
 
-struct Sizes {
+struct GridSizes {
   std::uint32_t aisles, cross_aisles, steps;  // steps: segments of an aisle between two cross aisles
   std::int64_t pitch, spur, aisle_distance;   // millimetres
   std::uint32_t bays, parking, charging, docks;
 };
 
-Sizes draw_sizes(Draws& draws) {
-  Sizes s{};
+GridSizes draw_grid(Draws& draws) {
+  GridSizes s{};
   s.aisles = 4 + draws.below(3);
   s.cross_aisles = draws.below(3) == 0 ? 3 : 2;
   if (s.cross_aisles == 3) {
@@ -37,7 +37,7 @@ Sizes draw_sizes(Draws& draws) {
 class AisleGrid {
  public:
   explicit AisleGrid(Draws& draws)
-      : draws_(draws), sizes_(draw_sizes(draws)), rows_((sizes_.cross_aisles - 1) * sizes_.steps + 1) {}
+      : draws_(draws), sizes_(draw_grid(draws)), rows_((sizes_.cross_aisles - 1) * sizes_.steps + 1) {}
 
   Layout make() {
     place_aisle_stations();
@@ -138,7 +138,7 @@ class AisleGrid {
   }
 
   Draws& draws_;
-  Sizes sizes_;
+  GridSizes sizes_;
   std::uint32_t rows_;
   LayoutBuilder builder_{"aisle-grid"};
   std::vector<std::vector<StationId>> aisles_, crosses_;

@@ -12,7 +12,7 @@ namespace fleetproof {
 namespace {
 
 // What the two ranges draw from, in millimetres.
-struct Sizes {
+struct PassSizes {
   std::int64_t apart, room;              // at least, of two stations of a lane, and of any two
   std::int64_t low_height, high_height;  // of the ring
   std::int64_t low_pitch, high_pitch;    // of bars that are not side by side
@@ -20,7 +20,7 @@ struct Sizes {
   std::uint32_t fewest, most;            // bars
 };
 
-constexpr Sizes kNormal{3'000, 2'100, 7'400, 8'400, 3'000, 4'200, 400, 8, 14},
+constexpr PassSizes kNormal{3'000, 2'100, 7'400, 8'400, 3'000, 4'200, 400, 8, 14},
     kStress{900, 900, 5'400, 6'600, 1'600, 4'200, 1'500, 6, 10};
 
 // Of a lane, on a thousand millimetres of its straight line: kinks of a few degrees, or of up to 60. It keeps near it.
@@ -256,7 +256,7 @@ class ClosePass {
 
   Draws& draws_;
   bool stress_;
-  Sizes sizes_;
+  PassSizes sizes_;
   std::int64_t height_;  // of the ring, millimetres
   Way way_;
   std::int64_t slope_;  // of lanes at most, see kGentle_mm

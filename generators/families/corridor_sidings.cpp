@@ -16,13 +16,13 @@ struct Siding {
   Way way;
 };
 
-struct Sizes {
+struct CorridorSizes {
   std::int64_t pitch, spur, offset;  // millimetres; offset: of a siding's track from the corridor
   std::uint32_t steps;               // segments of the corridor
 };
 
-Sizes draw_sizes(Draws& draws, Range range) {
-  Sizes s{};
+CorridorSizes draw_corridor(Draws& draws, Range range) {
+  CorridorSizes s{};
   s.pitch = draw_between(draws, 3600, 4800, 50);
   s.spur = draw_between(draws, 3000, 3500, 50);
   s.offset = draw_between(draws, 2400, 3000, 50);
@@ -37,7 +37,7 @@ class CorridorSidings {
   CorridorSidings(Draws& draws, Range range)
       : draws_(draws),
         range_(range),
-        sizes_(draw_sizes(draws, range)),
+        sizes_(draw_corridor(draws, range)),
         builder_(family_name("corridor-sidings", range)) {}
 
   Layout make() {
@@ -144,7 +144,7 @@ class CorridorSidings {
 
   Draws& draws_;
   Range range_;
-  Sizes sizes_;
+  CorridorSizes sizes_;
   LayoutBuilder builder_;
   std::vector<StationId> corridor_;
   std::vector<Siding> sidings_;

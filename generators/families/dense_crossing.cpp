@@ -9,14 +9,14 @@ namespace {
 
 constexpr std::int64_t kVehicleLength_mm = 1'600;
 
-struct Sizes {
+struct CrossingSizes {
   std::uint32_t lines;       // in each direction
   std::int64_t pitch, spur;  // millimetres
   std::uint32_t spurs;
 };
 
-Sizes draw_sizes(Draws& draws, Range range) {
-  Sizes s{};
+CrossingSizes draw_crossing(Draws& draws, Range range) {
+  CrossingSizes s{};
   const bool stress = range == Range::Stress;
   s.lines = stress ? 4 + draws.below(3) : 3 + draws.below(4);
   s.pitch = stress ? draw_between(draws, kVehicleLength_mm, kVehicleLength_mm * 2, 100)
@@ -31,7 +31,7 @@ class DenseCrossing {
   DenseCrossing(Draws& draws, Range range)
       : draws_(draws),
         range_(range),
-        sizes_(draw_sizes(draws, range)),
+        sizes_(draw_crossing(draws, range)),
         builder_(family_name("dense-crossing", range)) {}
 
   Layout make() {
@@ -117,7 +117,7 @@ class DenseCrossing {
 
   Draws& draws_;
   Range range_;
-  Sizes sizes_;
+  CrossingSizes sizes_;
   LayoutBuilder builder_;
   Grid crossings_;
 };

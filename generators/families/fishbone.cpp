@@ -11,7 +11,7 @@
 namespace fleetproof {
 namespace {
 
-struct Sizes {
+struct FishboneSizes {
   std::int64_t dx, dy, spur;  // millimetres; dx, dy: from one picking aisle to the next, and one step along it
   std::int32_t steps;         // of a diagonal
   std::uint32_t parking, charging, docks;
@@ -22,8 +22,8 @@ std::int64_t whole_mm(double mm) { return static_cast<std::int64_t>(mm + 0.5); }
 // Both legs of the diagonal's angle are at least `shorter`. At 45 degrees, a station beside the diagonal is then 0.707
 // of `shorter` away from it. Stress: flatter or steeper, and so narrow that bodies on neighbouring aisles pass each
 // other within 10 cm.
-Sizes draw_sizes(Draws& draws, Range range) {
-  Sizes s{};
+FishboneSizes draw_fishbone(Draws& draws, Range range) {
+  FishboneSizes s{};
   const bool stress = range == Range::Stress, steep = stress && draws.below(2) == 0;
   const double shorter =
       static_cast<double>(stress ? draw_between(draws, 2100, 2600, 50) : draw_between(draws, 3150, 3700, 50));
@@ -46,7 +46,7 @@ Sizes draw_sizes(Draws& draws, Range range) {
 class Fishbone {
  public:
   Fishbone(Draws& draws, Range range)
-      : draws_(draws), range_(range), sizes_(draw_sizes(draws, range)), builder_(family_name("fishbone", range)) {}
+      : draws_(draws), range_(range), sizes_(draw_fishbone(draws, range)), builder_(family_name("fishbone", range)) {}
 
   Layout make() {
     for (std::int32_t column = -sizes_.steps; column <= sizes_.steps; ++column) {
@@ -120,7 +120,7 @@ class Fishbone {
 
   Draws& draws_;
   Range range_;
-  Sizes sizes_;
+  FishboneSizes sizes_;
   LayoutBuilder builder_;
   std::map<Place, StationId> at_;
 };

@@ -14,14 +14,14 @@ constexpr std::int64_t kShortestLoop_mm = 60'000, kLongestLoop_mm = 200'000;
 // Between the ends of two spurs that face each other, and between a spur's end and the lane across the loop.
 constexpr std::int64_t kRoomToWait_mm = 2'300;
 
-struct Sizes {
+struct LoopSizes {
   std::int64_t pitch, radius, spur;  // millimetres
   std::uint32_t along, across;       // segments of a long and of a short side
   std::uint32_t spurs;
 };
 
-Sizes draw_sizes(Draws& draws) {
-  Sizes s{};
+LoopSizes draw_loop(Draws& draws) {
+  LoopSizes s{};
   s.pitch = draw_between(draws, 3600, 4800, 50);
   s.radius = draw_between(draws, kRoomToWait_mm, 3000, 50);
   s.spur = draw_between(draws, 3500, 6000, 50);
@@ -41,7 +41,7 @@ class LoopSpurs {
   LoopSpurs(Draws& draws, Range range)
       : draws_(draws),
         range_(range),
-        sizes_(draw_sizes(draws)),
+        sizes_(draw_loop(draws)),
         way_(draws.below(2) == 0 ? Way::Forward : Way::Backward),
         builder_(family_name("loop-spurs", range)) {}
 
@@ -159,7 +159,7 @@ class LoopSpurs {
 
   Draws& draws_;
   Range range_;
-  Sizes sizes_;
+  LoopSizes sizes_;
   Way way_;
   LayoutBuilder builder_;
   std::vector<Side> sides_;

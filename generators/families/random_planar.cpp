@@ -23,7 +23,7 @@ struct Edge {
   Way way;
 };
 
-std::int64_t whole_mm(double mm) { return static_cast<std::int64_t>(std::floor(mm + 0.5)); }
+std::int64_t nearest_mm(double mm) { return static_cast<std::int64_t>(std::floor(mm + 0.5)); }
 
 class RandomPlanar {
  public:
@@ -126,8 +126,8 @@ class RandomPlanar {
     const double side = draws_.below(2) == 0 ? 1.0 : -1.0, along = 1.9 * aside;  // 27.8 degrees
     if (length < 2.0 * along + 1'000.0) return false;
     const auto beside = [&](double s) {
-      return PointMm{a.x + whole_mm((s * dx - side * aside * dy) / length),
-                     a.y + whole_mm((s * dy + side * aside * dx) / length)};
+      return PointMm{a.x + nearest_mm((s * dx - side * aside * dy) / length),
+                     a.y + nearest_mm((s * dy + side * aside * dx) / length)};
     };
     const PointMm p = beside(along), q = beside(length - along);
     const auto near = [&](PointMm other) {

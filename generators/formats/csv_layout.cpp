@@ -48,9 +48,9 @@ struct Property {
   const char* column;
   double Segment::*value;
 };
-constexpr Property kProperties[] = {{"speed_limit_mps", &Segment::speed_limit_mps},
-                                    {"back_speed_limit_mps", &Segment::back_speed_limit_mps},
-                                    {"width_m", &Segment::width_m}};
+constexpr Property kColumnsOfProperties[] = {{"speed_limit_mps", &Segment::speed_limit_mps},
+                                             {"back_speed_limit_mps", &Segment::back_speed_limit_mps},
+                                             {"width_m", &Segment::width_m}};
 
 // The parts of a text between bars, without empty ones. A bar or backslash after a backslash belongs to a part.
 std::vector<std::string> parts_of(std::string_view text) {
@@ -287,7 +287,7 @@ class TableReader {
     for (const auto& one : parts_of(blocks)) segment.blocks.push_back(block(one));
     std::ranges::sort(segment.blocks);
     if (std::ranges::adjacent_find(segment.blocks) != segment.blocks.end()) refuse("a block is named twice");
-    for (const auto& [column, property] : kProperties) {
+    for (const auto& [column, property] : kColumnsOfProperties) {
       if (const auto value = field(fields, column); !value.empty()) segment.*property = number(value, column);
     }
     layout_.segments.push_back(std::move(segment));

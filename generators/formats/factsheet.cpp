@@ -17,7 +17,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr Topic kOther{"{0} parts of the factsheet are left out ({1})"};
+constexpr Topic kOtherParts{"{0} parts of the factsheet are left out ({1})"};
 constexpr Topic kMaker{"the manufacturer only serves to find the vehicle in the permissions of a layout"};
 constexpr double kSameSize = 0.01;  // share by which a body and its envelope may differ
 
@@ -153,7 +153,7 @@ class FactsheetReader {
   void note_loads_left_out(LeftOutThings& things) {
     const JsonReader loads = root_.at(kLoads);
     for (const auto& inner : loads.value().keys) {
-      if (inner != "loadSets") things.add(kOther, loads.at(inner).place(), fmt::format("{}.{}", kLoads, inner));
+      if (inner != "loadSets") things.add(kOtherParts, loads.at(inner).place(), fmt::format("{}.{}", kLoads, inner));
     }
   }
 
@@ -165,7 +165,7 @@ class FactsheetReader {
       if (key == "polygonPoints" || key == "vertices") {
         note_coordinates(all[0].at(key), things);
       } else {
-        things.add(kOther, all[0].at(key).place(), "envelopes2d." + key);
+        things.add(kOtherParts, all[0].at(key).place(), "envelopes2d." + key);
       }
     }
   }
@@ -173,7 +173,8 @@ class FactsheetReader {
   void note_coordinates(const JsonReader& points, LeftOutThings& things) {
     for (const auto& point : points.items()) {
       for (const auto& key : point.value().keys) {
-        if (key != "x" && key != "y") things.add(kOther, point.at(key).place(), "envelopes2d.polygonPoints." + key);
+        if (key != "x" && key != "y")
+          things.add(kOtherParts, point.at(key).place(), "envelopes2d.polygonPoints." + key);
       }
     }
   }
@@ -185,15 +186,15 @@ class FactsheetReader {
       if (key == kSize || key == kLoads || std::ranges::find(kGeometry, key) != std::end(kGeometry)) continue;
       if (key != kType) {
         const bool is_maker = key == "manufacturer" && !vehicle_.manufacturer.empty();
-        things.add(is_maker ? kMaker : kOther, root_.at(key).place(), key);
+        things.add(is_maker ? kMaker : kOtherParts, root_.at(key).place(), key);
         continue;
       }
       for (const auto& inner : root_.at(key).value().keys) {
-        if (inner != "seriesName") things.add(kOther, root_.at(key).at(inner).place(), key + "." + inner);
+        if (inner != "seriesName") things.add(kOtherParts, root_.at(key).at(inner).place(), key + "." + inner);
       }
     }
     for (const auto& key : size.value().keys) {
-      if (!is_parameter(key)) things.add(kOther, size.at(key).place(), fmt::format("{}.{}", kSize, key));
+      if (!is_parameter(key)) things.add(kOtherParts, size.at(key).place(), fmt::format("{}.{}", kSize, key));
     }
     for (const auto key : kGeometry) {
       const auto geometry = root_.find(key);
@@ -202,7 +203,7 @@ class FactsheetReader {
         if (inner == "envelopes2d") {
           note_envelope(geometry->at(inner), things);
         } else {
-          things.add(kOther, geometry->at(inner).place(), fmt::format("{}.{}", key, inner));
+          things.add(kOtherParts, geometry->at(inner).place(), fmt::format("{}.{}", key, inner));
         }
       }
     }

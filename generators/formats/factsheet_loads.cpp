@@ -14,32 +14,32 @@
 namespace fleetproof {
 namespace {
 
-constexpr Topic kPlaces{"{0} load sets do not say where the load lies ({1}); it lies over the middle of the body"};
+constexpr Topic kLoadPlaces{"{0} load sets do not say where the load lies ({1}); it lies over the middle of the body"};
 constexpr Topic kAngles{"{0} load sets have a load that lies askew ({1}); the circle around it counts"};
 constexpr Topic kOneSide{
     "{0} load sets have a load that reaches farther out on one side ({1}); here it does so on both sides"};
 constexpr Topic kNoSize{"{0} load sets have no dimensions ({1}); these loads do not change the body"};
 constexpr Topic kWeights{"{0} load sets have a largest weight ({1}); it is left out: no weight is modelled"};
-constexpr Topic kOther{"{0} kinds of details of load sets are left out ({1})"};
+constexpr Topic kOtherLoadDetails{"{0} kinds of details of load sets are left out ({1})"};
 
 constexpr double kSlightest_m = 1e-6;       // what a load adds below this is rounding
 constexpr double kSlightest_rad = 1e-3;     // as in files that round pi
 constexpr double kSmallestShare = 0.1;      // that the model has
 constexpr double kLargestAngle_rad = 1000;  // far beyond any number of turns that is meant
 
-constexpr std::string_view kRead[] = {"setName",
-                                      "boundingBoxReference",
-                                      "loadDimensions",
-                                      "maxWeight",
-                                      "maximumWeight",
-                                      "agvSpeedLimit",
-                                      "maximumSpeed",
-                                      "agvAccelerationLimit",
-                                      "maximumAcceleration",
-                                      "agvDecelerationLimit",
-                                      "pickTime",
-                                      "maximumDeceleration",
-                                      "dropTime"};
+constexpr std::string_view kLoadKeysRead[] = {"setName",
+                                              "boundingBoxReference",
+                                              "loadDimensions",
+                                              "maxWeight",
+                                              "maximumWeight",
+                                              "agvSpeedLimit",
+                                              "maximumSpeed",
+                                              "agvAccelerationLimit",
+                                              "maximumAcceleration",
+                                              "agvDecelerationLimit",
+                                              "pickTime",
+                                              "maximumDeceleration",
+                                              "dropTime"};
 
 // The lowest of the numbers that load sets give.
 struct Lowest {
@@ -98,7 +98,8 @@ class LoadSets {
       things_.add(kWeights, weight->place(), name_);
     }
     for (const auto& key : set.value().keys) {
-      if (std::ranges::find(kRead, key) == std::end(kRead)) things_.add(kOther, set.at(key).place(), key);
+      if (std::ranges::find(kLoadKeysRead, key) == std::end(kLoadKeysRead))
+        things_.add(kOtherLoadDetails, set.at(key).place(), key);
     }
     note_others(set, "loadDimensions", {"length", "width"});
     note_others(set, "boundingBoxReference", {"x", "y", "theta"});
@@ -109,7 +110,7 @@ class LoadSets {
     if (!part) return;
     for (const auto& inner : part->value().keys) {
       if (std::ranges::find(read, inner) == read.end())
-        things_.add(kOther, part->at(inner).place(), fmt::format("{}.{}", key, inner));
+        things_.add(kOtherLoadDetails, part->at(inner).place(), fmt::format("{}.{}", key, inner));
     }
   }
 
@@ -126,7 +127,7 @@ class LoadSets {
       y_m = number_within(reference->at("y"), -kLargestBody_m, kLargestBody_m);
       if (const auto theta = reference->find("theta")) turn(*theta, half_x_m, half_y_m);
     } else {
-      things_.add(kPlaces, set.place(), name_);
+      things_.add(kLoadPlaces, set.place(), name_);
     }
     const double ahead_m = x_m + half_x_m - middle_m, behind_m = middle_m - x_m + half_x_m;
     const double left_m = y_m + half_y_m, right_m = half_y_m - y_m;

@@ -14,7 +14,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::int64_t kVersion = 1;
+constexpr std::int64_t kLayoutVersion = 1;
 constexpr std::string_view kFileKeys[] = {"version", "layout"};
 constexpr std::string_view kLayoutKeys[] = {"name", "floor_low_m", "floor_high_m", "stations", "segments", "blocks"};
 constexpr std::string_view kStationKeys[] = {"name", "position_m", "purposes", "turning", "heading"};
@@ -198,7 +198,7 @@ Layout parse_layout(std::string_view text, std::string_view source) {
   const JsonValue root = parse_json(text, source);
   const JsonReader reader(root, source);
   reader.expect_object(kFileKeys);
-  if (const auto version = reader.at("version"); version.integer() != kVersion)
+  if (const auto version = reader.at("version"); version.integer() != kLayoutVersion)
     version.refuse("this program reads version 1");
   return read_layout(reader.at("layout"));
 }
@@ -238,7 +238,7 @@ Layout read_layout(const JsonReader& reader) {
 std::string to_text(const Layout& layout) {
   JsonWriter writer;
   writer.open_object();
-  writer.key("version").value(kVersion);
+  writer.key("version").value(kLayoutVersion);
   writer.key("layout");
   write_layout(writer, layout);
   writer.close();

@@ -26,20 +26,20 @@ constexpr Topic kDrawn{
 constexpr Topic kGuides{"{0} edges are lines on the floor that guide AGVs ({1}); here this changes nothing"};
 constexpr Topic kPlaces{"{0} stations stand beside the nodes ({1}); here an AGV serves them at their nodes"};
 constexpr Topic kForbidden{"{0} nodes and edges forbid types of actions ({1}); here AGVs pick, drop and charge alone"};
-constexpr Topic kVersion{"the file says that it is LIF {1}; it is read as LIF 2.0"};
-constexpr Topic kUnknown{"{0} keys are unknown here and left out ({1})"};
+constexpr Topic kOtherVersion{"the file says that it is LIF {1}; it is read as LIF 2.0"};
+constexpr Topic kUnknownKeys{"{0} keys are unknown here and left out ({1})"};
 
 enum class Named : std::uint8_t { ByOwner, ByKey, ByValue };
 
 // What is done with a key (all that is in it, if there is a topic). Keys of types of mobile robots are read as those of
 // types of vehicles.
-struct Rule {
+struct LifRule {
   std::string_view path;
   const Topic* topic = nullptr;  // null: it is read
   Named named = Named::ByOwner;
   std::string_view says_nothing{};  // a value that means the same as no key
 };
-constexpr Rule kRules[] = {
+constexpr LifRule kLifRules[] = {
     {"layoutId"},
     {"layoutName"},
     {"layoutVersion", &kNotes, Named::ByKey},
@@ -162,8 +162,8 @@ class LifWalk {
  private:
   void member(const JsonReader& value, const std::string& path, const std::string& key, const std::string& owner) {
     const auto inner = (path.empty() ? "" : path + "/") + spelled(key);
-    const auto rule = std::ranges::find(kRules, inner, &Rule::path);
-    if (rule == std::end(kRules)) return things_.add(kUnknown, value.place(), inner);
+    const auto rule = std::ranges::find(kLifRules, inner, &LifRule::path);
+    if (rule == std::end(kLifRules)) return things_.add(kUnknownKeys, value.place(), inner);
     if (rule->topic != nullptr) return left_out(*rule, value, key, owner);
     if (inner.ends_with("/actions") || inner.ends_with("Actions")) return actions(value);
     if (value.value().shape == JsonValue::Shape::Object) members(value, inner, owner);
@@ -173,7 +173,7 @@ class LifWalk {
     }
   }
 
-  void left_out(const Rule& rule, const JsonReader& value, const std::string& key, const std::string& owner) {
+  void left_out(const LifRule& rule, const JsonReader& value, const std::string& key, const std::string& owner) {
     const auto text = text_of(value.value());
     if (!rule.says_nothing.empty() && text == rule.says_nothing) return;
     // The importer reads what it wrote itself.
@@ -203,14 +203,14 @@ void note_version(const JsonReader& root, LeftOutThings& things) {
   const auto version = meta ? meta->find("lifVersion") : std::nullopt;
   if (!version || !version->is_text()) return;
   const std::string text = version->text(), major = text.substr(0, text.find('.'));
-  if (major != "0" && major != "1" && major != "2") things.add(kVersion, version->place(), text);
+  if (major != "0" && major != "1" && major != "2") things.add(kOtherVersion, version->place(), text);
 }
 
 void note_origin(const JsonReader& origin, LeftOutThings& things) {
   for (const auto& key : origin.value().keys) {
     if (key == "layouts") continue;
     const bool is_note = key == "originId" || key == "originDescriptor" || key == "originDescription";
-    things.add(is_note ? kNotes : kUnknown, origin.at(key).place(), is_note ? key : "origins/" + key);
+    things.add(is_note ? kNotes : kUnknownKeys, origin.at(key).place(), is_note ? key : "origins/" + key);
   }
 }
 
@@ -221,7 +221,7 @@ void note_left_out(const JsonReader& root, const JsonReader& layout, const Purpo
   LeftOutThings things;
   for (const auto& key : root.value().keys) {
     if (key == "layouts" || key == "origins") continue;
-    things.add(key == "metaInformation" ? kNotes : kUnknown, root.at(key).place(), key);
+    things.add(key == "metaInformation" ? kNotes : kUnknownKeys, root.at(key).place(), key);
   }
   note_version(root, things);
   if (const auto origins = root.find("origins")) {

@@ -11,7 +11,7 @@ namespace fleetproof {
 namespace {
 
 constexpr Topic kCosts{"{0} paths have routing costs ({1}); they are left out"};
-constexpr Topic kHeights{"{0} points and locations lie above or below the floor ({1}); here the floor is flat"};
+constexpr Topic kPointHeights{"{0} points and locations lie above or below the floor ({1}); here the floor is flat"};
 constexpr Topic kSizes{"{0} points limit the size of an AGV ({1}); here every AGV may stop at every station"};
 constexpr Topic kEnvelopes{
     "{0} points and paths have envelopes ({1}); they are left out, because the body of each AGV is followed"};
@@ -24,22 +24,23 @@ constexpr Topic kVehicles{
 constexpr Topic kByType{"{0} paths have rules for types of vehicles ({1}); they are left out"};
 constexpr Topic kRoutes{"{0} static routes are left out ({1})"};
 constexpr Topic kGroups{"{0} groups are left out ({1})"};
-constexpr Topic kPlaces{"{0} locations stand beside the paths ({1}); here an AGV serves them at the linked points"};
+constexpr Topic kLocationPlaces{
+    "{0} locations stand beside the paths ({1}); here an AGV serves them at the linked points"};
 constexpr Topic kOutgoing{"{0} points list outgoing paths that do not start there ({1}); the ends of the paths count"};
 constexpr Topic kProperties{"{0} properties are left out (keys: {1})"};
 constexpr Topic kNumbers{"the numbers (\"id\") of {0} elements are left out ({1})"};
 constexpr Topic kEditor{"labels, colours, symbols, layers and other aids of the editor are left out"};
 constexpr Topic kDrawsNothing{"{0} elements draw something that is not in the model ({1}); they are left out"};
 constexpr Topic kSecond{"{0} elements stand there a second time ({1}); the first counts"};
-constexpr Topic kUnknown{"{0} elements or attributes are unknown here and left out ({1})"};
+constexpr Topic kUnknownElements{"{0} elements or attributes are unknown here and left out ({1})"};
 
 // What is done with an element (attribute "*": with all that is in it) or with one of its attributes.
-struct Rule {
+struct OpentcsRule {
   std::string_view element, attribute;
   const Topic* topic = nullptr;     // null: it is read
   std::string_view says_nothing{};  // a value that means the same as no attribute
 };
-constexpr Rule kRules[] = {
+constexpr OpentcsRule kOpentcsRules[] = {
     {"", "version"},
     {"", "name"},
     {"property", "*", &kProperties},
@@ -49,8 +50,8 @@ constexpr Rule kRules[] = {
     {"point", "positionY"},
     {"point", "xPosition"},
     {"point", "yPosition"},
-    {"point", "positionZ", &kHeights, "0"},
-    {"point", "zPosition", &kHeights, "0"},
+    {"point", "positionZ", &kPointHeights, "0"},
+    {"point", "zPosition", &kPointHeights, "0"},
     {"point", "vehicleOrientationAngle"},
     {"point", "id", &kNumbers},
     {"point/maxVehicleBoundingBox", "*", &kSizes},
@@ -95,15 +96,15 @@ constexpr Rule kRules[] = {
     {"locationType/allowedPeripheralOperation", "*", &kDevices},
     {"locationType/property", "*", &kProperties},
     {"locationType/locationTypeLayout", "locationRepresentation"},
-    {"location", "name", &kPlaces},
+    {"location", "name", &kLocationPlaces},
     {"location", "type"},
     {"location", "locked"},
-    {"location", "positionX", &kPlaces},
-    {"location", "positionY", &kPlaces},
-    {"location", "xPosition", &kPlaces},
-    {"location", "yPosition", &kPlaces},
-    {"location", "positionZ", &kHeights, "0"},
-    {"location", "zPosition", &kHeights, "0"},
+    {"location", "positionX", &kLocationPlaces},
+    {"location", "positionY", &kLocationPlaces},
+    {"location", "xPosition", &kLocationPlaces},
+    {"location", "yPosition", &kLocationPlaces},
+    {"location", "positionZ", &kPointHeights, "0"},
+    {"location", "zPosition", &kPointHeights, "0"},
     {"location", "id", &kNumbers},
     {"location/link", "point"},
     {"location/link/allowedOperation", "name"},
@@ -137,14 +138,14 @@ constexpr std::string_view kSingle[] = {"point/pointLayout", "path/pathLayout", 
 constexpr std::string_view kReadProperties[] = {"tcs:defaultLocationTypeSymbol"};
 constexpr std::string_view kReadDrawing[] = {"POSITION_X", "POSITION_Y", "CONN_TYPE", "CONTROL_POINTS"};
 
-const Rule* rule_of(std::string_view element, std::string_view attribute) {
+const OpentcsRule* rule_of(std::string_view element, std::string_view attribute) {
   const auto found = std::ranges::find_if(
-      kRules, [&](const Rule& rule) { return rule.element == element && rule.attribute == attribute; });
-  return found == std::end(kRules) ? nullptr : &*found;
+      kOpentcsRules, [&](const OpentcsRule& rule) { return rule.element == element && rule.attribute == attribute; });
+  return found == std::end(kOpentcsRules) ? nullptr : &*found;
 }
 
 bool is_read(std::string_view element) {
-  return std::ranges::any_of(kRules, [&](const Rule& rule) { return rule.element == element; }) ||
+  return std::ranges::any_of(kOpentcsRules, [&](const OpentcsRule& rule) { return rule.element == element; }) ||
          element == "point/outgoingPath" || element == "visualLayout/modelLayoutElement/property";
 }
 
@@ -175,7 +176,7 @@ class LeftOut {
     if (path == "point/outgoingPath") return outgoing(node, owner);
     if (path == "visualLayout/modelLayoutElement/property") return drawn_property(node);
     if (const auto* whole = rule_of(path, "*")) return left_out(*whole, node, owner);
-    if (!is_read(path)) return add(kUnknown, node, path);
+    if (!is_read(path)) return add(kUnknownElements, node, path);
     if (std::ranges::find(kSingle, path) != std::end(kSingle) && node.previous_sibling(node.name()))
       return add(kSecond, node, owner.empty() ? path : owner);
     attributes(node, path);
@@ -184,7 +185,7 @@ class LeftOut {
     for (const auto child : node.children()) visit(child, path + "/" + child.name(), owner);
   }
 
-  void left_out(const Rule& rule, const pugi::xml_node& node, const std::string& owner) {
+  void left_out(const OpentcsRule& rule, const pugi::xml_node& node, const std::string& owner) {
     const std::string key = node.attribute("name").value();
     if (rule.topic != &kProperties) return add(*rule.topic, node, owner.empty() ? node.name() : owner);
     if (std::ranges::find(kReadProperties, key) == std::end(kReadProperties)) add(kProperties, node, key);
@@ -198,7 +199,7 @@ class LeftOut {
       if (name.starts_with("xmlns") || name.starts_with("xsi:")) continue;
       const auto* rule = rule_of(path, name);
       if (rule == nullptr) {
-        add(kUnknown, node, path + "@" + std::string(name));
+        add(kUnknownElements, node, path + "@" + std::string(name));
       } else if (rule->topic != nullptr && attribute.value() != rule->says_nothing) {
         add(*rule->topic, node, node.attribute("name").value());
       }
@@ -215,7 +216,7 @@ class LeftOut {
   }
   void attributes_but_name(const pugi::xml_node& node, const std::string& path) {
     for (const auto attribute : node.attributes()) {
-      if (std::string_view(attribute.name()) != "name") add(kUnknown, node, path + "@" + attribute.name());
+      if (std::string_view(attribute.name()) != "name") add(kUnknownElements, node, path + "@" + attribute.name());
     }
   }
 

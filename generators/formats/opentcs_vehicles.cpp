@@ -26,10 +26,10 @@ constexpr Topic kSpeeds{"{0} vehicles have no velocity above 0 ({1}); they have 
 constexpr Topic kBeside{
     "{0} vehicles have their reference point beside their middle line ({1}); here it is on the line"};
 constexpr Topic kNoReverse{"{0} vehicles cannot drive backward ({1}); here an AGV may where a segment allows it"};
-constexpr Topic kEnvelopes{"{0} vehicles have an envelope key ({1}); it is left out, because the body is followed"};
-constexpr Topic kOther{"{0} kinds of details of vehicles are left out ({1})"};
+constexpr Topic kEnvelopeKeys{"{0} vehicles have an envelope key ({1}); it is left out, because the body is followed"};
+constexpr Topic kOtherVehicleDetails{"{0} kinds of details of vehicles are left out ({1})"};
 
-constexpr std::string_view kRead[] = {"name", "length", "maxVelocity", "maxReverseVelocity", "envelopeKey"};
+constexpr std::string_view kVehicleKeysRead[] = {"name", "length", "maxVelocity", "maxReverseVelocity", "envelopeKey"};
 
 class VehicleReader {
  public:
@@ -43,14 +43,14 @@ class VehicleReader {
     vehicle.vehicles.push_back(vehicle.type.name);
     body(node, vehicle);
     speeds(node, vehicle);
-    if (node.attribute("envelopeKey")) note(kEnvelopes, node);
+    if (node.attribute("envelopeKey")) note(kEnvelopeKeys, node);
     for (const auto attribute : node.attributes()) {
-      if (std::ranges::find(kRead, attribute.name()) == std::end(kRead))
-        things_.add(kOther, xml_.place(node), attribute.name());
+      if (std::ranges::find(kVehicleKeysRead, attribute.name()) == std::end(kVehicleKeysRead))
+        things_.add(kOtherVehicleDetails, xml_.place(node), attribute.name());
     }
     for (const auto child : node.children()) {
       if (child.type() == pugi::node_element && std::string_view(child.name()) != "boundingBox")
-        things_.add(kOther, xml_.place(child), child.name());
+        things_.add(kOtherVehicleDetails, xml_.place(child), child.name());
     }
     return vehicle;
   }
@@ -91,7 +91,7 @@ class VehicleReader {
     } else {
       note(kWidths, node);
     }
-    if (xml_.has(box, "height")) things_.add(kOther, xml_.place(box), "height");
+    if (xml_.has(box, "height")) things_.add(kOtherVehicleDetails, xml_.place(box), "height");
     if (box && xml_.has(node, "length") && xml_.number(node, "length") != xml_.number(box, "length"))
       note(kSecondLengths, node);
     const double ahead_m = offset_m(box, "referenceOffsetX");

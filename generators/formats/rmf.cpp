@@ -26,7 +26,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kListed = 50;  // levels in a sentence
+constexpr std::size_t kLevelsListed = 50;  // levels in a sentence
 
 class LevelReader {
  public:
@@ -88,10 +88,10 @@ class LevelReader {
         at,
         told_.graphs.empty()
             ? fmt::format("level {} has no lane; add some, or choose another level; levels of the file: {}",
-                          in_quotes(read_.name), name_list(levels, kListed))
+                          in_quotes(read_.name), name_list(levels, kLevelsListed))
             : fmt::format("no lane of level {} belongs to graph {}; graphs of its lanes: {}; levels of the file: {}",
                           in_quotes(read_.name), choice_.graph_idx, fmt::join(told_.graphs, ", "),
-                          name_list(levels, kListed)));
+                          name_list(levels, kLevelsListed)));
   }
 
   YAML::Node choose_level() {
@@ -110,7 +110,7 @@ class LevelReader {
       if (entry.first.Scalar() != wanted) continue;
       if (names.size() > 1)
         warn(levels, fmt::format("of {} levels, {} is read (levels: {})", names.size(), in_quotes(wanted),
-                                 name_list(names, kListed)));
+                                 name_list(names, kLevelsListed)));
       layout_.name = wanted;
       for (const char* key : {"building_name", "name"}) {
         if (const auto name = root_[key]; name.IsDefined() && name.IsScalar())
@@ -119,7 +119,7 @@ class LevelReader {
       return entry.second;
     }
     yaml_.refuse(levels, fmt::format("there is no level {}; levels of the file: {}", in_quotes(wanted),
-                                     name_list(names, kListed)));
+                                     name_list(names, kLevelsListed)));
   }
 
   // The first of all, if none has a lane.

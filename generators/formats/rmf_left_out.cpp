@@ -14,12 +14,12 @@ namespace fleetproof {
 namespace {
 
 constexpr Topic kDoors{"{0} doors are left out ({1}); doors are not modelled: an AGV drives through without waiting"};
-constexpr Topic kLifts{"{0} lifts are left out ({1}); lifts are not modelled, and only one level is read"};
+constexpr Topic kRmfLifts{"{0} lifts are left out ({1}); lifts are not modelled, and only one level is read"};
 constexpr Topic kParts{"{0} parts of the file are left out ({1}); they change no lane"};
 constexpr Topic kUnused{"{0} vertices lie on no lane that is read and are left out ({1})"};
 constexpr Topic kLostPlaces{
     "{0} chargers, parking spots, dispensers and ingestors lie on no lane that is read and are left out ({1})"};
-constexpr Topic kHeights{"{0} vertices lie above or below the floor ({1}); here the floor is flat"};
+constexpr Topic kVertexHeights{"{0} vertices lie above or below the floor ({1}); here the floor is flat"};
 constexpr Topic kMutexes{"{0} mutex groups of vertices are left out ({1}); here a block holds lanes alone"};
 constexpr Topic kDocks{"{0} docking manoeuvres are left out ({1})"};
 constexpr Topic kRobots{"{0} robots of the fleet are left out ({1}); a campaign has its own fleet"};
@@ -29,43 +29,43 @@ constexpr Topic kPassing{
 constexpr Topic kMarks{"{0} kinds of marks on vertices are left out ({1})"};
 constexpr Topic kMocks{"{0} kinds of marks on lanes are left out ({1})"};
 constexpr Topic kOfNoLength{"{0} kinds of attributes of lanes without a length are left out ({1})"};
-constexpr Topic kUnknown{"{0} attributes are unknown here and left out ({1})"};
+constexpr Topic kUnknownAttributes{"{0} attributes are unknown here and left out ({1})"};
 
-enum class Named : std::uint8_t { ByOwner, ByKey, ByValue };
+enum class NamedBy : std::uint8_t { ByOwner, ByKey, ByValue };
 
-struct Rule {
+struct RmfRule {
   std::string_view key;
   const Topic* topic = nullptr;  // null: it is read
-  Named named = Named::ByOwner;
+  NamedBy named = NamedBy::ByOwner;
 };
-constexpr Rule kLaneRules[] = {{"bidirectional"},
-                               {"graph_idx"},
-                               {"speed_limit"},
-                               {"orientation"},
-                               {"orientation_constraint"},
-                               {"mutex"},
-                               {"dock_name", &kDocks, Named::ByValue},
-                               {"undock_name", &kDocks, Named::ByValue},
-                               {"door_name", &kDoors, Named::ByValue},
-                               {"lift", &kLifts, Named::ByValue},
-                               {"demo_mock_lift_name", &kMocks, Named::ByKey},
-                               {"demo_mock_floor_name", &kMocks, Named::ByKey}};
-constexpr Rule kVertexRules[] = {{"name"},
-                                 {"is_charger"},
-                                 {"is_parking_spot"},
-                                 {"pickup_dispenser"},
-                                 {"dropoff_ingestor"},
-                                 {"lift_cabin"},
-                                 {"lift"},
-                                 {"mutex", &kMutexes, Named::ByValue},
-                                 {"dock_name", &kDocks, Named::ByValue},
-                                 {"spawn_robot_name", &kRobots, Named::ByValue},
-                                 {"spawn_robot_type", &kRobots, Named::ByValue},
-                                 {"is_holding_point", &kHolding},
-                                 {"is_passthrough_point", &kPassing},
-                                 {"is_cleaning_zone", &kMarks, Named::ByKey},
-                                 {"human_goal_set_name", &kMarks, Named::ByKey},
-                                 {"merge_radius", &kMarks, Named::ByKey}};
+constexpr RmfRule kLaneRules[] = {{"bidirectional"},
+                                  {"graph_idx"},
+                                  {"speed_limit"},
+                                  {"orientation"},
+                                  {"orientation_constraint"},
+                                  {"mutex"},
+                                  {"dock_name", &kDocks, NamedBy::ByValue},
+                                  {"undock_name", &kDocks, NamedBy::ByValue},
+                                  {"door_name", &kDoors, NamedBy::ByValue},
+                                  {"lift", &kRmfLifts, NamedBy::ByValue},
+                                  {"demo_mock_lift_name", &kMocks, NamedBy::ByKey},
+                                  {"demo_mock_floor_name", &kMocks, NamedBy::ByKey}};
+constexpr RmfRule kVertexRules[] = {{"name"},
+                                    {"is_charger"},
+                                    {"is_parking_spot"},
+                                    {"pickup_dispenser"},
+                                    {"dropoff_ingestor"},
+                                    {"lift_cabin"},
+                                    {"lift"},
+                                    {"mutex", &kMutexes, NamedBy::ByValue},
+                                    {"dock_name", &kDocks, NamedBy::ByValue},
+                                    {"spawn_robot_name", &kRobots, NamedBy::ByValue},
+                                    {"spawn_robot_type", &kRobots, NamedBy::ByValue},
+                                    {"is_holding_point", &kHolding},
+                                    {"is_passthrough_point", &kPassing},
+                                    {"is_cleaning_zone", &kMarks, NamedBy::ByKey},
+                                    {"human_goal_set_name", &kMarks, NamedBy::ByKey},
+                                    {"merge_radius", &kMarks, NamedBy::ByKey}};
 constexpr std::string_view kReadRoot[] = {"levels", "name", "building_name", "coordinate_system"};
 constexpr std::string_view kReadLevel[] = {"vertices", "lanes", "measurements"};
 constexpr std::string_view kScale[] = {"reference_level_name", "fiducials"};  // of levels but the reference
@@ -105,7 +105,7 @@ class LevelWalk {
       if (key == "doors") {
         doors(entry.second);
       } else if (key == "lifts" && entry.second.IsMap()) {
-        for (const auto lift : entry.second) things_.add(kLifts, yaml_.place(entry.second), word_of(lift.first));
+        for (const auto lift : entry.second) things_.add(kRmfLifts, yaml_.place(entry.second), word_of(lift.first));
       } else {
         things_.add(kParts, yaml_.place(entry.second), key);
       }
@@ -121,7 +121,7 @@ class LevelWalk {
         continue;
       }
       if (!read_.is_nav_graph && vertex.size() > 2 && !value_of(vertex[2]).empty())
-        things_.add(kHeights, yaml_.place(vertex), name);
+        things_.add(kVertexHeights, yaml_.place(vertex), name);
       attributes(vertex, kVertexRules, name);
     }
   }
@@ -166,14 +166,14 @@ class LevelWalk {
     if (!words.IsMap()) return;
     for (const auto entry : words) {
       const auto key = word_of(entry.first), value = value_of(entry.second);
-      const auto rule = std::ranges::find(rules, key, &Rule::key);
+      const auto rule = std::ranges::find(rules, key, &RmfRule::key);
       if (rule == std::end(rules)) {
-        things_.add(kUnknown, yaml_.place(item), key);
+        things_.add(kUnknownAttributes, yaml_.place(item), key);
       } else if (rule->topic != nullptr && !value.empty()) {
         things_.add(*rule->topic, yaml_.place(item),
-                    rule->named == Named::ByValue ? value
-                    : rule->named == Named::ByKey ? key
-                                                  : owner);
+                    rule->named == NamedBy::ByValue ? value
+                    : rule->named == NamedBy::ByKey ? key
+                                                    : owner);
       }
     }
   }

@@ -6,7 +6,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kNone = ~0U;
+constexpr std::uint32_t kUnseen = ~0U;
 
 // Arrows by the node they leave, one after the other in one array: [first[n], first[n + 1]) leave n.
 struct Successors {
@@ -25,13 +25,13 @@ struct Successors {
 class Tarjan {
  public:
   Tarjan(const Successors& successors, std::size_t nodes)
-      : successors_(successors), nodes_(nodes, {kNone, 0}), path_(nodes), frames_(nodes) {
-    found_.component.assign(nodes, kNone);
+      : successors_(successors), nodes_(nodes, {kUnseen, 0}), path_(nodes), frames_(nodes) {
+    found_.component.assign(nodes, kUnseen);
   }
 
   StrongComponents run() {
     for (std::uint32_t root = 0; root < nodes_.size(); ++root) {
-      if (nodes_[root].number == kNone) search(root);
+      if (nodes_[root].number == kUnseen) search(root);
     }
     return std::move(found_);
   }
@@ -57,9 +57,9 @@ class Tarjan {
       auto& [node, next] = frames_[open_ - 1];
       if (next < successors_.first[node + 1]) {
         const auto to = successors_.to[next++];
-        if (nodes_[to].number == kNone) {
+        if (nodes_[to].number == kUnseen) {
           enter(to);
-        } else if (found_.component[to] == kNone) {
+        } else if (found_.component[to] == kUnseen) {
           nodes_[node].low = std::min(nodes_[node].low, nodes_[to].number);
         }
         continue;
@@ -74,7 +74,7 @@ class Tarjan {
 
   void close(std::uint32_t node) {
     const std::size_t before = on_path_;
-    std::uint32_t member = kNone, smallest = kNone;
+    std::uint32_t member = kUnseen, smallest = kUnseen;
     do {
       member = path_[--on_path_];
       smallest = std::min(smallest, member);
@@ -95,7 +95,7 @@ class Tarjan {
   std::vector<std::uint32_t> path_;
   std::vector<Frame> frames_;
   std::size_t on_path_ = 0, open_ = 0;
-  std::uint32_t visited_ = 0, count_ = 0, smallest_of_largest_ = kNone;
+  std::uint32_t visited_ = 0, count_ = 0, smallest_of_largest_ = kUnseen;
 };
 
 }  // namespace

@@ -11,8 +11,6 @@ namespace fleetproof {
 namespace {
 
 constexpr double kShortestOutage_s = 0.001, kShortestSlot_s = 1e-6, kLongestSlot_s = 1.0;
-constexpr std::uint32_t kMostAgvs = 65536;
-constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);
 
 class RadioRules {
  public:
@@ -76,13 +74,13 @@ class RadioRules {
     for (std::size_t i = 0; i < trace.size(); ++i) {
       const auto& message = trace[i];
       const char* fault = nullptr;
-      if (message.sender.value >= kMostAgvs || message.receiver.value >= kMostAgvs)
+      if (message.sender.value >= kAgvNumbers || message.receiver.value >= kAgvNumbers)
         fault = "an AGV has a number below 65536";
       else if (message.sender == message.receiver)
         fault = "sender and receiver are the same AGV";
-      else if (message.sent < Duration::zero() || message.sent > kLongest)
+      else if (message.sent < Duration::zero() || message.sent > kLongestRadioTime)
         fault = "an instant of sending lies from 0 to 1e9 s";
-      else if (message.delay && (*message.delay < Duration::zero() || *message.delay > kLongest))
+      else if (message.delay && (*message.delay < Duration::zero() || *message.delay > kLongestRadioTime))
         fault = "a delay lies from 0 to 1e9 s";
       else if (i > 0 && order(message) < order(trace[i - 1]))
         fault = "messages are listed in order of sender, receiver and instant of sending";

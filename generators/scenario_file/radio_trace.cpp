@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/base/error.hpp"
+#include "generators/scenario_file/field_rules.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/text/text_lines.hpp"
 
@@ -14,11 +15,8 @@ namespace fleetproof {
 namespace {
 
 constexpr std::string_view kHeading = "sender,receiver,t_send_s,t_recv_s";
-constexpr std::uint32_t kMostAgvs = 65536;
 constexpr std::size_t kMostWholeDigits = 10, kFractionDigits = 9;
 constexpr std::int64_t kLatest_s = 9'000'000'000, kNanoseconds = 1'000'000'000;  // beyond, nanoseconds leave 64 bits
-// the longest recording and the longest delay; the same limit as for runs
-constexpr Duration kLongest = std::chrono::seconds(1'000'000'000);
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
@@ -52,7 +50,7 @@ class RecordingReader {
     const Duration epoch = std::ranges::min_element(trace_, {}, &RecordedMessage::sent)->sent;
     for (std::size_t i = 0; i < trace_.size(); ++i) {
       trace_[i].sent -= epoch;
-      if (trace_[i].sent > kLongest) {
+      if (trace_[i].sent > kLongestRadioTime) {
         throw InputError(at_line(source_, numbers_[i]),
                          "t_send_s is more than 1e9 s after the first; leave out what another clock has dated");
       }
@@ -85,7 +83,7 @@ class RecordingReader {
       message.delay = time("t_recv_s", fields[3]) - message.sent;
       if (*message.delay < Duration::zero())
         refuse("t_recv_s", fields[3], "it is before t_send_s; both clocks must agree");
-      if (*message.delay > kLongest)
+      if (*message.delay > kLongestRadioTime)
         refuse("t_recv_s", fields[3], "it is more than 1e9 s after t_send_s; both clocks must agree");
     }
     trace_.push_back(message);
@@ -93,9 +91,9 @@ class RecordingReader {
   }
 
   AgvId agv(std::string_view column, std::string_view value) const {
-    std::uint32_t number = kMostAgvs;
+    std::uint32_t number = kAgvNumbers;
     const auto read = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (read.ec != std::errc() || read.ptr != value.data() + value.size() || number >= kMostAgvs) {
+    if (read.ec != std::errc() || read.ptr != value.data() + value.size() || number >= kAgvNumbers) {
       refuse(column, value, "an AGV is a whole number from 0 to 65535, in the order of the fleet");
     }
     return AgvId{number};

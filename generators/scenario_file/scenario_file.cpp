@@ -13,14 +13,13 @@
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/field_reader.hpp"
+#include "generators/scenario_file/field_rules.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/text/json_value.hpp"
 #include "generators/text/text_file.hpp"
 
 namespace fleetproof {
 namespace {
-
-constexpr std::uint64_t kMostAgvs = 65536;
 
 // Ids by name. An error for an unknown name suggests the nearest name.
 class Names {
@@ -49,7 +48,7 @@ RecordedMessage recorded_message(const JsonReader& reader) {
   if (items.size() != 3 && items.size() != 4)
     reader.refuse("a recorded message is [sender, receiver, sent_ns, delay_ns], without a delay if it was lost");
   const auto agv = [](const JsonReader& number) {
-    if (number.natural() >= kMostAgvs) number.refuse("an AGV has a number below 65536");
+    if (number.natural() >= kAgvNumbers) number.refuse("an AGV has a number below 65536");
     return AgvId{static_cast<std::uint32_t>(number.natural())};
   };
   RecordedMessage message{agv(items[0]), agv(items[1]), Duration{items[2].integer()}, std::nullopt};

@@ -9,7 +9,7 @@ namespace fleetproof {
 namespace {
 
 // Topics of the faults stream; with the AGV's number they key every sequence of draws.
-enum class Topic : std::uint32_t {
+enum class FaultTopic : std::uint32_t {
   Breakdown = 1,
   MissionBreakdown,
   ProtectiveStop,
@@ -23,7 +23,7 @@ enum class Topic : std::uint32_t {
   ClocksAgree
 };
 
-constexpr double kHour_s = 3600.0;
+constexpr double kHourIn_s = 3600.0;
 constexpr double kWithinMission_s = 60.0;  // after the pick
 constexpr double kFallsClear_m = 0.2;      // between the AGV and the load that fell off behind it
 constexpr double kBesideTrack_m = 1.5;
@@ -34,7 +34,7 @@ class FaultDraws {
  public:
   FaultDraws(Scenario& scenario, const FaultRates& rates, std::uint64_t key)
       : scenario_(scenario), rates_(rates), key_(key) {
-    clocks_agree_ = draws(Topic::ClocksAgree, 0).uniform() < rates.clocks_agree_share;
+    clocks_agree_ = draws(FaultTopic::ClocksAgree, 0).uniform() < rates.clocks_agree_share;
   }
 
   void run() {
@@ -43,32 +43,35 @@ class FaultDraws {
   }
 
  private:
-  Draws draws(Topic topic, std::uint32_t item) const { return Draws(key_, static_cast<std::uint32_t>(topic), item); }
+  Draws draws(FaultTopic topic, std::uint32_t item) const {
+    return Draws(key_, static_cast<std::uint32_t>(topic), item);
+  }
 
   void agv(AgvId id) {
-    poisson(id, Topic::Breakdown, Fault::Kind::Breakdown, rates_.breakdowns_per_agv_hour,
+    poisson(id, FaultTopic::Breakdown, Fault::Kind::Breakdown, rates_.breakdowns_per_agv_hour,
             [&](Draws& d) { return d.exponential(rates_.repair_s); });
-    poisson(id, Topic::ProtectiveStop, Fault::Kind::ProtectiveStop, rates_.protective_stops_per_agv_hour,
+    poisson(id, FaultTopic::ProtectiveStop, Fault::Kind::ProtectiveStop, rates_.protective_stops_per_agv_hour,
             [&](Draws& d) { return d.uniform(rates_.protective_stop_least_s, rates_.protective_stop_most_s); });
-    poisson(id, Topic::Restart, Fault::Kind::Restart, rates_.restarts_per_agv_hour,
+    poisson(id, FaultTopic::Restart, Fault::Kind::Restart, rates_.restarts_per_agv_hour,
             [&](Draws&) { return rates_.restart_s; });
-    poisson(id, Topic::Freeze, Fault::Kind::Freeze, rates_.freezes_per_agv_hour,
+    poisson(id, FaultTopic::Freeze, Fault::Kind::Freeze, rates_.freezes_per_agv_hour,
             [&](Draws& d) { return d.uniform(rates_.freeze_least_s, rates_.freeze_most_s); });
-    poisson(id, Topic::PowerFailure, Fault::Kind::PowerFailure, rates_.power_failures_per_agv_hour,
+    poisson(id, FaultTopic::PowerFailure, Fault::Kind::PowerFailure, rates_.power_failures_per_agv_hour,
             [&](Draws& d) { return d.exponential(rates_.power_back_s); });
     missions(id);
     sensing(id);
-    Draws battery = draws(Topic::Battery, id.value);
+    Draws battery = draws(FaultTopic::Battery, id.value);
     if (battery.uniform() < rates_.low_battery_share)
       scenario_.agvs[id.index()].battery = battery.uniform(kLowBattery, kLowBatteryMost);
   }
 
   template <class Lasts>
-  void poisson(AgvId id, Topic topic, Fault::Kind kind, double per_hour, Lasts lasts) {
+  void poisson(AgvId id, FaultTopic topic, Fault::Kind kind, double per_hour, Lasts lasts) {
     if (per_hour <= 0.0) return;
     Draws d = draws(topic, id.value);
     const double horizon_s = to_seconds(scenario_.horizon);
-    for (double t_s = d.exponential(kHour_s / per_hour); t_s < horizon_s; t_s += d.exponential(kHour_s / per_hour)) {
+    for (double t_s = d.exponential(kHourIn_s / per_hour); t_s < horizon_s;
+         t_s += d.exponential(kHourIn_s / per_hour)) {
       Fault fault;
       fault.kind = kind;
       fault.agv = id;
@@ -79,7 +82,7 @@ class FaultDraws {
   }
 
   void missions(AgvId id) {
-    Draws breakdown = draws(Topic::MissionBreakdown, id.value), drop = draws(Topic::LoadDrop, id.value);
+    Draws breakdown = draws(FaultTopic::MissionBreakdown, id.value), drop = draws(FaultTopic::LoadDrop, id.value);
     const AgvSetup& agv = scenario_.agvs[id.index()];
     const double length_m = scenario_.type_of(agv).footprint_with(true).length_m;
     for (std::uint32_t transport = 0; transport < agv.transports.size(); ++transport) {
@@ -101,7 +104,7 @@ class FaultDraws {
   }
 
   void sensing(AgvId id) {
-    Draws clock = draws(Topic::Clock, id.value);
+    Draws clock = draws(FaultTopic::Clock, id.value);
     SensingSetup& sensing = scenario_.agvs[id.index()].sensing;
     sensing = {clock.uniform(0.0, rates_.clock_offset_s),
                clock.uniform(-rates_.clock_drift_ppm, rates_.clock_drift_ppm) + 0.0, rates_.position_error_m,
@@ -111,8 +114,8 @@ class FaultDraws {
 
   void obstacles() {
     if (rates_.obstacles_per_hour <= 0.0) return;
-    Draws d = draws(Topic::Obstacle, 0);
-    const double horizon_s = to_seconds(scenario_.horizon), mean_s = kHour_s / rates_.obstacles_per_hour;
+    Draws d = draws(FaultTopic::Obstacle, 0);
+    const double horizon_s = to_seconds(scenario_.horizon), mean_s = kHourIn_s / rates_.obstacles_per_hour;
     for (double t_s = d.exponential(mean_s); t_s < horizon_s; t_s += d.exponential(mean_s)) {
       const auto& lanes = scenario_.map->lanes();
       const Curve& curve = lanes[d.below(static_cast<std::uint32_t>(lanes.size()))].curve;

@@ -6,7 +6,7 @@ namespace fleetproof {
 
 namespace {
 
-enum Topic : std::uint32_t { kPlaceTopic = 1, kDelayTopic = 2 };
+enum RadioTopic : std::uint32_t { kPlaceTopic = 1, kDelayTopic = 2 };
 
 }  // namespace
 

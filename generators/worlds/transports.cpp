@@ -11,7 +11,7 @@ namespace fleetproof {
 namespace {
 
 constexpr double kFirstWithin_s = 10.0;
-constexpr std::uint32_t kNoAgv = ~0U;  // item of draws that belong to no AGV
+constexpr std::uint32_t kOfNoAgv = ~0U;  // item of draws that belong to no AGV
 
 // From one station to another; the second is drawn from the rest.
 TransportOrder draw_order(Draws& draws, const OrderEnds& ends) {
@@ -147,7 +147,7 @@ bool assign_transports(Scenario& scenario, const Demand& demand, const Reachabil
   std::vector<std::optional<HotSpots>> hot_spots(ends.size());
   for (std::size_t type = 0; type < ends.size() && demand.hot_spot_skew > 0.0; ++type) {
     if (!ends[type].picks.empty())
-      hot_spots[type].emplace(ends[type], demand.hot_spot_skew, Draws(key, attempt, kNoAgv));
+      hot_spots[type].emplace(ends[type], demand.hot_spot_skew, Draws(key, attempt, kOfNoAgv));
   }
   const double mean_s = 3600.0 / demand.transports_per_agv_hour, horizon_s = to_seconds(scenario.horizon);
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {

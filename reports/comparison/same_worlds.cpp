@@ -5,11 +5,11 @@
 namespace fleetproof {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 // The part of a plan that shapes worlds and judgement.
-Json worlds_of(const std::string& plan_json) {
-  Json plan = Json::parse(plan_json, nullptr, false);
+PlainJson worlds_of(const std::string& plan_json) {
+  PlainJson plan = PlainJson::parse(plan_json, nullptr, false);
   if (!plan.is_object()) return plan_json;
   for (const char* key :
        {"name", "replicates", "gates", "default_gates", "limits", "audit", "agent_config", "coverage"})
@@ -23,7 +23,7 @@ Json worlds_of(const std::string& plan_json) {
 std::string world_difference(const CampaignRecord& one, const CampaignRecord& other) {
   if (one.engine.version != other.engine.version) return "the versions of fleetproof differ";
   if (one.seed != other.seed) return "the seeds differ";
-  const Json patch = Json::diff(worlds_of(one.plan_json), worlds_of(other.plan_json));
+  const PlainJson patch = PlainJson::diff(worlds_of(one.plan_json), worlds_of(other.plan_json));
   return patch.empty() ? "" : "the plans differ in " + patch.front().at("path").get<std::string>();
 }
 

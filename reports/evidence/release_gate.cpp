@@ -12,7 +12,7 @@ namespace {
 
 using Exact = boost::multiprecision::cpp_bin_float_50;
 
-constexpr double kMostUnits = 1e15;
+constexpr double kMostGateUnits = 1e15;
 constexpr double kShares[] = {10.0, 3.0};  // limit / q
 
 // Whether the gate passes, with 50 decimal digits.
@@ -57,7 +57,7 @@ std::optional<std::uint64_t> units_nearby(std::uint64_t failing, double limit, C
   while (!passes(plenty)) {
     too_few = plenty;
     plenty *= 2.0;
-    if (plenty > 2.0 * kMostUnits) return std::nullopt;
+    if (plenty > 2.0 * kMostGateUnits) return std::nullopt;
   }
   while (plenty - too_few > 1.0) {
     const double middle = std::floor((too_few + plenty) / 2.0);
@@ -92,7 +92,7 @@ std::optional<std::uint64_t> gate_units_needed(std::uint64_t failing, double lim
   const ExactDecision decision(failing, limit, confidence);
   while (!decision.passes(*units)) ++*units;
   while (*units > failing && decision.passes(*units - 1)) --*units;
-  if (static_cast<double>(*units) > kMostUnits) return std::nullopt;
+  if (static_cast<double>(*units) > kMostGateUnits) return std::nullopt;
   return units;
 }
 

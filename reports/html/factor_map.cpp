@@ -13,8 +13,8 @@
 namespace fleetproof::html {
 namespace {
 
-constexpr double kFieldHeight_px = 44.0, kLeft_px = 66.0, kTop_px = 26.0, kBottom_px = 46.0, kRight_px = 10.0;
-constexpr double kLetter_px = 7.9, kLeastField_px = 64.0;
+constexpr double kFieldHeight_px = 44.0, kMapLeft_px = 66.0, kMapTop_px = 26.0, kMapBottom_px = 46.0, kRight_px = 10.0;
+constexpr double kMapLetter_px = 7.9, kLeastField_px = 64.0;
 
 struct Colour {
   double red, green, blue;
@@ -57,7 +57,7 @@ double field_width(const FactorMap& map) {
   std::size_t longest = 0;
   for (const auto& field : map.fields) longest = std::max({longest, field.upper_line.size(), field.lower_line.size()});
   for (const auto& column : map.columns) longest = std::max(longest, column.size());
-  return std::max(kLeastField_px, 14.0 + kLetter_px * static_cast<double>(longest));
+  return std::max(kLeastField_px, 14.0 + kMapLetter_px * static_cast<double>(longest));
 }
 
 Element hatching() {
@@ -103,15 +103,15 @@ void add_thick_line(Element& svg, double x1, double y1, double x2, double y2) {
 
 void add_axes(Element& svg, const FactorMap& map, double width, double bottom) {
   for (std::size_t c = 0; c < map.columns.size(); ++c) {
-    const double x = kLeft_px + (static_cast<double>(c) + 0.5) * width - 1.0;
+    const double x = kMapLeft_px + (static_cast<double>(c) + 0.5) * width - 1.0;
     svg.add(middle_text(map.columns[c], x, bottom + 16.0, "currentColor", "400"));
   }
   for (std::size_t r = 0; r < map.rows.size(); ++r) {
     const double y = bottom - (static_cast<double>(r) + 0.5) * kFieldHeight_px + 4.0;
     svg.add(text_element("text", map.rows[r],
-                         {{"x", kLeft_px - 8.0}, {"y", y}, {"fill", "currentColor"}, {"text-anchor", "end"}}));
+                         {{"x", kMapLeft_px - 8.0}, {"y", y}, {"fill", "currentColor"}, {"text-anchor", "end"}}));
   }
-  const double middle = kLeft_px + width * static_cast<double>(map.columns.size()) / 2.0;
+  const double middle = kMapLeft_px + width * static_cast<double>(map.columns.size()) / 2.0;
   svg.add(middle_text(map.column_name, middle, bottom + 36.0, "currentColor", "600"));
   svg.add(text_element("text", map.row_name, {{"x", 0}, {"y", 12}, {"fill", "currentColor"}, {"font-weight", "600"}}));
 }
@@ -121,28 +121,28 @@ void add_axes(Element& svg, const FactorMap& map, double width, double bottom) {
 Element draw(const FactorMap& map) {
   ensure(map.fields.size() == map.columns.size() * map.rows.size(), "a map has a field for each pair");
   const double width = field_width(map), columns = static_cast<double>(map.columns.size());
-  const double bottom = kTop_px + kFieldHeight_px * static_cast<double>(map.rows.size());
-  const double full_width = kLeft_px + columns * width + kRight_px;
+  const double bottom = kMapTop_px + kFieldHeight_px * static_cast<double>(map.rows.size());
+  const double full_width = kMapLeft_px + columns * width + kRight_px;
   Element svg("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                       {"role", "img"},
                       {"aria-label", map.label},
                       {"class", "map"},
                       {"width", full_width},
-                      {"height", bottom + kBottom_px},
+                      {"height", bottom + kMapBottom_px},
                       {"font-family", "system-ui, sans-serif"},
                       {"font-size", 12}});
   svg.add(hatching());
   for (std::size_t r = 0; r < map.rows.size(); ++r) {
     for (std::size_t c = 0; c < map.columns.size(); ++c) {
-      add_field(svg, map.fields[r * map.columns.size() + c], map.ramp, kLeft_px + static_cast<double>(c) * width,
+      add_field(svg, map.fields[r * map.columns.size() + c], map.ramp, kMapLeft_px + static_cast<double>(c) * width,
                 bottom - static_cast<double>(r + 1) * kFieldHeight_px, width);
     }
   }
   add_axes(svg, map, width, bottom);
-  const double x = kLeft_px + static_cast<double>(map.columns_in_contract) * width - 1.0;
+  const double x = kMapLeft_px + static_cast<double>(map.columns_in_contract) * width - 1.0;
   const double y = bottom - static_cast<double>(map.rows_in_contract) * kFieldHeight_px - 1.0;
-  add_thick_line(svg, x, kTop_px - 4.0, x, bottom);
-  add_thick_line(svg, kLeft_px, y, full_width - kRight_px + 4.0, y);
+  add_thick_line(svg, x, kMapTop_px - 4.0, x, bottom);
+  add_thick_line(svg, kMapLeft_px, y, full_width - kRight_px + 4.0, y);
   return svg;
 }
 

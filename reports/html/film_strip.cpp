@@ -11,13 +11,13 @@
 namespace fleetproof::html {
 namespace {
 
-constexpr double kSide_px = 156.0, kLeft_px = 30.0, kTop_px = 24.0, kBottom_px = 42.0;
-constexpr double kWidth_px = kLeft_px + kSide_px + 2.0;
-constexpr double kBottomOfFloor_px = kTop_px + kSide_px;
+constexpr double kSide_px = 156.0, kFrameLeft_px = 30.0, kFrameTop_px = 24.0, kFrameBottom_px = 42.0;
+constexpr double kWidth_px = kFrameLeft_px + kSide_px + 2.0;
+constexpr double kBottomOfFloor_px = kFrameTop_px + kSide_px;
 constexpr double kRoom_m = 1.5, kMostSide_m = 120.0;
 constexpr double kNamesUpTo_m = 24.0;
-constexpr double kNameHeight_px = 9.0, kLetter_px = 5.4;  // of a name, bold
-constexpr double kTouch_m = 1e-5;                         // as near as the judge measures
+constexpr double kNameHeight_px = 9.0, kNameLetter_px = 5.4;  // of a name, bold
+constexpr double kTouch_m = 1e-5;                             // as near as the judge measures
 constexpr std::size_t kMostLanes = 300, kMostStations = 200;
 
 // The square part of the floor that the frames show.
@@ -26,7 +26,7 @@ struct Window {
   double side_m = 1.0;
 
   double scale() const { return kSide_px / side_m; }
-  double x(double x_m) const { return kLeft_px + (x_m - low.x_m) * scale(); }
+  double x(double x_m) const { return kFrameLeft_px + (x_m - low.x_m) * scale(); }
   double y(double y_m) const { return kBottomOfFloor_px - (y_m - low.y_m) * scale(); }
   bool has(const FloorPoint& p) const {
     return p.x_m >= low.x_m && p.x_m <= low.x_m + side_m && p.y_m >= low.y_m && p.y_m <= low.y_m + side_m;
@@ -83,25 +83,25 @@ void add_axes(Element& svg, const Window& window) {
   };
   ticks(window.low.x_m, [&](double x_m, bool named) {
     const double x = window.x(x_m);
-    svg.add(Element("path", {{"d", fmt::format("M{:.1f} {}V{}", x, kTop_px, kBottomOfFloor_px)},
+    svg.add(Element("path", {{"d", fmt::format("M{:.1f} {}V{}", x, kFrameTop_px, kBottomOfFloor_px)},
                              {"stroke", "currentColor"},
                              {"stroke-opacity", "0.1"}}));
     if (named) svg.add(note_at(fmt::format("{:g}", x_m + 0.0), x, kBottomOfFloor_px + 12.0, "middle", 10, "400"));
   });
   ticks(window.low.y_m, [&](double y_m, bool named) {
     const double y = window.y(y_m);
-    svg.add(Element("path", {{"d", fmt::format("M{} {:.1f}H{}", kLeft_px, y, kLeft_px + kSide_px)},
+    svg.add(Element("path", {{"d", fmt::format("M{} {:.1f}H{}", kFrameLeft_px, y, kFrameLeft_px + kSide_px)},
                              {"stroke", "currentColor"},
                              {"stroke-opacity", "0.1"}}));
-    if (named) svg.add(note_at(fmt::format("{:g}", y_m + 0.0), kLeft_px - 4.0, y + 3.5, "end", 10, "400"));
+    if (named) svg.add(note_at(fmt::format("{:g}", y_m + 0.0), kFrameLeft_px - 4.0, y + 3.5, "end", 10, "400"));
   });
 }
 
 // A bar as long as a square of the grid, above the frame: how large the bodies are, without reading the axes.
 void add_scale(Element& svg, const Window& window) {
   constexpr double kAbove_px = 11.5, kTick_px = 3.0;
-  const double length_m = step_of(window), right = kLeft_px + kSide_px, left = right - length_m * window.scale();
-  const double y = kTop_px - kAbove_px;
+  const double length_m = step_of(window), right = kFrameLeft_px + kSide_px, left = right - length_m * window.scale();
+  const double y = kFrameTop_px - kAbove_px;
   svg.add(Element("path", {{"class", "scale"},
                            {"d", fmt::format("M{0:.1f} {2}v{3}M{0:.1f} {4}H{1:.1f}M{1:.1f} {2}v{3}", left, right,
                                              y - kTick_px, 2.0 * kTick_px, y)},
@@ -197,8 +197,9 @@ class Names {
     const double reach_m = std::hypot(body.length_m, body.width_m) / 2.0;
     const double y = above ? window_.y(body.centre.y_m + reach_m) - 2.0 : window_.y(body.centre.y_m - reach_m) + 9.0;
     // Near an edge a name moves inwards, so that it is not cut.
-    const double half_px = std::min(kLetter_px * static_cast<double>(body.name.size()), kSide_px) / 2.0;
-    const double x = std::clamp(window_.x(body.centre.x_m), kLeft_px + half_px, kLeft_px + kSide_px - half_px);
+    const double half_px = std::min(kNameLetter_px * static_cast<double>(body.name.size()), kSide_px) / 2.0;
+    const double x =
+        std::clamp(window_.x(body.centre.x_m), kFrameLeft_px + half_px, kFrameLeft_px + kSide_px - half_px);
     const bool is_free = std::ranges::none_of(taken_, [&](const Place& place) {
       return std::abs(place.x - x) < place.half_px + half_px && std::abs(place.y - y) < kNameHeight_px;
     });
@@ -244,11 +245,11 @@ std::string clearance_line(const FilmFrame& frame) {
 
 // A drawing in a drawing shows nothing outside its own borders.
 Element floor_of(const FilmStrip& strip, const FilmFrame& frame, const Window& window) {
-  Element floor("svg", {{"x", kLeft_px},
-                        {"y", kTop_px},
+  Element floor("svg", {{"x", kFrameLeft_px},
+                        {"y", kFrameTop_px},
                         {"width", kSide_px},
                         {"height", kSide_px},
-                        {"viewBox", fmt::format("{} {} {} {}", kLeft_px, kTop_px, kSide_px, kSide_px)}});
+                        {"viewBox", fmt::format("{} {} {} {}", kFrameLeft_px, kFrameTop_px, kSide_px, kSide_px)}});
   add_map(floor, strip, window);
   add_bodies(floor, strip, frame, window);
   return floor;
@@ -261,24 +262,24 @@ Element frame_of(const FilmStrip& strip, const FilmFrame& frame, const Window& w
                       {"aria-label", "at " + time + (apart.empty() ? "" : ", " + apart)},
                       {"class", "frame"},
                       {"width", kWidth_px},
-                      {"height", kBottomOfFloor_px + kBottom_px},
-                      {"viewBox", fmt::format("0 0 {} {}", kWidth_px, kBottomOfFloor_px + kBottom_px)},
+                      {"height", kBottomOfFloor_px + kFrameBottom_px},
+                      {"viewBox", fmt::format("0 0 {} {}", kWidth_px, kBottomOfFloor_px + kFrameBottom_px)},
                       {"font-family", "system-ui, sans-serif"}});
   add_axes(svg, window);
   add_scale(svg, window);
   svg.add(floor_of(strip, frame, window));
-  svg.add(Element("rect", {{"x", kLeft_px},
-                           {"y", kTop_px},
+  svg.add(Element("rect", {{"x", kFrameLeft_px},
+                           {"y", kFrameTop_px},
                            {"width", kSide_px},
                            {"height", kSide_px},
                            {"fill", "none"},
                            {"stroke", frame.is_worst ? "#c4562f" : "currentColor"},
                            {"stroke-opacity", frame.is_worst ? "1" : "0.5"},
                            {"stroke-width", frame.is_worst ? 3 : 1}}));
-  svg.add(note_at("m", kLeft_px - 4.0, kTop_px - 8.0, "end", 10, "400"));
-  svg.add(note_at("m", kLeft_px + kSide_px, kBottomOfFloor_px + 22.0, "end", 10, "400"));
-  svg.add(note_at(time, kLeft_px, kTop_px - 8.0, "start", 12, "600"));
-  if (!apart.empty()) svg.add(note_at(apart, kLeft_px, kBottomOfFloor_px + 34.0, "start", 12, "600"));
+  svg.add(note_at("m", kFrameLeft_px - 4.0, kFrameTop_px - 8.0, "end", 10, "400"));
+  svg.add(note_at("m", kFrameLeft_px + kSide_px, kBottomOfFloor_px + 22.0, "end", 10, "400"));
+  svg.add(note_at(time, kFrameLeft_px, kFrameTop_px - 8.0, "start", 12, "600"));
+  if (!apart.empty()) svg.add(note_at(apart, kFrameLeft_px, kBottomOfFloor_px + 34.0, "start", 12, "600"));
   return svg;
 }
 

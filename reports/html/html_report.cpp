@@ -22,7 +22,7 @@ using html::paragraph;
 using html::text_element;
 using html::titled;
 
-constexpr std::size_t kMostRows = 300, kMostPlanBytes = 100'000;
+constexpr std::size_t kMostPageRows = 300, kMostPlanBytes = 100'000;
 
 Element head_of(const Page& page) {
   Element head("head");
@@ -158,7 +158,7 @@ HtmlInput read_html_input(const ArchiveReader& archive, std::string archive_path
 }
 
 std::string render_html(const HtmlInput& input) {
-  const Page page = build_page(input.report, kMostRows);
+  const Page page = build_page(input.report, kMostPageRows);
   Element main("main");
   main.add(text_element("h1", page.title));
   for (const Headline& headline : page.headlines) main.add(html::headline_of(headline));

@@ -11,7 +11,7 @@
 namespace fleetproof::web {
 namespace {
 
-constexpr std::int64_t kLongestDelay_us = 30'000'000, kAtOnce_us = 20'000, kRemembered_us = 60'000'000;
+constexpr std::int64_t kLongestDelay_us = 30'000'000, kAnsweredAtOnce_us = 20'000, kRemembered_us = 60'000'000;
 constexpr std::size_t kMostMarked = 3;
 
 bool is_answer(const FilmTalk& talk, const Delivery& delivery) {
@@ -102,7 +102,7 @@ std::string ask_kind(const Film& film, const FilmTalk& talk, const Setting& sett
       if (asked == nullptr) continue;
       Kind& kind = kinds[asked->message->kind];
       ++kind.before_others;
-      kind.answered += d.sent.at_us - asked->arrives.at_us <= kAtOnce_us ? 1 : 0;
+      kind.answered += d.sent.at_us - asked->arrives.at_us <= kAnsweredAtOnce_us ? 1 : 0;
     }
   }
   const auto most = std::ranges::max_element(

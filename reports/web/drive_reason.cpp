@@ -16,7 +16,7 @@ namespace fleetproof::web {
 namespace {
 
 constexpr std::int64_t kRolling_us = 20'000'000, kStanding_us = 120'000'000, kLeast_us = 5'000'000;
-constexpr std::size_t kMostSenders = 5, kMostWords = 5, kMostAfter = 6;
+constexpr std::size_t kMostSenders = 5, kMostReasonWords = 5, kMostAfter = 6;
 
 // When the last activity of the AGV before this one ended; of a pick or a drop: when it began. Zero: there is none.
 std::int64_t rest_began_us(const Film& film, std::size_t activity) {
@@ -170,7 +170,7 @@ class ReasonTeller {
     std::erase_if(words,
                   [&](const Declared* state) { return state != words.back() && state->at_us < setting_.from_us; });
     if (words.empty()) return;
-    const std::size_t skipped = words.size() > kMostWords ? words.size() - kMostWords : 0;
+    const std::size_t skipped = words.size() > kMostReasonWords ? words.size() - kMostReasonWords : 0;
     std::vector<std::string> texts;
     for (std::size_t i = skipped; i < words.size(); ++i)
       texts.push_back(fmt::format("\"{}\" ({} s)", words[i]->word, time_text(words[i]->at_us)));
@@ -187,7 +187,7 @@ class ReasonTeller {
     std::vector<std::pair<std::int64_t, std::string>> notes;
     for (const auto& [note, at_us] : last_us) notes.emplace_back(at_us, note);
     std::ranges::stable_sort(notes);
-    if (notes.size() > kMostWords) notes.erase(notes.begin(), notes.end() - kMostWords);
+    if (notes.size() > kMostReasonWords) notes.erase(notes.begin(), notes.end() - kMostReasonWords);
     std::vector<std::string> texts;
     for (const auto& [at_us, note] : notes) texts.push_back(fmt::format("{} ({} s)", note, time_text(at_us)));
     if (!texts.empty()) item(notes.back().first, fmt::format("Its agent noted {}.", joined(texts)));

@@ -8,7 +8,7 @@
 namespace fleetproof::web {
 namespace {
 
-constexpr std::int64_t kAfterCounts = 3, kOthersCount = 8;
+constexpr std::int64_t kBudgetAfterCounts = 3, kBudgetOthersCount = 8;
 
 // How far from the failure something is: microseconds, more of them after it and for bodies that are not involved.
 class Distance {
@@ -18,8 +18,8 @@ class Distance {
   }
   bool is_involved(std::size_t body) const { return involved_[body]; }
   std::int64_t of(std::int64_t at_us, bool involved) const {
-    const std::int64_t away_us = at_us < focus_us_ ? focus_us_ - at_us : kAfterCounts * (at_us - focus_us_);
-    return away_us * (involved ? 1 : kOthersCount);
+    const std::int64_t away_us = at_us < focus_us_ ? focus_us_ - at_us : kBudgetAfterCounts * (at_us - focus_us_);
+    return away_us * (involved ? 1 : kBudgetOthersCount);
   }
 
  private:
@@ -50,8 +50,11 @@ std::string span_text(std::int64_t from_us, std::int64_t to_us) {
 // Where nothing is left out.
 Kept kept_within(const Film& film, std::int64_t reach_us) {
   const auto from_us = [&](std::int64_t reach) { return std::max<std::int64_t>(0, film.focus_us - reach); };
-  const auto to_us = [&](std::int64_t reach) { return std::min(film.end_us, film.focus_us + reach / kAfterCounts); };
-  return {from_us(reach_us), to_us(reach_us), from_us(reach_us / kOthersCount), to_us(reach_us / kOthersCount)};
+  const auto to_us = [&](std::int64_t reach) {
+    return std::min(film.end_us, film.focus_us + reach / kBudgetAfterCounts);
+  };
+  return {from_us(reach_us), to_us(reach_us), from_us(reach_us / kBudgetOthersCount),
+          to_us(reach_us / kBudgetOthersCount)};
 }
 
 Kept tell(Film& film, const char* what, std::size_t kept, std::size_t all, std::int64_t reach_us) {

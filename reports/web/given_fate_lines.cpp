@@ -10,7 +10,7 @@
 namespace fleetproof::web {
 namespace {
 
-constexpr std::size_t kMostNamed = 3;
+constexpr std::size_t kMostFates = 3;
 
 struct Given {
   const Message* message = nullptr;
@@ -47,7 +47,7 @@ std::string fate_text(const Given& given, const Film& film) {
 
 std::vector<ReasonLine> given_fate_lines(const Film& film) {
   const std::vector<Given> all = given_until_failure(film);
-  const std::size_t skipped = all.size() > kMostNamed ? all.size() - kMostNamed : 0;
+  const std::size_t skipped = all.size() > kMostFates ? all.size() - kMostFates : 0;
   std::vector<ReasonLine> lines;
   for (std::size_t i = skipped; i < all.size(); ++i) {
     const Given& given = all[i];

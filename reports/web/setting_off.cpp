@@ -7,7 +7,7 @@ namespace fleetproof::web {
 namespace {
 
 // An agent says its word right before or right after its call, perhaps in another activation.
-constexpr std::int64_t kContiguous_us = 1'000, kAtOnce_us = 100'000;
+constexpr std::int64_t kContiguous_us = 1'000, kSetOffAtOnce_us = 100'000;
 
 const Declared* last_word(const Film& film, const ActivityBar& bar) {
   const Declared* last = nullptr;
@@ -40,9 +40,9 @@ std::size_t setting_off(const Film& film, std::size_t activity) {
   if (word == nullptr || word->word.empty()) return activity;
   std::size_t first = activity;
   for (std::size_t i = activity;;) {
-    if (std::abs(film.activities[i].begin_us - word->at_us) <= kAtOnce_us) first = i;
+    if (std::abs(film.activities[i].begin_us - word->at_us) <= kSetOffAtOnce_us) first = i;
     const std::size_t before = rolled_from(film, i);
-    if (before == i || film.activities[i].begin_us < word->at_us - kAtOnce_us) return first;
+    if (before == i || film.activities[i].begin_us < word->at_us - kSetOffAtOnce_us) return first;
     i = before;
   }
 }

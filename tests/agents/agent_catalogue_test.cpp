@@ -12,13 +12,13 @@
 #include "tests/agents/drawn_map.hpp"
 #include "tests/agents/fake_warehouse.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::agent_catalogue_test {
 namespace {
 
 TEST(ReferenceAgents, AreCompleteAndSpeakThisVersion) {
   std::set<std::string> names;
-  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) {
-    const fp_agent_type& type = *fp_reference_agents[i];
+  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_reference_agent(i); ++i) {
+    const fp_agent_type& type = *agent;
     EXPECT_EQ(type.struct_size, sizeof(fp_agent_type));
     EXPECT_EQ(type.abi_major, FP_ABI_MAJOR);
     EXPECT_TRUE(type.create != nullptr && type.on_event != nullptr && type.destroy != nullptr);
@@ -28,21 +28,24 @@ TEST(ReferenceAgents, AreCompleteAndSpeakThisVersion) {
   for (const char* known : {"scripted", "hull-lock", "timeout-grant", "reckless"}) EXPECT_TRUE(names.contains(known));
 }
 
-TEST(FaultyAgents, NameTheirFaultInTheirFileAndOnThePage) {
-  const std::string folder = FLEETPROOF_SOURCE_DIR "/core/agents/faulty/";
-  std::ostringstream page;
-  page << std::ifstream(folder + "README.md").rdbuf();
-  const std::set<std::string> others = {"scripted", "hull-lock", "reckless"};
-  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) {
-    const std::string name = fp_reference_agents[i]->name;
-    if (others.contains(name)) continue;
-    EXPECT_THAT(page.str(), ::testing::HasSubstr("| `" + name + "` |"));
-    std::string file = name, first;
-    std::ranges::replace(file, '-', '_');
-    std::ifstream source(folder + file + ".cpp");
-    std::getline(source, first);
-    EXPECT_THAT(first, ::testing::StartsWith("// FAULT: ")) << file;
+std::string text_of(const std::string& file) {
+  std::ostringstream text;
+  text << std::ifstream(FLEETPROOF_SOURCE_DIR "/core/agents/faulty/" + file).rdbuf();
+  EXPECT_FALSE(text.str().empty()) << file;
+  return text.str();
+}
+
+TEST(FaultyAgents, NameTheirFaultInTheirTableAndOnThePage) {
+  const std::string page = text_of("README.md"), table = text_of("faulty_agents.cpp");
+  std::uint32_t agents = 0;
+  for (; const fp_agent_type* agent = fp_faulty_agent(agents); ++agents) {
+    const std::string name = agent->name;
+    EXPECT_THAT(page, ::testing::HasSubstr("| `" + name + "` |"));
+    // The fault, in one or two lines, directly above the entry.
+    EXPECT_THAT(table, ::testing::ContainsRegex(
+                           "// FAULT: [^\n]+\n( +// [^\n]+\n)? +faulty_hull_lock<[^\n]*>\\(\n? *\"" + name + "\""));
   }
+  EXPECT_GE(agents, 34U);
 }
 
 TEST(Scripted, CallsAtItsInstantsInTheirOrder) {
@@ -77,4 +80,4 @@ TEST(Reckless, DrivesItsTransportsByTheQuickestWay) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::agent_catalogue_test

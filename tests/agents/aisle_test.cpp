@@ -6,7 +6,7 @@
 #include "tests/agents/fake_warehouse.hpp"
 #include "tests/agents/junction.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::aisle_test {
 namespace {
 
 using testing::DrawnMap;
@@ -34,8 +34,8 @@ struct Aisle {
 };
 
 // hull-lock without the convention of aisles, so that AGVs meet in them.
-constexpr LockOptions kTwoWay{.progress = {.one_way_aisles = false}};
-constinit const fp_agent_type kMeetsInAisles = faulty_hull_lock<kTwoWay>("meets-in-aisles", "for this test");
+constinit const fp_agent_type kMeetsInAisles =
+    faulty_hull_lock<LockOptions{.progress = {.one_way_aisles = false}}>("meets-in-aisles", "for this test");
 
 struct Tally : testing::Tally {
   std::uint32_t southward = 0;  // activations on a lane that leads south in the middle of the aisle
@@ -99,4 +99,4 @@ TEST(Aisle, ACrowdedFleetDrivesItOneWay) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::aisle_test

@@ -6,7 +6,7 @@
 
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::aisles_test {
 namespace {
 
 using testing::DrawnMap;
@@ -116,4 +116,4 @@ TEST(Aisles, WithoutAWayRoundTheyAreTwoWay) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::aisles_test

@@ -6,7 +6,7 @@
 #include "core/agents/agent_type.hpp"
 #include "tests/agents/junction.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::charging_test {
 namespace {
 
 using testing::DrawnMap;
@@ -175,4 +175,4 @@ TEST(Charging, AnAgvLeavesAChargerToOneThatIsOnItsWayThere) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::charging_test

@@ -9,7 +9,7 @@
 #include "core/agents/lock_protocol.hpp"
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::crowd_test {
 namespace {
 
 constexpr std::uint32_t kAgvs = 14;
@@ -114,4 +114,4 @@ TEST_F(Crowd, SteppingBackDoesNotMultiply) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::crowd_test

@@ -6,7 +6,7 @@
 
 #include "drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::drive_rules_test {
 namespace {
 
 // Lanes by their ends: those that an AGV without a load may drive and from which it comes back as it is (b), those
@@ -52,4 +52,4 @@ TEST(DriveRules, NorFromTheLanesThatOnlyLeadThere) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::drive_rules_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::errands_test {
 namespace {
 
 // A host that says which load is on board; one of an older minor version says only whether there is one.
@@ -93,4 +93,4 @@ TEST(Errands, ChargingComesFirstAndAtOneChargerOnly) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::errands_test

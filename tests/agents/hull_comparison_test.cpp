@@ -9,7 +9,7 @@
 #include "core/agents/hull.hpp"
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::hull_comparison_test {
 namespace {
 
 class HullComparison : public ::testing::Test {
@@ -135,4 +135,4 @@ TEST_F(HullComparison, NoShorterWayMeetsTheOtherPath) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::hull_comparison_test

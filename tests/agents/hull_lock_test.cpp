@@ -1,5 +1,4 @@
 #include "core/agents/hull_lock.hpp"
-#include "core/agents/faulty/faulty_agents.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +6,9 @@
 #include "tests/agents/drawn_map.hpp"
 #include "tests/agents/fake_warehouse.hpp"
 #include "tests/agents/junction.hpp"
+#include "tests/support/reference_agent.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::hull_lock_test {
 namespace {
 
 using testing::DrawnMap;
@@ -66,11 +66,11 @@ TEST(HullLock, StaysSoundBeyondTheContract) {
 }
 
 TEST(TimeoutGrant, IsAsGoodAsHullLockOnAPerfectRadioOnly) {
-  const Tally perfect = cross_the_junction(kTimeoutGrant, {}, 50, 300.0);
+  const Tally perfect = cross_the_junction(test::reference_agent("timeout-grant"), {}, 50, 300.0);
   EXPECT_EQ(perfect.conflicting_holds, 0U);
   EXPECT_EQ(perfect.violations, 0U);
   EXPECT_EQ(perfect.drops, 4 * perfect.runs);
-  const Tally lossy = cross_the_junction(kTimeoutGrant, {0.4, 2.0, true, 0.0}, 50, 300.0);
+  const Tally lossy = cross_the_junction(test::reference_agent("timeout-grant"), {0.4, 2.0, true, 0.0}, 50, 300.0);
   EXPECT_GT(lossy.conflicting_holds, 0U);
   EXPECT_GT(lossy.violations, lossy.runs / 2);
 }
@@ -209,4 +209,4 @@ TEST(HullLock, WhereItStartsItTakesALoadOnlyIfThereIsRoomForIt) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::hull_lock_test

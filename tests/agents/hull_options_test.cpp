@@ -7,7 +7,7 @@
 #include "core/agents/hull.hpp"
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::hull_options_test {
 namespace {
 
 using testing::DrawnMap;
@@ -112,4 +112,4 @@ TEST(HullRules, ShapesDecideWhateverTheStations) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::hull_options_test

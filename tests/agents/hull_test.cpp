@@ -8,7 +8,7 @@
 #include "tests/agents/drawn_map.hpp"
 #include "tests/agents/rectangles.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::hull_test {
 namespace {
 
 using testing::DrawnMap;
@@ -355,4 +355,4 @@ TEST_F(Crossing, DistanceBoundIsNoMoreThanTheDistance) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::hull_test

@@ -10,7 +10,7 @@
 
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::lane_prices_test {
 namespace {
 
 using testing::DrawnMap;
@@ -109,4 +109,4 @@ TEST(LanePrices, AreForgottenWhetherTheyAreRememberedOrNot) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::lane_prices_test

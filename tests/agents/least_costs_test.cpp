@@ -9,7 +9,7 @@
 
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::least_costs_test {
 namespace {
 
 using testing::DrawnMap;
@@ -80,4 +80,4 @@ TEST(LeastCosts, AreThoseOfASearchWithoutRuns) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::least_costs_test

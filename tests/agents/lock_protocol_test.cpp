@@ -8,7 +8,7 @@
 
 #include "tests/agents/crossing.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::lock_protocol_test {
 namespace {
 
 using LockProtocolTest = testing::Crossing;
@@ -368,4 +368,4 @@ TEST_F(LockProtocolTest, GarbageChangesNothing) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::lock_protocol_test

@@ -6,7 +6,7 @@
 
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::message_text_test {
 namespace {
 
 using ::testing::EndsWith;
@@ -120,4 +120,4 @@ TEST(MessageText, WithoutRoomPlacesAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::message_text_test

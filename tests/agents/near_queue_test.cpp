@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::near_queue_test {
 namespace {
 
 // Some lie so far out that no bucket holds them.
@@ -57,4 +57,4 @@ TEST(NearQueue, OfPlacesWithinOneWidthTheLastComesFirst) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::near_queue_test

@@ -8,7 +8,7 @@
 #include "core/agents/controller.hpp"
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::neighbours_test {
 namespace {
 
 class NeighboursTest : public ::testing::Test {
@@ -210,4 +210,4 @@ TEST_F(NeighboursTest, ANewBootEndsWhatTheFormerOneAskedFor) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::neighbours_test

@@ -8,7 +8,7 @@
 #include "core/agents/hull.hpp"
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::opposite_lanes_test {
 namespace {
 
 using testing::DrawnMap;
@@ -64,4 +64,4 @@ TEST(OppositeLanes, ThatLeaveRoomForTwoKeepBothDirections) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::opposite_lanes_test

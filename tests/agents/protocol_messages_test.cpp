@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::protocol_messages_test {
 namespace {
 
 Message sample(MessageKind kind) {
@@ -234,4 +234,4 @@ TEST(ProtocolMessages, GarbageIsRefusedOrWithinBounds) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::protocol_messages_test

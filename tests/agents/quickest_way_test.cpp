@@ -8,7 +8,7 @@
 #include "core/sdk/fact_store.hpp"
 #include "drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::quickest_way_test {
 namespace {
 
 // A grid of stations of which some are missing or cannot be left. With equal distances most ways tie; else hardly any.
@@ -129,4 +129,4 @@ TEST(QuickestWay, BeginsSoInChainsOfStations) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::quickest_way_test

@@ -2,7 +2,7 @@
 
 #include "tests/agents/crossing.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::repetition_test {
 namespace {
 
 using Repetition = testing::Crossing;
@@ -86,4 +86,4 @@ TEST_F(Repetition, SendsNothingForTheSakeOfADeferThatIsKnown) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::repetition_test

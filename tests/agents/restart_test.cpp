@@ -8,10 +8,10 @@
 #include <tuple>
 
 #include "core/agents/agent_type.hpp"
-#include "core/agents/faulty/faulty_agents.hpp"
 #include "tests/agents/junction.hpp"
+#include "tests/support/reference_agent.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::restart_test {
 namespace {
 
 using testing::DrawnMap;
@@ -127,7 +127,7 @@ TEST(Restart, HoldsTheTurnThatTheAgvMayBeMaking) {
   double least_of_faulty_m = INFINITY;
   for (double restart_s = 5.5; restart_s < 9.0; restart_s += 0.5) {
     EXPECT_GE(least_m(kHullLock, restart_s), 0.1) << restart_s;
-    least_of_faulty_m = std::min(least_of_faulty_m, least_m(kRestartForgetsTurn, restart_s));
+    least_of_faulty_m = std::min(least_of_faulty_m, least_m(test::reference_agent("restart-forgets-turn"), restart_s));
   }
   EXPECT_LT(least_of_faulty_m, 0.1) << "or this tests nothing";
 }
@@ -177,7 +177,8 @@ TEST(Restart, HoldsTheSectorOfTheTurnThatTheAgvIsMaking) {
   double least_of_faulty_m = INFINITY;
   for (double restart_s = 5.1; restart_s < 8.0; restart_s += 0.25) {
     EXPECT_GE(scene.run(kHullLock, restart_s).least_clearance_m, 0.1) << restart_s;
-    least_of_faulty_m = std::min(least_of_faulty_m, scene.run(kRestartForgetsTurn, restart_s).least_clearance_m);
+    least_of_faulty_m = std::min(least_of_faulty_m,
+                                 scene.run(test::reference_agent("restart-forgets-turn"), restart_s).least_clearance_m);
   }
   EXPECT_LT(least_of_faulty_m, 0.1) << "or this tests nothing";
 }
@@ -253,4 +254,4 @@ TEST(Restart, ALoadOnBoardIsNotFetchedAgain) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::restart_test

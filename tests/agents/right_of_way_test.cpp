@@ -4,7 +4,7 @@
 
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::right_of_way_test {
 namespace {
 
 // AGV 1 of three stands on a street; the others request floor.
@@ -108,4 +108,4 @@ TEST_F(RightOfWayTest, TheAgeOfTheOldestDemandInWhoseWayItIsIsPassedOn) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::right_of_way_test

@@ -8,7 +8,7 @@
 
 #include "drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::routes_test {
 namespace {
 
 // 6 x 5 stations in a grid with every third segment one-way, and lanes that all cost 1, 2 or 3: many ways tie.
@@ -130,4 +130,4 @@ TEST(Routes, ShowsTheCheapestStationsFirstUntilItIsEnough) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::routes_test

@@ -7,7 +7,7 @@
 
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::sectors_test {
 namespace {
 
 // A junction with lanes to the four sides, one more that leaves by 30 degrees, and a station on a straight lane.
@@ -97,4 +97,4 @@ TEST(Sectors, HubsHaveNone) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::sectors_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::seniority_test {
 namespace {
 
 TEST(SeniorityTest, IsAsOldAsTheWishToGoOn) {
@@ -52,4 +52,4 @@ TEST(SeniorityTest, AReachedGoalMakesYoung) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::seniority_test

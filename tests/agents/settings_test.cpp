@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::settings_test {
 namespace {
 
 TEST(Settings, AreReadFromWordsAndOthersAreLeftAlone) {
@@ -25,4 +25,4 @@ TEST(Settings, NonsenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::settings_test

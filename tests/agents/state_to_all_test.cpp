@@ -4,7 +4,7 @@
 #include "core/agents/lock_protocol.hpp"
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::state_to_all_test {
 namespace {
 
 // The only AGV of its fleet that says anything.
@@ -63,4 +63,4 @@ TEST(StateToAll, DoesNotGoOutIfItHasNoRoomForWhatAllHaveSaid) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::state_to_all_test

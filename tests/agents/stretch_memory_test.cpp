@@ -7,7 +7,7 @@
 #include "core/agents/stretch_planner.hpp"
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::stretch_memory_test {
 namespace {
 
 // Three streets with rungs, some of them one-way: there is mostly a way round.
@@ -171,4 +171,4 @@ TEST(StretchMemory, DoesSoInAFleetThatIsDividedIntoZones) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::stretch_memory_test

@@ -10,7 +10,7 @@
 #include "core/agents/waiting_places.hpp"
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::sure_ways_test {
 namespace {
 
 using testing::DrawnMap;
@@ -131,4 +131,4 @@ TEST(SureWays, LeaveTheJudgementOfWaitingPlacesAsItIs) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::sure_ways_test

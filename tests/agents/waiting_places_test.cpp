@@ -5,7 +5,7 @@
 #include "core/agents/stretch_planner.hpp"
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::waiting_places_test {
 namespace {
 
 using testing::DrawnMap;
@@ -265,4 +265,4 @@ TEST_F(Planning, KeepsClearOfTheRequestsOfThoseThatGoFirst) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::waiting_places_test

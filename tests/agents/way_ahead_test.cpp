@@ -6,7 +6,7 @@
 
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::way_ahead_test {
 namespace {
 
 using testing::DrawnMap;
@@ -101,4 +101,4 @@ TEST_F(WayAheadTest, OnlyADriveStraightOnIsGivenInAdvanceAndOnlyOnce) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::way_ahead_test

@@ -7,13 +7,12 @@
 #include <tuple>
 
 #include "core/agents/agent_type.hpp"
-#include "core/agents/faulty/faulty_agents.hpp"
 #include "core/agents/membership.hpp"
 #include "core/agents/registrar.hpp"
 #include "core/agents/zone_map.hpp"
 #include "tests/agents/junction.hpp"
 
-namespace fleetproof::agents {
+namespace fleetproof::agents::zones_test {
 namespace {
 
 using testing::DrawnMap;
@@ -389,4 +388,4 @@ TEST_F(MembershipTest, ARegistrarThatRestartedWaitsForMessagesSentSince) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents
+}  // namespace fleetproof::agents::zones_test

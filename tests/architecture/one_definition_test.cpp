@@ -7,7 +7,7 @@
 #include "tests/architecture/source_outline.hpp"
 #include "tests/architecture/source_tree.hpp"
 
-namespace fleetproof::architecture {
+namespace fleetproof::architecture::one_definition_test {
 namespace {
 
 std::vector<std::string> defined_twice(const std::vector<Source>& files) {
@@ -51,4 +51,4 @@ TEST(OneDefinitionFinds, ATypeThatIsDefinedTwice) {
 }
 
 }  // namespace
-}  // namespace fleetproof::architecture
+}  // namespace fleetproof::architecture::one_definition_test

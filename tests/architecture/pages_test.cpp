@@ -10,7 +10,7 @@
 
 #include "tests/architecture/source_tree.hpp"
 
-namespace fleetproof::architecture {
+namespace fleetproof::architecture::pages_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ TEST(PagesFind, APathThatDoesNotExist) {
 }
 
 }  // namespace
-}  // namespace fleetproof::architecture
+}  // namespace fleetproof::architecture::pages_test

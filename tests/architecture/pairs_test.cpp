@@ -8,7 +8,7 @@
 #include "tests/architecture/source_outline.hpp"
 #include "tests/architecture/source_tree.hpp"
 
-namespace fleetproof::architecture {
+namespace fleetproof::architecture::pairs_test {
 namespace {
 
 using Findings = std::vector<std::string>;
@@ -145,4 +145,4 @@ TEST(PairsFind, AFunctionThatNobodyCalls) {
 }
 
 }  // namespace
-}  // namespace fleetproof::architecture
+}  // namespace fleetproof::architecture::pairs_test

@@ -13,7 +13,7 @@
 #include "tests/architecture/source_outline.hpp"
 #include "tests/architecture/source_tree.hpp"
 
-namespace fleetproof::architecture {
+namespace fleetproof::architecture::style_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -250,4 +250,4 @@ TEST(StyleFinds, AnUnformattedFile) {
 }
 
 }  // namespace
-}  // namespace fleetproof::architecture
+}  // namespace fleetproof::architecture::style_test

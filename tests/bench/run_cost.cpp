@@ -64,7 +64,7 @@ std::deque<Scenario> draw_worlds(const std::vector<std::string>& names, std::uin
 // Null if there is none of this name.
 const fp_agent_type* agent_named(std::string_view name) {
   if (name == kNullAgent.name) return &kNullAgent;
-  for (const fp_agent_type* agent : std::span(fp_reference_agents, fp_reference_agent_count)) {
+  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_reference_agent(i); ++i) {
     if (name == agent->name) return agent;
   }
   return nullptr;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof {
+namespace fleetproof::agent_tally_test {
 namespace {
 
 // One cell for each of these losses.
@@ -69,4 +69,4 @@ TEST(AgentTally, ARateMayShowWithOneRadioOnly) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::agent_tally_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof {
+namespace fleetproof::audit_book_test {
 namespace {
 
 constexpr std::size_t kPlugin = 0, kSecondPlugin = 1, kReferenceAgent = 2, kAgents = 3;
@@ -75,4 +75,4 @@ TEST_F(AuditBooks, NeedNoRecordingsWithoutAudits) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::audit_book_test

@@ -2,7 +2,7 @@
 
 #include "campaign/batch/audit_share.hpp"
 
-namespace fleetproof {
+namespace fleetproof::audit_share_test {
 namespace {
 
 CampaignPlan plan_with(double share, std::vector<AgentFactor> agents = {"hull-lock", "reckless"}) {
@@ -70,4 +70,4 @@ TEST(AuditShare, HoldsNoRunThatHung) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::audit_share_test

@@ -16,7 +16,7 @@
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 
-namespace fleetproof {
+namespace fleetproof::campaign_file_test {
 namespace {
 
 using testing::HasSubstr;
@@ -389,4 +389,4 @@ TEST_F(CampaignFileTest, AMissingFileSaysSo) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::campaign_file_test

@@ -11,7 +11,7 @@
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/own_process.hpp"
 
-namespace fleetproof {
+namespace fleetproof::canary_test {
 namespace {
 
 using testing::HasSubstr;
@@ -37,4 +37,4 @@ TEST(Canary, IsPublishedWholeOrNotAtAll) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::canary_test

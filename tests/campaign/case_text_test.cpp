@@ -7,7 +7,7 @@
 #include "core/scenario/canonical_bytes.hpp"
 #include "tests/support/case_bench.hpp"
 
-namespace fleetproof {
+namespace fleetproof::case_text_test {
 namespace {
 
 TEST(CaseText, IsTheScenario) {
@@ -51,4 +51,4 @@ TEST(CaseText, RefusesWhatNoWriterWrote) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::case_text_test

@@ -8,7 +8,7 @@
 #include "campaign/workers/run_order.hpp"
 #include "core/base/error.hpp"
 
-namespace fleetproof {
+namespace fleetproof::channel_test {
 namespace {
 
 using Wait = Channel::Wait;
@@ -114,4 +114,4 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::channel_test

@@ -8,7 +8,7 @@
 #include "tests/storage/refusal.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::chunk_desk_test {
 namespace {
 
 using testing::HasSubstr;
@@ -91,4 +91,4 @@ TEST_F(ChunkDesks, OtherResultsForAPublishedChunkAreTheAlarm) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::chunk_desk_test

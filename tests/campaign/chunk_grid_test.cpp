@@ -6,7 +6,7 @@
 
 #include "core/base/error.hpp"
 
-namespace fleetproof {
+namespace fleetproof::chunk_grid_test {
 namespace {
 
 TEST(ChunkGrid, HoldsEveryRunOnce) {
@@ -68,4 +68,4 @@ TEST(Shard, IsReadAsIOfN) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::chunk_grid_test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fleetproof {
+namespace fleetproof::circumstances_test {
 namespace {
 
 using testing::HasSubstr;
@@ -140,4 +140,4 @@ TEST(Circumstances, WhatNeverHappenedIsSaid) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::circumstances_test

@@ -12,7 +12,7 @@
 
 #include "tests/support/own_process.hpp"
 
-namespace fleetproof {
+namespace fleetproof::disturbance_test {
 namespace {
 
 constexpr std::uint64_t kKeys = 8;
@@ -114,4 +114,4 @@ TEST_F(Disturbances, PutBlocksInADrawnOrder) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::disturbance_test

@@ -8,7 +8,7 @@
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::every_fault_test {
 namespace {
 
 // Of the fields that make something go wrong. The others say for how long. Clocks that agree are no fault.
@@ -40,4 +40,4 @@ TEST(EveryFault, HappensInTheCampaignOfFaults) {
 TEST(EveryFault, IsMissedIfItsRateIsZero) { EXPECT_EQ(faults_left_out(FaultRates{}).size(), 13U); }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::every_fault_test

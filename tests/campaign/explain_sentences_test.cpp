@@ -7,7 +7,7 @@
 #include "generators/scenario_file/scenario_file.hpp"
 #include "tests/support/case_bench.hpp"
 
-namespace fleetproof {
+namespace fleetproof::explain_sentences_test {
 namespace {
 
 // A case whose luck is not written down: had one of these messages arrived, it would not fail.
@@ -123,4 +123,4 @@ TEST(Explain, TheSentencesTellThatTwoMessagesSayTheSame) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::explain_sentences_test

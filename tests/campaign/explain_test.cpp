@@ -10,7 +10,7 @@
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/worlds/world_maker.hpp"
 
-namespace fleetproof {
+namespace fleetproof::explain_test {
 namespace {
 
 struct Explained {
@@ -337,4 +337,4 @@ TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::explain_test

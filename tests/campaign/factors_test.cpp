@@ -21,7 +21,7 @@
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::factors_test {
 namespace {
 
 using testing::HasSubstr;
@@ -385,4 +385,4 @@ TEST(Exemptions, PairsNameKindsOfThisFleet) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::factors_test

@@ -8,7 +8,7 @@
 #include "campaign/findings/ingredients.hpp"
 #include "tests/support/case_bench.hpp"
 
-namespace fleetproof {
+namespace fleetproof::failure_needs_test {
 namespace {
 
 using test::bad_night;
@@ -81,4 +81,4 @@ TEST(FailureNeeds, OfARunWithoutAFailureThereAreNone) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::failure_needs_test

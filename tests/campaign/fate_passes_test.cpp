@@ -7,7 +7,7 @@
 #include "campaign/shrink/trials.hpp"
 #include "tests/support/case_bench.hpp"
 
-namespace fleetproof {
+namespace fleetproof::fate_passes_test {
 namespace {
 
 // A smaller case takes the place of the best one while its messages are gone through.
@@ -39,4 +39,4 @@ TEST(FatePasses, AMessageThatIsLateAndDoubledIsWeakened) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::fate_passes_test

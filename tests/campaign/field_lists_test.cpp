@@ -18,7 +18,7 @@
 #include "generators/scenario_file/scenario_text.hpp"
 #include "tests/generators/independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::field_lists_test {
 namespace {
 
 using testing::MatchesRegex;
@@ -237,4 +237,4 @@ TEST_F(FieldLists, ThePageHoldsTheTables) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::field_lists_test

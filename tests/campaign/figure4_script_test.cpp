@@ -3,7 +3,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::figure4_script_test {
 namespace {
 
 class Figure4Program : public test::ProgramTest {
@@ -102,4 +102,4 @@ TEST_F(Figure4Program, NoLawMovesTheTrace) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::figure4_script_test

@@ -14,7 +14,7 @@
 #include "generators/scenario_file/scenario_text.hpp"
 #include "tests/support/case_bench.hpp"
 
-namespace fleetproof {
+namespace fleetproof::findings_file_test {
 namespace {
 
 using testing::HasSubstr;
@@ -210,4 +210,4 @@ TEST(FindingRecords, AreGivenUpWhenTheirHostIsToldTo) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::findings_file_test

@@ -10,7 +10,7 @@
 #include "generators/scenario_file/scenario_text.hpp"
 #include "tests/support/case_bench.hpp"
 
-namespace fleetproof {
+namespace fleetproof::findings_test {
 namespace {
 
 using test::bad_night;
@@ -348,4 +348,4 @@ TEST(Findings, EachAgentHasItsOwn) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::findings_test

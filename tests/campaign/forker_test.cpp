@@ -13,7 +13,7 @@
 
 #include "core/base/error.hpp"
 
-namespace fleetproof {
+namespace fleetproof::forker_test {
 namespace {
 
 using Wait = Channel::Wait;
@@ -164,4 +164,4 @@ TEST(Forker, SaysThatItIsGone) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::forker_test

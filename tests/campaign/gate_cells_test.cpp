@@ -9,7 +9,7 @@
 #include "core/base/random.hpp"
 #include "storage/gate_cells.hpp"
 
-namespace fleetproof {
+namespace fleetproof::gate_cells_test {
 namespace {
 
 using testing::ElementsAre;
@@ -127,4 +127,4 @@ TEST(GateCells, PlansThatNameNoCellsKeepTheirHash) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::gate_cells_test

@@ -4,7 +4,7 @@
 #include "generators/formats/layout_file.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::import_test {
 namespace {
 
 using testing::HasSubstr;
@@ -208,4 +208,4 @@ TEST_F(ImportTest, CampaignsTakeLayoutFilesByTheirExtension) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::import_test

@@ -17,7 +17,7 @@
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/planted_ends.hpp"
 
-namespace fleetproof {
+namespace fleetproof::isolated_runs_test {
 namespace {
 
 using testing::HasSubstr;
@@ -302,4 +302,4 @@ TEST(IsolatedRuns, WhatAReferenceAgentLeavesMappedDoesNotCountAgainstAPlugin) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::isolated_runs_test

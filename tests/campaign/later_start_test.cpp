@@ -6,7 +6,7 @@
 
 #include "tests/support/case_bench.hpp"
 
-namespace fleetproof {
+namespace fleetproof::later_start_test {
 namespace {
 
 using std::chrono::seconds;
@@ -89,4 +89,4 @@ TEST(LaterStart, TakesTheTimeBeforeOutOfAllInstants) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::later_start_test

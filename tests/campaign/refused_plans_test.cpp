@@ -6,7 +6,7 @@
 #include "core/base/error.hpp"
 #include "generators/scenario_file/radio_trace.hpp"
 
-namespace fleetproof {
+namespace fleetproof::refused_plans_test {
 namespace {
 
 using testing::HasSubstr;
@@ -83,4 +83,4 @@ TEST(RefusedPlans, ValuesAreShownAsTheyAreWritten) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::refused_plans_test

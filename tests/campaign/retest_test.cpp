@@ -12,7 +12,7 @@
 #include "campaign/shrink/fitness.hpp"
 #include "tests/support/known_failure.hpp"
 
-namespace fleetproof {
+namespace fleetproof::retest_test {
 namespace {
 
 using testing::HasSubstr;
@@ -312,4 +312,4 @@ TEST(Retest, TheFirstNeighboursSayOfWhatKindTheyAre) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::retest_test

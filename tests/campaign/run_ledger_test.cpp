@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 
-namespace fleetproof {
+namespace fleetproof::run_ledger_test {
 namespace {
 
 TEST(RunLedger, CountsTheGapFreePrefixInAnyOrder) {
@@ -40,4 +40,4 @@ TEST(RunLedger, ARunFinishesOnce) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::run_ledger_test

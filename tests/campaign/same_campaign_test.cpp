@@ -6,7 +6,7 @@
 #include "core/base/error.hpp"
 #include "tests/contract/small_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::same_campaign_test {
 namespace {
 
 using testing::HasSubstr;
@@ -114,4 +114,4 @@ TEST(SameCampaign, AnotherEngineIsRefusedOrRecorded) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::same_campaign_test

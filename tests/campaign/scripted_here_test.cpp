@@ -5,7 +5,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::scripted_here_test {
 namespace {
 
 using testing::ElementsAre;
@@ -88,4 +88,4 @@ TEST_F(ScriptedHere, StepsThatAreImpossibleAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::scripted_here_test

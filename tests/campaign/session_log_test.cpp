@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::session_log_test {
 namespace {
 
 TEST(SessionLog, NothingIsAppendedToAForeignFile) {
@@ -56,4 +56,4 @@ TEST_F(RememberedPlugin, LinesOfAnotherKindArePassedOver) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::session_log_test

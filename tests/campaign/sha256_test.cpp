@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 
-namespace fleetproof {
+namespace fleetproof::sha256_test {
 namespace {
 
 TEST(Sha256, PublishedVectors) {  // FIPS 180-4 examples
@@ -31,4 +31,4 @@ TEST(Sha256, OfAFileIsThatOfItsBytes) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::sha256_test

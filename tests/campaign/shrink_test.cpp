@@ -18,7 +18,7 @@
 #include "generators/scenario_file/scenario_text.hpp"
 #include "tests/support/case_bench.hpp"
 
-namespace fleetproof {
+namespace fleetproof::shrink_test {
 namespace {
 
 using test::bad_radio;
@@ -347,4 +347,4 @@ TEST(Surgery, StationsKeepTheirNamesWhenOthersGo) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::shrink_test

@@ -4,7 +4,7 @@
 #include "campaign/run/engine_identity.hpp"
 #include "campaign/run/replay.hpp"
 
-namespace fleetproof {
+namespace fleetproof::software_difference_test {
 namespace {
 
 using testing::HasSubstr;
@@ -44,4 +44,4 @@ TEST(SoftwareDifference, IsThereWhereSeveralWroteToTheArchive) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::software_difference_test

@@ -5,7 +5,7 @@
 #include "campaign/run/run_one.hpp"
 #include "tests/contract/small_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::still_camera_test {
 namespace {
 
 // The judge of violations filed the same instant: where the pair was, and how close.
@@ -52,4 +52,4 @@ TEST(StillCamera, has_every_body_once_and_none_that_is_away) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::still_camera_test

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace fleetproof {
+namespace fleetproof::task_pool_test {
 namespace {
 
 RunRecord record_of(std::uint64_t index) {
@@ -165,4 +165,4 @@ TEST(TaskPool, OneSlowRunDoesNotHoldUpItsStretch) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::task_pool_test

@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 
-namespace fleetproof {
+namespace fleetproof::time_budget_test {
 namespace {
 
 TEST(TimeBudget, ReadsDurations) {
@@ -49,4 +49,4 @@ TEST(TimeBudget, WaitsForTheNextTimeOfThatName) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::time_budget_test

@@ -9,7 +9,7 @@
 #include "campaign/shrink/other_luck.hpp"
 #include "generators/worlds/world_maker.hpp"
 
-namespace fleetproof {
+namespace fleetproof::trials_test {
 namespace {
 
 constexpr std::size_t kLucks = 40;
@@ -115,4 +115,4 @@ TEST(Trials, KnownAnswersTakeNoTimeAndNoWorkers) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::trials_test

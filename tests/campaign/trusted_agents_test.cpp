@@ -3,7 +3,7 @@
 
 #include "campaign/run/replay.hpp"
 
-namespace fleetproof {
+namespace fleetproof::trusted_agents_test {
 namespace {
 
 TEST(ReplaySuspects, TheEngineOnlyIfTheAgentPromisesAndTheAuditsBearItOut) {
@@ -19,4 +19,4 @@ TEST(ReplaySuspects, TheEngineOnlyIfTheAgentPromisesAndTheAuditsBearItOut) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::trusted_agents_test

@@ -9,7 +9,7 @@
 
 #include "campaign/plan/sobol.hpp"
 
-namespace fleetproof {
+namespace fleetproof::unit_sample_test {
 namespace {
 
 class Samples : public testing::TestWithParam<Sampling> {};
@@ -181,4 +181,4 @@ TEST(SobolSample, CoversMoreEvenlyThanIndependentDraws) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::unit_sample_test

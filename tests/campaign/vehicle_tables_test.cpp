@@ -5,7 +5,7 @@
 #include "campaign/plan/plan_check.hpp"
 #include "core/base/error.hpp"
 
-namespace fleetproof {
+namespace fleetproof::vehicle_tables_test {
 namespace {
 
 using testing::AllOf;
@@ -83,4 +83,4 @@ TEST(VehicleTables, WhatIsNoTomlIsRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::vehicle_tables_test

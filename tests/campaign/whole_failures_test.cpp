@@ -7,7 +7,7 @@
 #include "campaign/shrink/adverse_fates.hpp"
 #include "tests/support/known_failure.hpp"
 
-namespace fleetproof {
+namespace fleetproof::whole_failures_test {
 namespace {
 
 using testing::HasSubstr;
@@ -175,4 +175,4 @@ TEST(WholeRuns, AreKeptWithTheFinding) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::whole_failures_test

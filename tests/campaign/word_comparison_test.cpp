@@ -5,7 +5,7 @@
 #include "campaign/findings/failure_needs.hpp"
 #include "tests/support/case_bench.hpp"
 
-namespace fleetproof {
+namespace fleetproof::word_comparison_test {
 namespace {
 
 constexpr AgvId kOne{1U}, kOther{2U}, kBystander{3U};
@@ -71,4 +71,4 @@ TEST(WordComparison, AWordOfTheRadioIsNoPartOfAFailureThatNeedsARestart) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::word_comparison_test

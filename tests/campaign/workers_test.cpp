@@ -8,7 +8,7 @@
 
 #include "tests/contract/small_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::workers_test {
 namespace {
 
 std::string bytes_of_campaign(const CampaignPlan& plan, int workers, const std::string& plugin = "") {
@@ -44,4 +44,4 @@ TEST(Workers, ThreeWriteTheSameArchiveAsOneWithAPlugIn) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::workers_test

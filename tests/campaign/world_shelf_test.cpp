@@ -9,7 +9,7 @@
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::world_shelf_test {
 namespace {
 
 class Shelf : public ::testing::Test {
@@ -94,4 +94,4 @@ TEST(RunsOfOneReplicate, AreTheSameInUsedAndInNewWorlds) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::world_shelf_test

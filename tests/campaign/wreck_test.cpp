@@ -4,7 +4,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::wreck_test {
 namespace {
 
 class Wreck : public test::ProgramTest {};
@@ -23,4 +23,4 @@ TEST_F(Wreck, BesideItsStationDoesNotTakeItselfForStandingThere) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::wreck_test

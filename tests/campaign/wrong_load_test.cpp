@@ -1,6 +1,6 @@
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::wrong_load_test {
 namespace {
 
 class WrongLoad : public test::ProgramTest {};
@@ -17,4 +17,4 @@ TEST_F(WrongLoad, AnOrderThatIsDoneDoesNotTakeTheLoadOfAnother) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::wrong_load_test

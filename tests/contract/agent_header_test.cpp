@@ -5,7 +5,7 @@
 
 #include "tests/core/row_of_tens.hpp"
 
-namespace fleetproof {
+namespace fleetproof::agent_header_test {
 namespace {
 
 using test::fault;
@@ -172,4 +172,4 @@ TEST(AgentHeader, AfterARestartNoOrderIsSentThatIsDoneByThen) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::agent_header_test

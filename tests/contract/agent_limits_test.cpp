@@ -7,7 +7,7 @@
 #include "core/outcome/trace_records.hpp"
 #include "tests/core/row_of_tens.hpp"
 
-namespace fleetproof {
+namespace fleetproof::agent_limits_test {
 namespace {
 
 using test::fault;
@@ -141,4 +141,4 @@ TEST(AgentLimits, ACallFromOutsideAnActivationIsNotCarriedOut) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::agent_limits_test

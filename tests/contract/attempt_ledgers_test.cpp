@@ -5,7 +5,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::attempt_ledgers_test {
 namespace {
 
 using testing::HasSubstr;
@@ -155,4 +155,4 @@ TEST_F(AttemptLedgers, ASearchClaimsNothing) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::attempt_ledgers_test

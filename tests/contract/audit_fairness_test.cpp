@@ -8,7 +8,7 @@
 #include "storage/archive_writer.hpp"
 #include "tests/contract/audited_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::audit_fairness_test {
 namespace {
 
 using testing::HasSubstr;
@@ -74,4 +74,4 @@ TEST_F(AuditFairness, ReferenceAgentsAndTheProgramItselfHaveNoLimitOfMemory) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::audit_fairness_test

@@ -11,7 +11,7 @@
 #include "storage/archive_reader.hpp"
 #include "tests/contract/audited_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::audit_test {
 namespace {
 
 using test::failing;
@@ -132,4 +132,4 @@ TEST_F(Audits, WithoutAShareNothingIsAuditedAndNothingRecorded) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::audit_test

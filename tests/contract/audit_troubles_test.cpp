@@ -4,7 +4,7 @@
 #include "storage/archive_reader.hpp"
 #include "tests/contract/audited_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::audit_troubles_test {
 namespace {
 
 using test::failing;
@@ -81,4 +81,4 @@ TEST_F(AuditTroubles, AnInterruptLeavesThemToTheNextSession) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::audit_troubles_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::bad_input_test {
 namespace {
 
 using testing::HasSubstr;
@@ -157,4 +157,4 @@ TEST_F(BadInput, ScenarioFiles) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::bad_input_test

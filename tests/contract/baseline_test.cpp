@@ -6,7 +6,7 @@
 
 #include "tests/contract/two_releases.hpp"
 
-namespace fleetproof {
+namespace fleetproof::baseline_test {
 namespace {
 
 using testing::HasSubstr;
@@ -59,4 +59,4 @@ TEST_F(Baseline, BadWordsAreRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::baseline_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::chrome_trace_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -151,4 +151,4 @@ TEST_F(ChromeTrace, ManyMessagesAtOneInstantAreAllThere) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::chrome_trace_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::ci_summary_test {
 namespace {
 
 using testing::HasSubstr;
@@ -81,4 +81,4 @@ TEST_F(InCi, UntilVerdictDoesNotStopAFixedGateEarly) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::ci_summary_test

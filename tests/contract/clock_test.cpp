@@ -6,7 +6,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::clock_test {
 namespace {
 
 using testing::HasSubstr;
@@ -61,4 +61,4 @@ INSTANTIATE_TEST_SUITE_P(, FalseClock, testing::Values("back", "forward", "froze
                          [](const auto& how) { return std::string(how.param); });
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::clock_test

@@ -4,7 +4,7 @@
 
 #include "tests/contract/sharded_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::cluster_examples_test {
 namespace {
 
 class ClusterExamples : public test::ShardedCampaign {
@@ -74,4 +74,4 @@ TEST_F(ClusterExamples, Kubernetes) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::cluster_examples_test

@@ -6,7 +6,7 @@
 
 #include "tests/contract/two_releases.hpp"
 
-namespace fleetproof {
+namespace fleetproof::compare_test {
 namespace {
 
 using testing::HasSubstr;
@@ -50,4 +50,4 @@ TEST_F(Compare, BadWordsAreRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::compare_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::default_gates_test {
 namespace {
 
 class DefaultGates : public test::ProgramTest {
@@ -106,4 +106,4 @@ TEST_F(DefaultGates, BlameNobodyForWhatNoSoftwareIsToldOf) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::default_gates_test

@@ -9,7 +9,7 @@
 #include "storage/archive_reader.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::demo_campaign_test {
 namespace {
 
 struct Sums {
@@ -82,4 +82,4 @@ TEST_F(DemoCampaign, ShowsWhatItMust) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::demo_campaign_test

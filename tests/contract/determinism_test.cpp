@@ -12,7 +12,7 @@
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::determinism_test {
 namespace {
 
 class Determinism : public test::ProgramTest {
@@ -138,4 +138,4 @@ TEST_F(Determinism, AllAgentsAndQualitiesOfAReplicateMeetTheSameWorld) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::determinism_test

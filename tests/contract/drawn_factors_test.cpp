@@ -5,7 +5,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::drawn_factors_test {
 namespace {
 
 using testing::HasSubstr;
@@ -159,4 +159,4 @@ TEST_F(DrawnFactors, ALawThatMeasuresNoClearanceSaysSo) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::drawn_factors_test

@@ -10,7 +10,7 @@
 #include "generators/worlds/world_maker.hpp"
 #include "laws/laws.hpp"
 
-namespace fleetproof {
+namespace fleetproof::drawn_rules_test {
 namespace {
 
 constexpr const char* kFamilies[] = {"plant/40", "aisle-grid",       "loop-spurs",
@@ -93,4 +93,4 @@ TEST(DrawnRules, TheReferenceAgentGetsOn) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::drawn_rules_test

@@ -10,7 +10,7 @@
 #include "campaign/run/sha256.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::evidence_set_test {
 namespace {
 
 using testing::HasSubstr;
@@ -163,4 +163,4 @@ TEST_F(EvidenceSet, IsNeverWrittenOverAnythingAndNeverHalf) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::evidence_set_test

@@ -6,7 +6,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/reference_table.hpp"
 
-namespace fleetproof {
+namespace fleetproof::evidence_verb_test {
 namespace {
 
 using testing::HasSubstr;
@@ -176,4 +176,4 @@ TEST_F(EvidenceVerb, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::evidence_verb_test

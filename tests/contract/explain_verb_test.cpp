@@ -6,7 +6,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::explain_verb_test {
 namespace {
 
 using nlohmann::json;
@@ -123,4 +123,4 @@ TEST_F(ExplainVerb, ALuckIsACountingNumber) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::explain_verb_test

@@ -5,24 +5,19 @@
 #include <algorithm>
 #include <string>
 
-#include "core/agents/agents.h"
 #include "generators/families/layout_family.hpp"
 #include "generators/worlds/world_maker.hpp"
 #include "laws/laws.hpp"
 #include "tests/support/hard_world.hpp"
+#include "tests/support/reference_agent.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::faulty_runs_test {
 namespace {
 
 struct Totals {
   std::uint64_t runs = 0, violating = 0, crashed = 0, done = 0, faults = 0, duplicates = 0, restarted = 0, charged = 0;
 };
-
-const fp_agent_type& hull_lock() {
-  return **std::find_if(fp_reference_agents, fp_reference_agents + fp_reference_agent_count,
-                        [](const fp_agent_type* type) { return type->name == std::string("hull-lock"); });
-}
 
 void run_one(std::uint64_t number, Totals& totals) {
   const auto families = layout_families();
@@ -44,7 +39,7 @@ void run_one(std::uint64_t number, Totals& totals) {
   scenario.operator_help = {.on = number % 5 != 0, .least_s = 5.0, .most_s = 20.0, .battery = 0.7};
   std::vector<std::unique_ptr<Law>> laws;
   laws.push_back(find_law("exact")->make(scenario));
-  const Outcome outcome = simulate(scenario, hull_lock(), laws);
+  const Outcome outcome = simulate(scenario, test::reference_agent("hull-lock"), laws);
   ++totals.runs;
   totals.violating += outcome.violation || outcome.contact;
   totals.crashed += outcome.crash || outcome.hang || outcome.engine_error;
@@ -71,4 +66,4 @@ TEST(Faults, HullLockKeepsItsDistanceWhateverGoesWrong) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::faulty_runs_test

@@ -7,7 +7,7 @@
 #include "storage/archive_reader.hpp"
 #include "tests/contract/audited_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::film_strip_page_test {
 namespace {
 
 using testing::HasSubstr;
@@ -153,4 +153,4 @@ TEST_F(FilmStripPage, ACrashOfAPlugInCostsThePageNothing) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::film_strip_page_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::fleet_rules_test {
 namespace {
 
 using testing::AllOf;
@@ -217,4 +217,4 @@ TEST_F(FleetRules, VehiclesOfAFileAreAFleet) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::fleet_rules_test

@@ -6,7 +6,7 @@
 #include "generators/worlds/world_maker.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::generate_test {
 namespace {
 
 class Generate : public test::ProgramTest {};
@@ -65,4 +65,4 @@ TEST_F(Generate, MutatesALayoutFileAndTellsWhatWasRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::generate_test

@@ -7,7 +7,7 @@
 #include "core/base/outside_text.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::hostile_names_test {
 namespace {
 
 using testing::HasSubstr;
@@ -222,4 +222,4 @@ TEST_F(HostileNames, TheNameOfACampaignIsNoPath) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::hostile_names_test

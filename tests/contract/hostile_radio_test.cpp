@@ -8,7 +8,7 @@
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::hostile_radio_test {
 namespace {
 
 CampaignPlan hostile_plan(OutageSetup::Scope scope) {
@@ -77,4 +77,4 @@ TEST_F(HostileRadio, ARunIsTheSameFromItsScenarioFile) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::hostile_radio_test

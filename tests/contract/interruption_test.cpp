@@ -5,7 +5,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::interruption_test {
 namespace {
 
 using testing::HasSubstr;
@@ -55,4 +55,4 @@ TEST_F(Interruption, AKillKeepsWhatWasCommitted) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::interruption_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::judged_pieces_test {
 namespace {
 
 using testing::HasSubstr;
@@ -139,4 +139,4 @@ TEST_F(JudgedPieces, TheJudgeNoticesWhatIsOff) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::judged_pieces_test

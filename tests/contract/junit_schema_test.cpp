@@ -4,7 +4,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_archive.hpp"
 
-namespace fleetproof {
+namespace fleetproof::junit_schema_test {
 namespace {
 
 using samples::campaign_of;
@@ -82,4 +82,4 @@ TEST_F(JUnitSchema, FindsWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::junit_schema_test

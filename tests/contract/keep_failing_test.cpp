@@ -6,7 +6,7 @@
 #include "storage/archive_reader.hpp"
 #include "tests/contract/sharded_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::keep_failing_test {
 namespace {
 
 using testing::HasSubstr;
@@ -99,4 +99,4 @@ TEST_F(KeepFailing, ShardsGiveTheFileOfOneMachine) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::keep_failing_test

@@ -2,7 +2,7 @@
 // safety distance.
 #include "tests/oracle/rectangle_check.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::kernel_test {
 namespace {
 
 constexpr int kPairs = 334'000;
@@ -44,4 +44,4 @@ TEST(Kernel, IsExactForParallelAndTouchingPairs) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::kernel_test

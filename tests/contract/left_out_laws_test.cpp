@@ -6,7 +6,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::left_out_laws_test {
 namespace {
 
 using testing::AllOf;
@@ -61,4 +61,4 @@ TEST_F(LeftOutLaws, AreRefusedIfNoCampaignCouldLeaveThemOut) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::left_out_laws_test

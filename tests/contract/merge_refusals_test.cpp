@@ -7,7 +7,7 @@
 
 #include "tests/contract/sharded_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::merge_refusals_test {
 namespace {
 
 using testing::HasSubstr;
@@ -194,4 +194,4 @@ TEST_F(MergeRefusals, UnfinishedFilesAreIgnored) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::merge_refusals_test

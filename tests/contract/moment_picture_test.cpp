@@ -9,7 +9,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::moment_picture_test {
 namespace {
 
 using testing::ElementsAre;
@@ -358,4 +358,4 @@ TEST_F(MomentPicture, AnInstantOutsideTheRunIsRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::moment_picture_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::named_agents_test {
 namespace {
 
 using testing::HasSubstr;
@@ -112,4 +112,4 @@ TEST_F(NamedAgents, AStoredCampaignFindsItsPlugins) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::named_agents_test

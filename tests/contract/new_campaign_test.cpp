@@ -3,7 +3,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::new_campaign_test {
 namespace {
 
 using testing::HasSubstr;
@@ -43,4 +43,4 @@ TEST_F(NewCampaign, OverwritesNothing) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::new_campaign_test

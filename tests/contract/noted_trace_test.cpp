@@ -6,7 +6,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::noted_trace_test {
 namespace {
 
 using test::source;
@@ -38,4 +38,4 @@ TEST_F(NotedTrace, IsTheSameForAPlugin) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::noted_trace_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::odd_files_test {
 namespace {
 
 using testing::AllOf;
@@ -149,4 +149,4 @@ TEST_F(OddFiles, AnAgentWithAnImpossibleName) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::odd_files_test

@@ -7,7 +7,7 @@
 #include "core/engine/simulation.hpp"
 #include "tests/core/row_of_tens.hpp"
 
-namespace fleetproof {
+namespace fleetproof::older_agents_test {
 namespace {
 
 Scenario restless() {
@@ -36,4 +36,4 @@ TEST(OlderAgents, DoWhatTheSameAgentDoesThatIsBuiltWithTodaysHeader) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::older_agents_test

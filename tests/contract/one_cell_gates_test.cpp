@@ -6,7 +6,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::one_cell_gates_test {
 namespace {
 
 using nlohmann::json;
@@ -124,4 +124,4 @@ TEST_F(OneCellGates, AContradictionIsRefusedBeforeTheFirstRun) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::one_cell_gates_test

@@ -17,7 +17,7 @@
 #include "tests/support/own_process.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::one_digest_test {
 namespace {
 
 constexpr std::uint64_t kFarAhead = 1000;
@@ -149,4 +149,4 @@ TEST_F(OneDigest, HoweverFarRunsAreHandedOutAheadInOneSessionOrSeveral) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::one_digest_test

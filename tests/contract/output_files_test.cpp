@@ -4,7 +4,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::output_files_test {
 namespace {
 
 using testing::HasSubstr;
@@ -117,4 +117,4 @@ TEST_F(OutputFiles, AreNamedInTheirErrors) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::output_files_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::own_agent_test {
 namespace {
 
 using test::source;
@@ -32,4 +32,4 @@ TEST_F(OwnAgent, BreaksTheSafetyDistance) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::own_agent_test

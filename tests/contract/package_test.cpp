@@ -8,7 +8,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::package_test {
 namespace {
 
 class Package : public test::ProgramTest {
@@ -116,4 +116,4 @@ ask 'fleetproof run --sha' 'simulate one part of the campaign: i/n' 'the number 
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::package_test

@@ -4,7 +4,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/unprivileged.hpp"
 
-namespace fleetproof {
+namespace fleetproof::permissions_test {
 namespace {
 
 using testing::AllOf;
@@ -84,4 +84,4 @@ TEST_F(Permissions, ToWriteAreNeeded) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::permissions_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::pieces_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -277,4 +277,4 @@ TEST_F(Pieces, GiveThePosesAndTheSmallestClearanceOfARun) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::pieces_test

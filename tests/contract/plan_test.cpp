@@ -10,7 +10,7 @@
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::plan_test {
 namespace {
 
 using testing::HasSubstr;
@@ -117,4 +117,4 @@ TEST_F(Plan, ASearchAndAGateWithoutCellsHaveNoBounds) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::plan_test

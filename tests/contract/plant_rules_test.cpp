@@ -13,7 +13,7 @@
 #include "tests/support/source_and_sink.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof::oracle {
+namespace fleetproof::oracle::plant_rules_test {
 namespace {
 
 constexpr double kAligned = 1e-6;  // rad, far above rounding and below any drawn angle
@@ -365,4 +365,4 @@ TEST(PlantRulesOracle, AnOrderThatThePlantForbidsHoldsUpNobodyElse) {
 }
 
 }  // namespace
-}  // namespace fleetproof::oracle
+}  // namespace fleetproof::oracle::plant_rules_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::readable_trace_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -136,4 +136,4 @@ TEST_F(ReadableTrace, SaysWhereBodiesAre) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::readable_trace_test

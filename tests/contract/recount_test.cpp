@@ -4,7 +4,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_archive.hpp"
 
-namespace fleetproof {
+namespace fleetproof::recount_test {
 namespace {
 
 using samples::campaign_of;
@@ -210,4 +210,4 @@ TEST_F(Recount, NoticesOneConditionThatIsOff) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::recount_test

@@ -13,7 +13,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::replay_html_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -394,4 +394,4 @@ TEST_F(ReplayHtml, RunsInABrowser) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::replay_html_test

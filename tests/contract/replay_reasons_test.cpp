@@ -7,7 +7,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::replay_reasons_test {
 namespace {
 
 using testing::ElementsAre;
@@ -214,4 +214,4 @@ TEST_F(ReplayReasons, TheAddressStaysExactInABrowser) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::replay_reasons_test

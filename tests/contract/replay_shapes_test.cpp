@@ -6,7 +6,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::replay_shapes_test {
 namespace {
 
 using testing::ElementsAre;
@@ -135,4 +135,4 @@ TEST_F(ReplayShapes, AStationThatIsSharedIsNotAMatterOfShapes) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::replay_shapes_test

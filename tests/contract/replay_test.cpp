@@ -8,7 +8,7 @@
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::replay_test {
 namespace {
 
 using testing::HasSubstr;
@@ -121,4 +121,4 @@ TEST_F(Replay, TheScenarioOfARunStandsOnItsOwn) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::replay_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::report_schema_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -118,4 +118,4 @@ TEST_F(ReportSchema, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::report_schema_test

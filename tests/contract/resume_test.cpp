@@ -13,7 +13,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::resume_test {
 namespace {
 
 using testing::HasSubstr;
@@ -228,4 +228,4 @@ TEST_F(Resume, AStatusSignalTellsTheRunsUnderWay) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::resume_test

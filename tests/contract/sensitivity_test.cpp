@@ -8,7 +8,7 @@
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::sensitivity_test {
 namespace {
 
 using testing::HasSubstr;
@@ -216,4 +216,4 @@ TEST_F(Sensitive, OfOtherWorldsOrDamagedIsNotShown) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::sensitivity_test

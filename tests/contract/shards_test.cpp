@@ -7,7 +7,7 @@
 #include "storage/archive_reader.hpp"
 #include "tests/contract/sharded_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::shards_test {
 namespace {
 
 using testing::HasSubstr;
@@ -229,4 +229,4 @@ TEST_F(Shards, AMachineThatComputesDifferentlyRefusesItself) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::shards_test

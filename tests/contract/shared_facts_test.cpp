@@ -8,7 +8,7 @@
 #include "laws/laws.hpp"
 #include "tests/support/hard_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::shared_facts_test {
 namespace {
 
 Scenario hard_scenario(std::uint64_t seed, FamilyRange family) {
@@ -51,4 +51,4 @@ TEST(SharedFacts, TheSoundAgentDrivesAndAsksMuch) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::shared_facts_test

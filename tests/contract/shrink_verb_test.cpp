@@ -6,7 +6,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::shrink_verb_test {
 namespace {
 
 using testing::HasSubstr;
@@ -146,4 +146,4 @@ TEST_F(ShrinkVerb, BadWordsAreRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::shrink_verb_test

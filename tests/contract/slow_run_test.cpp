@@ -11,7 +11,7 @@
 #include "tests/support/planted_ends.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::slow_run_test {
 namespace {
 
 constexpr std::uint64_t kRuns = 250;
@@ -111,4 +111,4 @@ TEST_F(SlowRun, OnAThreadStallsNoOther) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::slow_run_test

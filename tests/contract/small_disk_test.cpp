@@ -3,7 +3,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::small_disk_test {
 namespace {
 
 using testing::HasSubstr;
@@ -65,4 +65,4 @@ TEST_F(SmallDisk, AFinishedCampaignIsPublishedLaterAndNotSimulatedAgain) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::small_disk_test

@@ -16,7 +16,7 @@
 #include "tests/support/planted_ends.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::storm_test {
 namespace {
 
 using testing::HasSubstr;
@@ -220,4 +220,4 @@ TEST_F(Storm, MemoryAndDescriptorsOfTheMainProcessStayFlat) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::storm_test

@@ -3,7 +3,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::streams_test {
 namespace {
 
 using testing::HasSubstr;
@@ -179,4 +179,4 @@ TEST_F(Streams, AClosedTerminalInterruptsAsAnySignal) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::streams_test

@@ -4,7 +4,7 @@
 
 #include "tests/contract/sharded_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::submit_test {
 namespace {
 
 using testing::HasSubstr;
@@ -96,4 +96,4 @@ TEST_F(Submit, RefusesWhatNoJobCouldDo) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::submit_test

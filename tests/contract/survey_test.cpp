@@ -3,7 +3,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::survey_test {
 namespace {
 
 using testing::HasSubstr;
@@ -77,4 +77,4 @@ TEST_F(Survey, NoticesARefusalWithoutAFault) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::survey_test

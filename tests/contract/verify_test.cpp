@@ -14,7 +14,7 @@
 #include "tests/contract/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::verify_test {
 namespace {
 
 using testing::HasSubstr;
@@ -174,4 +174,4 @@ TEST(SampleSize, IsAShareOrANumber) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::verify_test

@@ -3,7 +3,7 @@
 
 #include "tests/contract/audited_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::watched_crash_test {
 namespace {
 
 using testing::AllOf;
@@ -64,4 +64,4 @@ TEST_F(WatchedCrash, ThatComesAnywhereIsRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::watched_crash_test

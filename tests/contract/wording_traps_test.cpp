@@ -6,7 +6,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_archive.hpp"
 
-namespace fleetproof {
+namespace fleetproof::wording_traps_test {
 namespace {
 
 // A trap, as a pattern, and a sentence that falls into it.
@@ -142,4 +142,4 @@ TEST_F(WordingTraps, AFigureHasWhatAReaderNeeds) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::wording_traps_test

@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::actions_test {
 namespace {
 
 using test::kFirst;
@@ -136,4 +136,4 @@ TEST(ActionsPart, StoppedForGoodItAnswersForEveryActionAndObeysAgainWhenPutBack)
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::actions_test

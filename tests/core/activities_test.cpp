@@ -3,7 +3,7 @@
 #include "tests/core/small_world.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::activities_test {
 namespace {
 
 using test::kFirst;
@@ -73,4 +73,4 @@ TEST(ActivitiesPart, ALoadChangesHandsOnlyIfTheTransferEndsAsPlanned) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::activities_test

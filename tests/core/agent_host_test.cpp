@@ -5,7 +5,7 @@
 #include "tests/core/small_world.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::agent_host_test {
 namespace {
 
 using test::kFirst;
@@ -127,4 +127,4 @@ TEST(AgentHostPart, AnAgentThatThrowsIsFiledAndNeverCalledAgain) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::agent_host_test

@@ -7,7 +7,7 @@
 #include "tests/core/row_of_tens.hpp"
 #include "tests/core/told_run.hpp"
 
-namespace fleetproof {
+namespace fleetproof::agent_stop_test {
 namespace {
 
 using test::fault;
@@ -234,4 +234,4 @@ TEST(AgentStop, IsOnTheTape) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::agent_stop_test

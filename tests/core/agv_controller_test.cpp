@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::agv_controller_test {
 namespace {
 
 using test::kFirst;
@@ -87,4 +87,4 @@ TEST(AgvControllerPart, TimeInSafeModeIsCountedToTheEndOfTheRun) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::agv_controller_test

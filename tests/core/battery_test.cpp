@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::battery_test {
 namespace {
 
 using test::kFirst;
@@ -64,4 +64,4 @@ TEST(BatteryPart, ChargesToFullAndNoFurther) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::battery_test

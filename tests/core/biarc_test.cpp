@@ -13,7 +13,7 @@
 #include "tests/core/hard_beziers.hpp"
 #include "tests/oracle/bezier_track.hpp"
 
-namespace fleetproof {
+namespace fleetproof::biarc_test {
 namespace {
 
 using test::ControlPoints;
@@ -89,4 +89,4 @@ TEST(Biarc, DegenerateBeziersStayFiniteAndSmooth) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::biarc_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::briefings_test {
 namespace {
 
 TEST(Briefings, HoldMapFleetAndScript) {
@@ -93,4 +93,4 @@ TEST(Briefings, AfterARestartTellWhereTheAgvIs) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::briefings_test

@@ -10,7 +10,7 @@
 #include "tests/laws/timeline.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::broad_phase_test {
 namespace {
 
 class Floor {
@@ -103,4 +103,4 @@ TEST(BroadPhase, InACrowdPairsViolateAsTheyDoAlone) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::broad_phase_test

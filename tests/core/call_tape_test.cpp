@@ -8,7 +8,7 @@
 #include "tests/core/told_run.hpp"
 #include "tests/support/hard_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::call_tape_test {
 namespace {
 
 using test::current_handler;
@@ -44,12 +44,12 @@ Laws exact_law(const Scenario& scenario) {
 
 TEST(CallTape, PlaysTheReferenceAgentsAmongFaults) {
   std::uint64_t restarts = 0, lost = 0, violating = 0;
-  for (std::size_t i = 0; i < fp_reference_agent_count; ++i) {
+  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_reference_agent(i); ++i) {
     for (std::uint64_t seed = 40; seed < 44; ++seed) {
       const Scenario scenario = hard_scenario(seed);
-      const ToldRun run = recorded(scenario, *fp_reference_agents[i], exact_law(scenario));
+      const ToldRun run = recorded(scenario, *agent, exact_law(scenario));
       expect_same(run, played(scenario, run.tape, exact_law(scenario)));
-      expect_same(run, test::watched(scenario, *fp_reference_agents[i], {}, exact_law(scenario)));
+      expect_same(run, test::watched(scenario, *agent, {}, exact_law(scenario)));
       for (const Fault& fault : scenario.faults) restarts += fault.kind == Fault::Kind::Restart;
       lost += run.outcome.counters.receptions_lost;
       violating += run.outcome.violation;
@@ -275,4 +275,4 @@ TEST(CallTape, PlaysWhatAnAgentNeverDoesAgain) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::call_tape_test

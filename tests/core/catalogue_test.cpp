@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof {
+namespace fleetproof::catalogue_test {
 namespace {
 
 TEST(NearestName, IsWithinAThirdOfTheLetters) {
@@ -23,4 +23,4 @@ TEST(NearestName, IsNotLookedForWhereNobodyMistyped) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::catalogue_test

@@ -10,7 +10,7 @@
 #include "tests/core/motion_pairs.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::clearance_over_time_test {
 namespace {
 
 using test::MotionPair;
@@ -388,4 +388,4 @@ TEST(ClearanceOverTime, PlatoonsOnABendAreCheap) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::clearance_over_time_test

@@ -5,7 +5,7 @@
 #include "core/base/random.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::company_test {
 namespace {
 
 constexpr double kWithin_m = 0.5;
@@ -85,4 +85,4 @@ TEST(Company, IsWhatEveryPairSaysOnItsOwn) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::company_test

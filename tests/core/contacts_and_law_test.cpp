@@ -5,7 +5,7 @@
 #include "tests/core/row_of_tens.hpp"
 #include "tests/oracle/whole_runs.hpp"
 
-namespace fleetproof {
+namespace fleetproof::contacts_and_law_test {
 namespace {
 
 using Pair = std::pair<EntityId, EntityId>;
@@ -97,4 +97,4 @@ TEST(ContactsAndLaw, TheSpeedIsThatJustBeforeTheStop) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::contacts_and_law_test

@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::contacts_test {
 namespace {
 
 using test::kFirst;
@@ -51,4 +51,4 @@ TEST(ContactsPart, IfTheScenarioSaysSoNobodyStops) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::contacts_test

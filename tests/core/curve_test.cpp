@@ -12,7 +12,7 @@
 #include "tests/core/hard_beziers.hpp"
 #include "tests/oracle/bezier_track.hpp"
 
-namespace fleetproof {
+namespace fleetproof::curve_test {
 namespace {
 
 using test::ControlPoints;
@@ -158,4 +158,4 @@ TEST(Curve, ClampsReversesMovesAndJoins) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::curve_test

@@ -2,7 +2,7 @@
 // contract/ and soak/ do.
 #include "tests/oracle/detector_check.hpp"
 
-namespace fleetproof::oracle {
+namespace fleetproof::oracle::detector_oracle_test {
 namespace {
 
 TEST(DetectorOracle, AgreesWithTheDetectorOnTwoHundredPairs) { EXPECT_EQ(check_many(3, 210).pairs, 210U); }
@@ -63,4 +63,4 @@ TEST(DetectorOracle, MeasuresWhatIsKnownByHand) {
 }
 
 }  // namespace
-}  // namespace fleetproof::oracle
+}  // namespace fleetproof::oracle::detector_oracle_test

@@ -6,7 +6,7 @@
 
 #include "tests/oracle/known_pairs.hpp"
 
-namespace fleetproof::oracle {
+namespace fleetproof::oracle::detector_properties_test {
 namespace {
 
 constexpr double kLevel_m = 0.10 - 1e-6;
@@ -127,4 +127,4 @@ TEST(DetectorProperties, WhatIsFoundLiesInTheIntervalInOrder) {
 }
 
 }  // namespace
-}  // namespace fleetproof::oracle
+}  // namespace fleetproof::oracle::detector_properties_test

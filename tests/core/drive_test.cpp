@@ -8,7 +8,7 @@
 #include "core/motion/speed_plan.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::drive_test {
 namespace {
 
 using test::Handler;
@@ -253,4 +253,4 @@ TEST(Drive, DeviationsAndTransferTimesAreDrawnPerAgvAndStayWhenAnotherAgvGoes) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::drive_test

@@ -3,7 +3,7 @@
 #include "tests/core/small_world.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::drives_test {
 namespace {
 
 using test::kFirst;
@@ -116,4 +116,4 @@ TEST(DrivesPart, EachDriveHasADeviationOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::drives_test

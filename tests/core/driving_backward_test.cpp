@@ -4,7 +4,7 @@
 #include "core/engine/simulation.hpp"
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::driving_backward_test {
 namespace {
 
 using test::kFirst;
@@ -204,4 +204,4 @@ TEST(PlantRules, AgentsAreToldOfThem) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::driving_backward_test

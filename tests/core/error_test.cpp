@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof {
+namespace fleetproof::error_test {
 namespace {
 
 TEST(InputErrorText, IsOnePrintableLine) {
@@ -28,4 +28,4 @@ TEST(InputErrorText, KeepsBeginningAndEndOfWhatIsTooLong) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::error_test

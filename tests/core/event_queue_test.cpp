@@ -9,7 +9,7 @@
 
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::event_queue_test {
 namespace {
 
 TEST(EventQueue, OrdersByTimeThenEntityThenSequence) {
@@ -191,4 +191,4 @@ TEST(EventQueue, TimersComeBetweenOtherEventsInOrder) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::event_queue_test

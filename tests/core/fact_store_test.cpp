@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace fleetproof {
+namespace fleetproof::fact_store_test {
 namespace {
 
 int asked = 0;  // how often one of the functions below worked
@@ -101,4 +101,4 @@ TEST_F(FactStoreTest, TheFactsAreThoseOfTheHost) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::fact_store_test

@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::fault_desk_test {
 namespace {
 
 using test::fault;
@@ -125,4 +125,4 @@ TEST(FaultDeskPart, AFallenLoadLiesOnTheFloorUntilItIsClearedAway) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::fault_desk_test

@@ -1,7 +1,7 @@
 // What goes wrong, one fault at a time.
 #include "tests/core/row_of_tens.hpp"
 
-namespace fleetproof {
+namespace fleetproof::faults_test {
 namespace {
 
 using test::drive_and_look;
@@ -295,4 +295,4 @@ TEST(Faults, AnAgvThatIsOutOfOrderForGoodCannotFail) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::faults_test

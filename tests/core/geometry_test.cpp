@@ -8,7 +8,7 @@
 #include "core/geometry/rotation.hpp"
 #include "tests/oracle/rectangle_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::geometry_test {
 namespace {
 
 using namespace test;
@@ -145,4 +145,4 @@ TEST(Rotation, OppositeHeadingsTurnLeft) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::geometry_test

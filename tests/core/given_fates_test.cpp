@@ -10,7 +10,7 @@
 #include "tests/core/row_of_tens.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::given_fates_test {
 namespace {
 
 GivenFate fate_of(std::uint32_t sender, std::uint32_t receiver, double sent_s, std::uint32_t ordinal) {
@@ -117,4 +117,4 @@ TEST(GivenFates, GoOverInterference) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::given_fates_test

@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::halts_test {
 namespace {
 
 using test::kFirst;
@@ -72,4 +72,4 @@ TEST(HaltsPart, TheEndOfAHaltMovesNoAgvThatIsOutOfOrder) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::halts_test

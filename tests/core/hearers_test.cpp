@@ -5,7 +5,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::hearers_test {
 namespace {
 
 using test::kFirst;
@@ -81,4 +81,4 @@ TEST(Hearers, WhoMayBeAnywhereIsInRangeWhereItIsNow) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::hearers_test

@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::messenger_test {
 namespace {
 
 using test::kFirst;
@@ -123,4 +123,4 @@ TEST(MessengerPart, LossesAreTracedWithTheirCauseAndEveryCopyIsAccountedFor) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::messenger_test

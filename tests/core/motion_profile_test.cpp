@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 
-namespace fleetproof {
+namespace fleetproof::motion_profile_test {
 namespace {
 
 TEST(MotionProfile, ThePapersThreeDurations) {
@@ -99,4 +99,4 @@ TEST(MotionProfile, RefusesWhatIsNoMotion) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::motion_profile_test

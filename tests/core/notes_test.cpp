@@ -7,12 +7,12 @@
 #include <cmath>
 #include <limits>
 
-#include "core/agents/agents.h"
 #include "core/engine/call_limits.hpp"
 #include "tests/core/row_of_tens.hpp"
 #include "tests/core/told_run.hpp"
+#include "tests/support/reference_agent.hpp"
 
-namespace fleetproof {
+namespace fleetproof::notes_test {
 namespace {
 
 using test::Handler;
@@ -248,10 +248,8 @@ TEST(Notes, AreOnTheTapeEvenIfNobodyLookedWhenItWasRecorded) {
 TEST(Notes, OfHullLock) {
   Scenario scenario = row_of_tens({0, 2}, 120.0);
   scenario.agvs[0].transports = {{StationId{0U}, StationId{1U}, seconds(20.0)}};
-  const auto type = std::find_if(fp_reference_agents, fp_reference_agents + fp_reference_agent_count,
-                                 [](const fp_agent_type* t) { return std::string_view(t->name) == "hull-lock"; });
   Notebook notebook;
-  simulate(scenario, **type, {}, &notebook);
+  simulate(scenario, test::reference_agent("hull-lock"), {}, &notebook);
   EXPECT_EQ(notebook.of(TraceKind::Described).size(), notebook.of(TraceKind::Sent).size());
   const std::vector<std::string> described = notebook.words_of(TraceKind::Described);
   EXPECT_THAT(described, testing::Contains(testing::StartsWith("STATE: holds ")));
@@ -266,4 +264,4 @@ TEST(Notes, OfHullLock) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::notes_test

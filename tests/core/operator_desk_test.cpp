@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::operator_desk_test {
 namespace {
 
 using test::kFirst;
@@ -94,4 +94,4 @@ TEST(OperatorDeskPart, RestartsAnAgentAtAStandstillAndNotWhileWorkIsUnderWay) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::operator_desk_test

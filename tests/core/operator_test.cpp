@@ -1,7 +1,7 @@
 // What the operator does after a contact, one thing at a time.
 #include "tests/core/helped.hpp"
 
-namespace fleetproof {
+namespace fleetproof::operator_test {
 namespace {
 
 using test::bring_the_load;
@@ -312,4 +312,4 @@ TEST(AfterAContact, ACrashedAgentStaysCrashed) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::operator_test

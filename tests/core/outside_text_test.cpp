@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <memory>
 
-namespace fleetproof {
+namespace fleetproof::outside_text_test {
 namespace {
 
 TEST(OutsideText, StaysIfAllOfItCanBeSeen) {
@@ -102,4 +102,4 @@ TEST(ShellWord, GivesTheShellTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::outside_text_test

@@ -3,7 +3,7 @@
 
 #include "tests/core/row_of_tens.hpp"
 
-namespace fleetproof {
+namespace fleetproof::pick_load_test {
 namespace {
 
 using test::simulate_with;
@@ -154,4 +154,4 @@ TEST(PickLoad, AHaltChangesNothing) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::pick_load_test

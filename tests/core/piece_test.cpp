@@ -7,7 +7,7 @@
 #include "core/geometry/rotation.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::piece_test {
 namespace {
 
 const SimTime kLate = at_seconds(300.0);
@@ -118,4 +118,4 @@ TEST(Piece, SweptBoxIsSoundAndTight) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::piece_test

@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::position_sensor_test {
 namespace {
 
 using test::kFirst;
@@ -46,4 +46,4 @@ TEST(PositionSensorPart, TheErrorIsBoundedAndAnotherEveryTenthOfASecond) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::position_sensor_test

@@ -9,7 +9,7 @@
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_air_time_test {
 namespace {
 
 constexpr Duration ms(std::int64_t n) { return std::chrono::milliseconds(n); }
@@ -218,4 +218,4 @@ TEST(UnlikeLengths, InAWholeRunOverlapDestroysAtAListenerAndNobodyHearsWhileItSe
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_air_time_test

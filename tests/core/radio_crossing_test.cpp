@@ -10,7 +10,7 @@
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/exact_binomial.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_crossing_test {
 namespace {
 
 const AgvId kA{0U}, kB{1U};
@@ -241,4 +241,4 @@ TEST(WholeRun, WhoDrivesOverABorderIsDeafAndMuteUntilItIsConnectedAgain) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_crossing_test

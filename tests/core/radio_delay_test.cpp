@@ -6,7 +6,7 @@
 #include "core/radio/radio.hpp"
 #include "tests/support/exact_binomial.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_delay_test {
 namespace {
 
 using DelayModel = RadioSetup::DelayModel;
@@ -87,4 +87,4 @@ TEST(RadioCopies, HaveTheirShareAndADelayOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_delay_test

@@ -9,7 +9,7 @@
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_interference_test {
 namespace {
 
 // The probability that a broadcast is hit when n senders always have one ready: each other sender sends in 2 / (CW + 2)
@@ -165,4 +165,4 @@ TEST(Interference, OffByDefault) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_interference_test

@@ -8,7 +8,7 @@
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/exact_binomial.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_loss_test {
 namespace {
 
 using Model = OutageSetup::Model;
@@ -194,4 +194,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, LossLevels, testing::ValuesIn(kKinds),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_loss_test

@@ -10,7 +10,7 @@
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/exact_binomial.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_outage_test {
 namespace {
 
 using Model = OutageSetup::Model;
@@ -161,4 +161,4 @@ TEST(OutageProcess, OneProcessForBothDirectionsUnlessAskedOtherwise) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_outage_test

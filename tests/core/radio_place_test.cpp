@@ -8,7 +8,7 @@
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_place_test {
 namespace {
 
 using Scope = OutageSetup::Scope;
@@ -215,4 +215,4 @@ TEST(RecordedRadio, DecidesTheFatesOfItsPairs) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_place_test

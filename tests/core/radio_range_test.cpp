@@ -8,7 +8,7 @@
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_range_test {
 namespace {
 
 using test::is_binomial;
@@ -108,4 +108,4 @@ TEST(RadioRange, TheEngineAsksForThePlacesOnAFloorThatIsSmallerThanTheRange) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_range_test

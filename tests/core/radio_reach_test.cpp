@@ -11,7 +11,7 @@
 #include "core/geometry/rotation.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_reach_test {
 namespace {
 
 constexpr std::uint32_t kAgvs = 60;
@@ -141,4 +141,4 @@ TEST(RadioReach, IsExactAmongThoseWhoStand) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_reach_test

@@ -12,7 +12,7 @@
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_sources_test {
 namespace {
 
 const AgvId kA{0U}, kB{1U};
@@ -202,4 +202,4 @@ TEST(WholeRun, AnAgvLessLeavesWhatSourcesDoToTheOthers) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_sources_test

@@ -10,7 +10,7 @@
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_test {
 namespace {
 
 const AgvId kA{0U}, kB{1U}, kC{2U};
@@ -202,4 +202,4 @@ TEST(MessagePool, AMessageThatWasDestroyedLeavesNoTraceInItsSlot) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_test

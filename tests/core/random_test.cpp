@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-namespace fleetproof {
+namespace fleetproof::random_test {
 namespace {
 
 TEST(Philox, KnownAnswers) {  // from the Random123 distribution's kat_vectors, philox4x32-10
@@ -100,4 +100,4 @@ TEST(Draws, HaveTheMomentsOfTheirDistribution) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::random_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::recovery_test {
 namespace {
 
 std::vector<std::uint32_t> stations_of(const std::vector<RecoveryPlace>& places) {
@@ -49,4 +49,4 @@ TEST(Recovery, AnAgvIsSetDownAsTheStationDemandsAndNeverWhereItCouldNotDriveOff)
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::recovery_test

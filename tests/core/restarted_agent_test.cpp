@@ -1,7 +1,7 @@
 // An agent that starts again: what it is told, and what it is not.
 #include "tests/core/row_of_tens.hpp"
 
-namespace fleetproof {
+namespace fleetproof::restarted_agent_test {
 namespace {
 
 using test::fault;
@@ -117,4 +117,4 @@ TEST(Restart, WhoHasReachedTheEndOfItsSegmentDrivesItNoLonger) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::restarted_agent_test

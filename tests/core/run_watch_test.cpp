@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::run_watch_test {
 namespace {
 
 using test::current_handler;
@@ -67,4 +67,4 @@ TEST(RunWatch, AbandonsARun) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::run_watch_test

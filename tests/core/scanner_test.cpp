@@ -2,7 +2,7 @@
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof {
+namespace fleetproof::scanner_test {
 namespace {
 
 using test::kFirst;
@@ -162,4 +162,4 @@ TEST(ScannerPart, AMutedFieldStopsNobodyUntilItHasBeenClear) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::scanner_test

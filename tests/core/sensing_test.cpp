@@ -6,7 +6,7 @@
 #include "core/engine/agent_clock.hpp"
 #include "tests/core/row_of_tens.hpp"
 
-namespace fleetproof {
+namespace fleetproof::sensing_test {
 namespace {
 
 using test::drive_and_look;
@@ -126,4 +126,4 @@ TEST(Scanner, TheOperatorSendsOnWhoIsHeldForLong) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::sensing_test

@@ -8,7 +8,7 @@
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::simulation_test {
 namespace {
 
 using test::Recorder;
@@ -334,4 +334,4 @@ TEST(Abi, AnotherMajorVersionIsRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::simulation_test

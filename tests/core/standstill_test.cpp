@@ -1,7 +1,7 @@
 // What the operator does about a fleet that stands still, one thing at a time.
 #include "tests/core/helped.hpp"
 
-namespace fleetproof {
+namespace fleetproof::standstill_test {
 namespace {
 
 using test::bring_the_load;
@@ -210,4 +210,4 @@ TEST(AtAStandstill, HeIsCalledOnceAndComesWhenHeCan) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::standstill_test

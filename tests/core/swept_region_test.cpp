@@ -9,7 +9,7 @@
 
 #include "tests/oracle/known_pairs.hpp"
 
-namespace fleetproof::oracle {
+namespace fleetproof::oracle::swept_region_test {
 namespace {
 
 constexpr int kInstants = 100;
@@ -64,4 +64,4 @@ TEST(SweptRegion, ContainsTheOutsideOfABend) {
 }
 
 }  // namespace
-}  // namespace fleetproof::oracle
+}  // namespace fleetproof::oracle::swept_region_test

@@ -6,13 +6,13 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/agents/agents.h"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "tests/core/row_of_tens.hpp"
 #include "tests/core/told_run.hpp"
+#include "tests/support/reference_agent.hpp"
 
-namespace fleetproof {
+namespace fleetproof::tape_player_test {
 namespace {
 
 using test::expect_same;
@@ -179,13 +179,8 @@ Scenario lossy(std::uint64_t seed) {
   return scenario;
 }
 
-const fp_agent_type& hull_lock() {
-  return **std::find_if(fp_reference_agents, fp_reference_agents + fp_reference_agent_count,
-                        [](const fp_agent_type* type) { return std::string_view(type->name) == "hull-lock"; });
-}
-
 TEST(TapePlayer, RefusesTheRecordingOfAnotherRun) {
-  const std::string tape = recorded(lossy(1), hull_lock()).tape;
+  const std::string tape = recorded(lossy(1), test::reference_agent("hull-lock")).tape;
   EXPECT_EQ(error_of(lossy(1), tape), std::nullopt);
   EXPECT_EQ(error_of(lossy(2), tape), "the recording does not fit this run: it holds another call than the run makes");
   Scenario longer = lossy(1), shorter = lossy(1), smaller = lossy(1);
@@ -206,7 +201,7 @@ TEST(TapePlayer, RefusesARecordingThatIsCutAnywhere) {
   const std::string short_tape = recorded_mood(mood).tape;
   for (std::size_t size = 1; size < short_tape.size(); ++size)
     EXPECT_TRUE(error_of(restarts(), std::string_view(short_tape).substr(0, size))) << size;
-  const std::string long_tape = recorded(lossy(1), hull_lock()).tape;
+  const std::string long_tape = recorded(lossy(1), test::reference_agent("hull-lock")).tape;
   for (std::size_t size = 1; size < long_tape.size(); size += 1 + long_tape.size() / 300)
     EXPECT_TRUE(error_of(lossy(1), std::string_view(long_tape).substr(0, size))) << size;
 }
@@ -229,7 +224,7 @@ TEST(TapePlayer, SurvivesAnyDamage) {
     for (unsigned bit = 0; bit < 8; ++bit) damaged(restarts(), short_tape, at, static_cast<char>(1U << bit));
     damaged(restarts(), short_tape, at, static_cast<char>(0xff));
   }
-  const std::string long_tape = recorded(lossy(1), hull_lock()).tape;
+  const std::string long_tape = recorded(lossy(1), test::reference_agent("hull-lock")).tape;
   Draws draws(99);
   for (int i = 0; i < 400; ++i) {
     damaged(lossy(1), long_tape, draws.below(static_cast<std::uint32_t>(long_tape.size())),
@@ -264,4 +259,4 @@ TEST(TapePlayer, SurvivesNoise) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::tape_player_test

@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace fleetproof {
+namespace fleetproof::trace_records_test {
 namespace {
 
 constexpr AgvId kAgv{3U};
@@ -93,4 +93,4 @@ TEST(TraceRecords, EveryKindHasAName) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::trace_records_test

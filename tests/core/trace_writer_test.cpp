@@ -7,7 +7,7 @@
 #include "core/outcome/trace_records.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::trace_writer_test {
 namespace {
 
 class Reads : public Law {
@@ -154,4 +154,4 @@ TEST(TraceBlock, KnowsHowLongItsMessagesAre) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::trace_writer_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fleetproof {
+namespace fleetproof::ways_test {
 namespace {
 
 // s0 - s1 - s2 in a row of 4 m each, a one-way loop s1 -> s3 -> s2 that is longer, and s4, from which a lane leads to
@@ -57,4 +57,4 @@ TEST(ShortestWays, KeepOneWayLanesOneWay) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::ways_test

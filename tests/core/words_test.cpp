@@ -6,7 +6,7 @@
 
 #include "core/scenario/scenario.hpp"
 
-namespace fleetproof {
+namespace fleetproof::words_test {
 namespace {
 
 enum class Colour : std::uint8_t { Red = 1, Blue = 4 };
@@ -49,4 +49,4 @@ TEST(Words, OfAScenarioAreDifferentAndComeBack) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::words_test

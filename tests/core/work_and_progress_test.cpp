@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof {
+namespace fleetproof::work_and_progress_test {
 namespace {
 
 TEST(Work, IsWhatServesATransport) {
@@ -49,4 +49,4 @@ TEST(OpenTransports, AreThoseNeitherDoneNorImpossible) {
 TEST(Throughput, CountsFinishedTransports) { EXPECT_DOUBLE_EQ(transports_per_agv_hour(30, 2.0), 15.0); }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::work_and_progress_test

@@ -5,7 +5,7 @@
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::world_test {
 namespace {
 
 Scenario with_obstacle() {
@@ -143,4 +143,4 @@ TEST(World, TellsLawsWhichPiecesHadCompany) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::world_test

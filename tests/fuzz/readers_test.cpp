@@ -9,7 +9,7 @@
 #include "generators/text/text_file.hpp"
 #include "verdict.hpp"
 
-namespace fleetproof::fuzz {
+namespace fleetproof::fuzz::readers_test {
 
 void PrintTo(const Reader& reader, std::ostream* out) { *out << reader.name; }
 
@@ -77,4 +77,4 @@ TEST(Verdict, NoticesLayoutsThatCannotBeDrivenOn) {
 }
 
 }  // namespace
-}  // namespace fleetproof::fuzz
+}  // namespace fleetproof::fuzz::readers_test

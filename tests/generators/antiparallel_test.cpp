@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof {
+namespace fleetproof::antiparallel_test {
 namespace {
 
 // a and b, with a segment each way.
@@ -82,4 +82,4 @@ TEST(Antiparallel, WhatStaysOnATrackIsTold) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::antiparallel_test

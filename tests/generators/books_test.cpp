@@ -7,16 +7,16 @@
 #include <map>
 #include <set>
 
-#include "core/agents/agents.h"
 #include "core/base/error.hpp"
 #include "core/motion/activity.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/worlds/world_maker.hpp"
 #include "laws/laws.hpp"
 #include "tests/support/hard_world.hpp"
+#include "tests/support/reference_agent.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::books_test {
 namespace {
 
 class Bookkeeper final : public Law {
@@ -202,17 +202,10 @@ void run(const fp_agent_type& agent, std::uint64_t runs, Totals& totals) {
   }
 }
 
-const fp_agent_type& agent_named(std::string_view name) {
-  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) {
-    if (fp_reference_agents[i]->name == name) return *fp_reference_agents[i];
-  }
-  throw InputError("agent", "no such reference agent");
-}
-
 TEST(Books, BalanceAfterTenThousandRunsInWhichEverythingGoesWrong) {
   Totals totals;
-  run(agent_named("reckless"), 9'000, totals);
-  run(agent_named("hull-lock"), 1'000, totals);
+  run(test::reference_agent("reckless"), 9'000, totals);
+  run(test::reference_agent("hull-lock"), 1'000, totals);
   EXPECT_EQ(totals.runs, 10'000U);
   EXPECT_GT(totals.faults, 10'000U) << "or nothing went wrong";
   EXPECT_GT(totals.empty, 100U);
@@ -227,4 +220,4 @@ TEST(Books, BalanceAfterTenThousandRunsInWhichEverythingGoesWrong) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::books_test

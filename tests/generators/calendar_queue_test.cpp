@@ -9,7 +9,7 @@
 
 #include "core/base/random.hpp"
 
-namespace fleetproof {
+namespace fleetproof::calendar_queue_test {
 namespace {
 
 using Costs = std::priority_queue<std::int64_t, std::vector<std::int64_t>, std::greater<>>;
@@ -86,4 +86,4 @@ TEST(CalendarQueue, TiesComeInTheSameOrderEveryTime) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::calendar_queue_test

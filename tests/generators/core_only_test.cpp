@@ -8,7 +8,7 @@
 #include "core/base/random.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::core_only_test {
 namespace {
 
 Layout drawn(std::uint64_t seed) {
@@ -92,4 +92,4 @@ TEST(CoreOnly, LongNamesAreToldInFull) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::core_only_test

@@ -10,7 +10,7 @@
 #include "generators/formats/opentcs.hpp"
 #include "real_layout.hpp"
 
-namespace fleetproof {
+namespace fleetproof::csv_layout_test {
 namespace {
 
 const std::string kTables = R"(# a fork of three nodes
@@ -205,4 +205,4 @@ TEST(CsvLayout, RefusedRulesNameTheirPlace) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::csv_layout_test

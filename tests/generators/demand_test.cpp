@@ -13,7 +13,7 @@
 #include "generators/worlds/transports.hpp"
 #include "generators/worlds/world_maker.hpp"
 
-namespace fleetproof {
+namespace fleetproof::demand_test {
 namespace {
 
 using testing::HasSubstr;
@@ -189,4 +189,4 @@ TEST(ListedOrders, NeedALayoutThatStaysAndNoPairs) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::demand_test

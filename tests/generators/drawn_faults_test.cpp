@@ -7,7 +7,7 @@
 
 #include "generators/worlds/world_maker.hpp"
 
-namespace fleetproof {
+namespace fleetproof::drawn_faults_test {
 namespace {
 
 std::vector<SensingSetup> clocks_of(const WorldSpec& spec, std::uint64_t seed) {
@@ -44,4 +44,4 @@ TEST(DrawnFaults, ClocksAgreeInTheShareOfWorldsThatIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::drawn_faults_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/exact_binomial.hpp"
 
-namespace fleetproof {
+namespace fleetproof::drawn_radio_test {
 namespace {
 
 Layout hall() {
@@ -44,4 +44,4 @@ TEST(DrawnRadioSources, AreAlikeAndOneMoreLeavesTheOthersWhereTheyWere) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::drawn_radio_test

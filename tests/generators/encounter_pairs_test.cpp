@@ -21,7 +21,7 @@
 #include "independent_check.hpp"
 #include "laws/laws.hpp"
 
-namespace fleetproof {
+namespace fleetproof::encounter_pairs_test {
 namespace {
 
 double rest_to_rest_s(double way, const MotionLimits& m) {
@@ -304,4 +304,4 @@ TEST(AdversarialPlacement, TheRecklessAgentViolatesMoreOftenPerRun) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::encounter_pairs_test

@@ -11,7 +11,7 @@
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::fault_kinds_test {
 namespace {
 
 constexpr std::uint64_t kWorlds = 2'000;
@@ -231,4 +231,4 @@ TEST(FaultKinds, NoKindMovesAnother) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::fault_kinds_test

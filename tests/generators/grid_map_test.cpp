@@ -5,7 +5,7 @@
 #include "damage.hpp"
 #include "real_layout.hpp"
 
-namespace fleetproof {
+namespace fleetproof::grid_map_test {
 namespace {
 
 const std::string kMap = "type octile\nheight 3\nwidth 4\nmap\n..@.\n.TS.\n@...\n";
@@ -87,4 +87,4 @@ TEST(RealLayouts, GridMaps) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::grid_map_test

@@ -4,7 +4,7 @@
 #include "generators/formats/layout_file.hpp"
 #include "generators/worlds/world_maker.hpp"
 
-namespace fleetproof {
+namespace fleetproof::held_world_test {
 namespace {
 
 WorldSpec crowded() {
@@ -48,4 +48,4 @@ TEST(HeldWorld, ALayoutStaysItselfHoweverOftenTheRestIsDrawnAgain) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::held_world_test

@@ -13,7 +13,7 @@
 #include "generators/formats/lif_text.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::importer_test {
 namespace {
 
 class ImporterTest : public testing::Test {
@@ -94,4 +94,4 @@ TEST_F(ImporterTest, EveryImporterRefusesWhatIsNoLayout) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::importer_test

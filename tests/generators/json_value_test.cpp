@@ -8,7 +8,7 @@
 #include "core/base/random.hpp"
 #include "generators/text/json_writer.hpp"
 
-namespace fleetproof {
+namespace fleetproof::json_value_test {
 namespace {
 
 std::string refusal(std::string_view text) {
@@ -83,4 +83,4 @@ TEST(JsonValue, WholeNumbersKeepAll64Bits) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::json_value_test

@@ -13,7 +13,7 @@
 #include "generators/map/layout_check.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::layout_family_test {
 namespace {
 
 const std::uint64_t kSeeds = independent::seed_count();
@@ -262,4 +262,4 @@ TEST(LayoutFamilies, UnknownNameIsAnInputErrorWithAHint) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::layout_family_test

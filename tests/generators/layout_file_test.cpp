@@ -9,7 +9,7 @@
 #include "core/scenario/canonical_bytes.hpp"
 #include "generators/families/layout_family.hpp"
 
-namespace fleetproof {
+namespace fleetproof::layout_file_test {
 namespace {
 
 constexpr const char* kSmall = R"({
@@ -243,4 +243,4 @@ TEST(LayoutFile, AMissingFileIsAnInputError) { EXPECT_THROW(read_layout("/nowher
 TEST(LayoutFile, ADirectoryIsAnInputError) { EXPECT_THROW(read_layout("/tmp"), InputError); }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::layout_file_test

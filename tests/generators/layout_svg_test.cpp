@@ -11,7 +11,7 @@
 #include "generators/map/layout_check.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::layout_svg_test {
 namespace {
 
 pugi::xml_document parsed(const std::string& svg) {
@@ -184,4 +184,4 @@ TEST(LayoutSvg, TheGalleryIsUpToDate) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::layout_svg_test

@@ -8,7 +8,7 @@
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
 
-namespace fleetproof {
+namespace fleetproof::lif_left_out_test {
 namespace {
 
 const std::string kFile = R"({"layouts": [{"layoutId": "L",
@@ -205,4 +205,4 @@ TEST(LifThings, AVersionOfTheFutureAndNotesOfOriginsAreNamed) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::lif_left_out_test

@@ -10,7 +10,7 @@
 #include "generators/map/layout_check.hpp"
 #include "generators/map/permitted_types.hpp"
 
-namespace fleetproof {
+namespace fleetproof::lif_rules_test {
 namespace {
 
 using testing::ElementsAre;
@@ -375,4 +375,4 @@ TEST(LifLevels, LayoutsBesideOriginsCountToo) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::lif_rules_test

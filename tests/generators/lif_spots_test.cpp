@@ -8,7 +8,7 @@
 #include "generators/formats/lif.hpp"
 #include "generators/formats/lif_text.hpp"
 
-namespace fleetproof {
+namespace fleetproof::lif_spots_test {
 namespace {
 
 using testing::ElementsAre;
@@ -244,4 +244,4 @@ TEST(LifSpots, AFaultIsNamedWhereItIsBehindAJoinedNode) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::lif_spots_test

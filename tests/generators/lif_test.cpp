@@ -13,7 +13,7 @@
 #include "generators/map/antiparallel.hpp"
 #include "real_layout.hpp"
 
-namespace fleetproof {
+namespace fleetproof::lif_test {
 namespace {
 
 struct Import {
@@ -367,4 +367,4 @@ TEST(RealLayouts, Lif) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::lif_test

@@ -7,7 +7,7 @@
 #include "generators/formats/lif.hpp"
 #include "generators/formats/lif_text.hpp"
 
-namespace fleetproof {
+namespace fleetproof::lif_travel_test {
 namespace {
 
 using testing::HasSubstr;
@@ -158,4 +158,4 @@ TEST(LifTravel, AnOrientationOfTheFirstVersionIsAnAngle) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::lif_travel_test

@@ -17,7 +17,7 @@
 #include "independent_check.hpp"
 #include "real_layout.hpp"
 
-namespace fleetproof {
+namespace fleetproof::mutated_import_test {
 namespace {
 
 Layout crossdock() {
@@ -128,4 +128,4 @@ TEST(MutatedImport, KeepsWaysOfTravelButNoHeadings) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::mutated_import_test

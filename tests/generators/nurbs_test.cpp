@@ -8,7 +8,7 @@
 #include "generators/map/layout_check.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::nurbs_test {
 namespace {
 
 // The basis functions by their recursive definition (Cox and de Boor), which the product does not use.
@@ -114,4 +114,4 @@ TEST(Nurbs, FaultsNameTheNumbers) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::nurbs_test

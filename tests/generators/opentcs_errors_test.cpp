@@ -7,7 +7,7 @@
 #include "generators/formats/opentcs.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::opentcs_errors_test {
 namespace {
 
 const std::string& crossdock() {
@@ -188,4 +188,4 @@ TEST(OpenTcsErrors, RandomControlPointsAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::opentcs_errors_test

@@ -10,7 +10,7 @@
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/opentcs.hpp"
 
-namespace fleetproof {
+namespace fleetproof::opentcs_left_out_test {
 namespace {
 
 constexpr const char* kNew = R"(<model version="7.0.0" name="m">
@@ -251,4 +251,4 @@ TEST(PlantModelThings, OneSentenceCountsAndNames) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::opentcs_left_out_test

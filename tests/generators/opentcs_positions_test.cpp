@@ -9,7 +9,7 @@
 #include "generators/formats/opentcs.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::opentcs_positions_test {
 namespace {
 
 struct Spot {
@@ -229,4 +229,4 @@ TEST(OpenTcsPositions, BrokenDrawingsAreExplained) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::opentcs_positions_test

@@ -7,7 +7,7 @@
 #include "core/base/error.hpp"
 #include "generators/formats/opentcs.hpp"
 
-namespace fleetproof {
+namespace fleetproof::opentcs_purposes_test {
 namespace {
 
 struct Case {
@@ -148,4 +148,4 @@ TEST(OpenTcsPurposes, WordsWithoutSenseAreRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::opentcs_purposes_test

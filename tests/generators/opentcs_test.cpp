@@ -13,7 +13,7 @@
 #include "generators/worlds/world_maker.hpp"
 #include "real_layout.hpp"
 
-namespace fleetproof {
+namespace fleetproof::opentcs_test {
 namespace {
 
 const std::string kCrossdock = independent::source_file("tests/layouts/crossdock.xml");
@@ -380,4 +380,4 @@ TEST(RealLayouts, OpenTcsPersistenceSample) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::opentcs_test

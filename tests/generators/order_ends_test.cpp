@@ -12,7 +12,7 @@
 #include "generators/worlds/world_maker.hpp"
 #include "tests/support/source_and_sink.hpp"
 
-namespace fleetproof {
+namespace fleetproof::order_ends_test {
 namespace {
 
 using testing::ElementsAre;
@@ -392,4 +392,4 @@ TEST(LimitedUses, AreToldByName) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::order_ends_test

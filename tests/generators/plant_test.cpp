@@ -15,7 +15,7 @@
 #include "generators/map/layout_check.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::plant_test {
 namespace {
 
 constexpr std::uint64_t kSeeds = 12;
@@ -283,4 +283,4 @@ TEST(Plant, NamesSayRangeOrProvocationAndSizeInAnyOrder) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::plant_test

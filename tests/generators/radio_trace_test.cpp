@@ -5,7 +5,7 @@
 
 #include "core/base/error.hpp"
 
-namespace fleetproof {
+namespace fleetproof::radio_trace_test {
 namespace {
 
 using testing::HasSubstr;
@@ -70,4 +70,4 @@ TEST(RadioTraceFile, ErrorsNamePlaceColumnValueAndRemedy) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::radio_trace_test

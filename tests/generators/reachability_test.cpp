@@ -6,7 +6,7 @@
 #include "core/base/random.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::reachability_test {
 namespace {
 
 Layout random_layout(Draws& draws) {
@@ -204,4 +204,4 @@ TEST(ReachabilityUnderRules, WhereNoAgvGetsOutWithoutALoadNoneBelongs) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::reachability_test

@@ -8,7 +8,7 @@
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/rmf.hpp"
 
-namespace fleetproof {
+namespace fleetproof::rmf_left_out_test {
 namespace {
 
 const std::string kBuilding = R"(ROOT
@@ -150,4 +150,4 @@ TEST(RmfThings, AVertexAboveTheFloorIsNamed) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::rmf_left_out_test

@@ -5,7 +5,7 @@
 #include "damage.hpp"
 #include "real_layout.hpp"
 
-namespace fleetproof {
+namespace fleetproof::rmf_test {
 namespace {
 
 const std::string kBuilding = R"(name: depot
@@ -387,4 +387,4 @@ TEST(RealLayouts, TripleHIsScaledByItsMeasurement) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::rmf_test

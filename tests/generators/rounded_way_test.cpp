@@ -9,7 +9,7 @@
 #include "core/scenario/layout.hpp"
 #include "generators/map/layout_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::rounded_way_test {
 namespace {
 
 Segment segment_along(const std::vector<Vec2>& points_m) {
@@ -106,4 +106,4 @@ TEST(RoundedWay, ACornerAtWhichTheWayTurnsRoundRemains) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::rounded_way_test

@@ -8,7 +8,7 @@
 #include "generators/scenario_file/scenario_file.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::scenario_errors_test {
 namespace {
 
 const std::string& figure4() {
@@ -133,4 +133,4 @@ TEST(ScenarioErrors, RandomDamageIsReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::scenario_errors_test

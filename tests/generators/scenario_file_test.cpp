@@ -11,7 +11,7 @@
 #include "generators/worlds/world_maker.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::scenario_file_test {
 namespace {
 
 const std::string kFigure4 = independent::source_file("tests/scenarios/figure4.json");
@@ -272,4 +272,4 @@ TEST(ScenarioFile, FixturesAreReadTheSameAsTheirCanonicalText) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::scenario_file_test

@@ -13,7 +13,7 @@
 #include "independent_check.hpp"
 #include "laws/laws.hpp"
 
-namespace fleetproof {
+namespace fleetproof::start_room_test {
 namespace {
 
 using independent::Corners;
@@ -191,4 +191,4 @@ INSTANTIATE_TEST_SUITE_P(All, WaitingRoomInFamily, testing::ValuesIn(families_wi
                          });
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::start_room_test

@@ -8,7 +8,7 @@
 #include "generators/map/core_only.hpp"
 #include "generators/map/reachability.hpp"
 
-namespace fleetproof {
+namespace fleetproof::station_use_test {
 namespace {
 
 // By state (2 * lane + loaded): whether an AGV that has come by it can go on by the other, by search from the layout.
@@ -163,4 +163,4 @@ TEST(StationUse, TheCoreOfTheCoreIsTheCore) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::station_use_test

@@ -11,7 +11,7 @@
 #include "generators/map/layout_check.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::stress_range_test {
 namespace {
 
 Layout stressed(std::string_view family, std::uint64_t seed) {
@@ -274,4 +274,4 @@ TEST(LayoutRanges, WrongWordsAreInputErrorsWithAHint) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::stress_range_test

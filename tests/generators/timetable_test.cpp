@@ -12,7 +12,7 @@
 #include "core/motion/motion_profile.hpp"
 #include "generators/families/layout_builder.hpp"
 
-namespace fleetproof {
+namespace fleetproof::timetable_test {
 namespace {
 
 std::int64_t drive_ns(const Lane& lane, const VehicleType& type) {
@@ -131,4 +131,4 @@ TEST(Timetable, AnswersTheSameAfterItHasForgotten) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::timetable_test

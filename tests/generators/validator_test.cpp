@@ -10,7 +10,7 @@
 #include "generators/map/layout_check.hpp"
 #include "generators/worlds/world_maker.hpp"
 
-namespace fleetproof {
+namespace fleetproof::validator_test {
 namespace {
 
 Scenario sound() {
@@ -339,4 +339,4 @@ TEST(PlantedScenarios, CoverEveryKindOfProblem) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::validator_test

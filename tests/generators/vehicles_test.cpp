@@ -8,7 +8,7 @@
 #include "generators/formats/factsheet.hpp"
 #include "generators/formats/opentcs_vehicles.hpp"
 
-namespace fleetproof {
+namespace fleetproof::vehicles_test {
 namespace {
 
 using testing::AllOf;
@@ -260,4 +260,4 @@ TEST(Factsheet, IsRefusedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::vehicles_test

@@ -13,7 +13,7 @@
 #include "generators/scenario_file/validator.hpp"
 #include "independent_check.hpp"
 
-namespace fleetproof {
+namespace fleetproof::world_maker_test {
 namespace {
 
 Scenario world(const WorldSpec& spec, std::uint64_t seed) {
@@ -279,4 +279,4 @@ TEST(WorldRejections, ALongVehicleIsTurnedAwayFromNeighbouringStations) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::world_maker_test

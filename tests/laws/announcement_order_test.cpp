@@ -6,7 +6,7 @@
 #include "tests/laws/teller.hpp"
 #include "tests/oracle/known_pairs.hpp"
 
-namespace fleetproof::oracle {
+namespace fleetproof::oracle::announcement_order_test {
 namespace {
 
 std::vector<Violation> filed(const Piece& first, const Piece& second) {
@@ -39,4 +39,4 @@ TEST(AnnouncementOrder, LeavesNoTraceInTheArithmetic) {
 }
 
 }  // namespace
-}  // namespace fleetproof::oracle
+}  // namespace fleetproof::oracle::announcement_order_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::approach_test {
 namespace {
 
 // Six stations in a row, 4 m apart; the AGV starts at station 1.
@@ -50,4 +50,4 @@ TEST_F(OnItsWay, AHaltOnTheWayTurnsNobodyRound) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::approach_test

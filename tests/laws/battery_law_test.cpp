@@ -6,7 +6,7 @@
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::battery_law_test {
 namespace {
 
 // Stations 4 m apart; the AGV starts at the second, a charger is the last of five.
@@ -51,4 +51,4 @@ TEST(BatteryLaw, AMapWithoutChargersIsNoExcuse) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::battery_law_test

@@ -4,7 +4,7 @@
 #include "laws/laws.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::coming_and_going_test {
 namespace {
 
 Outcome judged(const Scenario& scenario, const test::Handler& handler, std::string_view law) {
@@ -119,4 +119,4 @@ TEST(ComingAndGoing, AChangedBatteryClosesTheIncident) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::coming_and_going_test

@@ -5,7 +5,7 @@
 
 #include "tests/laws/timeline.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::comparison_test {
 namespace {
 
 std::vector<Difference> differences(const Scene& scene, std::string_view law) {
@@ -90,4 +90,4 @@ TEST(Comparison, MissesAndAccusationsStandTogetherInOrderOfTime) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::comparison_test

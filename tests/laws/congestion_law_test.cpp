@@ -6,7 +6,7 @@
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::congestion_law_test {
 namespace {
 
 // `rate` messages a second for each second from `from_s` to `to_s`, each 10 ms long.
@@ -116,4 +116,4 @@ TEST(CongestionLaw, TheLastWindowOfARunCountsToo) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::congestion_law_test

@@ -10,7 +10,7 @@
 #include "tests/laws/told.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::coverage_law_test {
 namespace {
 
 using Met = std::map<std::string, std::uint64_t>;
@@ -204,4 +204,4 @@ TEST(Probes, WhatAnAgentDeclaresIsSummedByName) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::coverage_law_test

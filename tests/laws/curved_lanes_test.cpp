@@ -8,7 +8,7 @@
 #include "tests/laws/timeline.hpp"
 #include "tests/oracle/brute_force.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::curved_lanes_test {
 namespace {
 
 using oracle::Point;
@@ -207,4 +207,4 @@ TEST(CurvedLanes, BesideALineAreAllowedTenMicrometres) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::curved_lanes_test

@@ -6,7 +6,7 @@
 #include "laws/map_places.hpp"
 #include "laws/side_by_side.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::driven_ways_test {
 namespace {
 
 constexpr double kMargin_m = 0.1;
@@ -163,4 +163,4 @@ TEST(DrivenWays, CountEveryMeetingOfTheirDrives) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::driven_ways_test

@@ -6,7 +6,7 @@
 #include "tests/laws/timeline.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::exact_law_test {
 namespace {
 
 LawFindings exact(const Scene& scene) { return play(scene, make_exact_law); }
@@ -175,4 +175,4 @@ TEST(ExactLaw, FollowsTheSafetyDistanceOfTheScenario) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::exact_law_test

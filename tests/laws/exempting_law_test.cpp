@@ -4,7 +4,7 @@
 
 #include "tests/laws/timeline.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::exempting_law_test {
 namespace {
 
 // A charger at the origin, a parking place 100 m away.
@@ -104,4 +104,4 @@ TEST(Exemptions, ContactOfAPairIsNot) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::exempting_law_test

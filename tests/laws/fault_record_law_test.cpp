@@ -5,7 +5,7 @@
 #include "tests/laws/told.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::fault_record_law_test {
 namespace {
 
 using testing::ElementsAre;
@@ -56,4 +56,4 @@ TEST(FaultRecord, AccusesNobody) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::fault_record_law_test

@@ -4,7 +4,7 @@
 #include "tests/laws/timeline.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::figure4_test {
 namespace {
 
 constexpr double kMillisecond_s = 1e-3;
@@ -152,4 +152,4 @@ TEST(ParkedThenLeaves, GlobalStepFindsIt) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::figure4_test

@@ -5,7 +5,7 @@
 
 #include "tests/laws/timeline.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::law_contract_test {
 namespace {
 
 class LawContract : public testing::TestWithParam<Entry<MakeLaw>> {
@@ -118,4 +118,4 @@ TEST_P(LawContract, SurvivesARunOfNoLengthAndAnEmptyFloor) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::law_contract_test

@@ -10,7 +10,7 @@
 #include "core/outcome/trace_records.hpp"
 #include "tests/support/trace_parts.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::link_quality_test {
 namespace {
 
 constexpr std::size_t kAgvs = 4;
@@ -172,4 +172,4 @@ TEST(LinkQuality, NoDelayIsForgotten) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::link_quality_test

@@ -10,7 +10,7 @@
 #include "laws/laws.hpp"
 #include "tests/laws/timeline.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::map_places_test {
 namespace {
 
 // By taking each station out and walking from every other one: how many remain together at most.
@@ -117,4 +117,4 @@ TEST(MapPlaces, TwoThatComeFromDifferentSidesWithinTenSecondsMeet) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::map_places_test

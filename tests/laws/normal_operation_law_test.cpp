@@ -7,7 +7,7 @@
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::normal_operation_law_test {
 namespace {
 
 using testing::ElementsAre;
@@ -161,4 +161,4 @@ TEST_F(NormalOperation, TooFewTransportsAreAccusedOnlyIfAFloorIsSet) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::normal_operation_law_test

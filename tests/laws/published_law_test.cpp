@@ -6,7 +6,7 @@
 #include "tests/laws/timeline.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::published_law_test {
 namespace {
 
 TEST(PaperLaw, AccusesWhatStandsInAnActivityPerimeterForTheWholeActivity) {
@@ -141,4 +141,4 @@ TEST(GlobalStep, ChecksEveryOtherEntityAtEveryStep) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::published_law_test

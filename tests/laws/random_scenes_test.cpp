@@ -10,7 +10,7 @@
 #include "core/clearance/clearance_over_time.hpp"
 #include "tests/laws/timeline.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::random_scenes_test {
 namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(1);
@@ -286,4 +286,4 @@ TEST(RandomScenes, AnnouncementOrderChangesNoViolation) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::random_scenes_test

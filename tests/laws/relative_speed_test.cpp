@@ -5,7 +5,7 @@
 #include "tests/laws/timeline.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::relative_speed_test {
 namespace {
 
 constexpr double kHalfLength_m = 0.8, kHalfWidth_m = 0.5;  // of the default footprint
@@ -219,4 +219,4 @@ TEST(RelativeSpeed, IsThatOfTheAgvIfAnObstacleAppearsOnIt) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::relative_speed_test

@@ -7,7 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/geometry/rotation.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::second_opinion_test {
 namespace {
 
 OrientedRectangle at(double x_m, double y_m, double angle_rad = 0.0) {
@@ -51,4 +51,4 @@ TEST(SecondOpinion, IsRightOnAGridToo) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::second_opinion_test

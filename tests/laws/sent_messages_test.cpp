@@ -7,7 +7,7 @@
 
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::sent_messages_test {
 namespace {
 
 TEST(SentMessages, KnowsNothingBeforeTheFirst) { EXPECT_EQ(SentMessages().last_sent(7, AgvId{}), SimTime::min()); }
@@ -34,4 +34,4 @@ TEST(SentMessages, AgreesWithAMapHoweverTheHashesFall) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::sent_messages_test

@@ -1,12 +1,12 @@
 // Laws look at bodies only that had company, and at messages only when they matter. That is the same as looking always.
 #include <gtest/gtest.h>
 
-#include "core/agents/agents.h"
 #include "generators/worlds/world_maker.hpp"
 #include "laws/laws.hpp"
+#include "tests/support/reference_agent.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof::test {
+namespace fleetproof::test::shortcuts_test {
 namespace {
 
 // Tells a law of all other bodies as company, and of all pieces, and makes it hear all records at once.
@@ -50,12 +50,7 @@ Judged judged(const Scenario& scenario, const fp_agent_type& agent) {
   return both;
 }
 
-const fp_agent_type& reference_agent(std::string_view name) {
-  for (const fp_agent_type* agent : std::span(fp_reference_agents, fp_reference_agent_count)) {
-    if (name == agent->name) return *agent;
-  }
-  throw std::invalid_argument(std::string(name));
-}
+using test::reference_agent;
 
 TEST(Company, DecidesNoFindingOfWholeRuns) {
   std::size_t violations = 0, measured = 0;
@@ -182,4 +177,4 @@ TEST(Messages, AreLetGoOnlyIfTheyCannotMatterForStandstill) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::shortcuts_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof::test {
+namespace fleetproof::test::side_by_side_test {
 namespace {
 
 constexpr double kMargin_m = 0.1;
@@ -100,4 +100,4 @@ TEST(OverhangPass, AgreesWithBodiesEveryTwoCentimetres) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test
+}  // namespace fleetproof::test::side_by_side_test

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+namespace fleetproof::patches_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,3 +69,4 @@ TEST(SeededFaults, StillFitTheSources) {
 }
 
 }  // namespace
+}  // namespace fleetproof::patches_test

@@ -13,7 +13,7 @@
 #include "reports/evidence/release_gate.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::any_time_gate_test {
 namespace {
 
 using samples::campaign_of;
@@ -309,4 +309,4 @@ TEST(AnyTimeGate, AGateOnOneCellCountsItsRunsAlone) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::any_time_gate_test

@@ -10,7 +10,7 @@
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::attempts_test {
 namespace {
 
 using samples::TemporaryFolder;
@@ -164,4 +164,4 @@ TEST_F(Attempts, LooksCountByTheRunsThatWereThere) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::attempts_test

@@ -9,7 +9,7 @@
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::audit_section_test {
 namespace {
 
 using testing::ElementsAre;
@@ -94,4 +94,4 @@ TEST(AuditSection, AnErrorOfTheEngineIsTheExitCodeOfTheReport) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::audit_section_test

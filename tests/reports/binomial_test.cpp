@@ -9,7 +9,7 @@
 #include "reports/evidence/zero_failure.hpp"
 #include "tests/support/reference_table.hpp"
 
-namespace fleetproof {
+namespace fleetproof::binomial_test {
 namespace {
 
 using test::expect_close;
@@ -189,4 +189,4 @@ TEST(ProbabilityOfAtMost, is_exact_at_the_ends) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::binomial_test

@@ -5,7 +5,7 @@
 
 #include "reports/web/drive_reasons.hpp"
 
-namespace fleetproof::web {
+namespace fleetproof::web::body_then_test {
 namespace {
 
 using testing::Contains;
@@ -120,4 +120,4 @@ TEST_F(BodyThen, TheAgvHasAnsweredToo) {
 TEST_F(BodyThen, TheAgentNotes) { EXPECT_THAT(texts(), Contains("Its agent noted hurried (4.500 s).")); }
 
 }  // namespace
-}  // namespace fleetproof::web
+}  // namespace fleetproof::web::body_then_test

@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 
-namespace fleetproof::html {
+namespace fleetproof::html::chart_test {
 namespace {
 
 pugi::xml_document parsed(const Element& element) {
@@ -111,4 +111,4 @@ TEST(CurveChart, a_limit_does_not_lie_on_the_axis) {
 }
 
 }  // namespace
-}  // namespace fleetproof::html
+}  // namespace fleetproof::html::chart_test

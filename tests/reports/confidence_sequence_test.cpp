@@ -8,7 +8,7 @@
 
 #include "tests/support/reference_table.hpp"
 
-namespace fleetproof {
+namespace fleetproof::confidence_sequence_test {
 namespace {
 
 using test::expect_close;
@@ -166,4 +166,4 @@ TEST(GammaPoissonSequence, contains_the_rate_and_follows_the_unit_of_time) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::confidence_sequence_test

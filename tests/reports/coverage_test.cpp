@@ -10,7 +10,7 @@
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::coverage_test {
 namespace {
 
 using samples::campaign_of;
@@ -298,4 +298,4 @@ TEST_F(WeakReport, AContactAtHazardousSpeedIsCalledOne) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::coverage_test

@@ -9,7 +9,7 @@
 #include "reports/html/quality_maps.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof::html {
+namespace fleetproof::html::envelope_map_test {
 namespace {
 
 using testing::HasSubstr;
@@ -95,4 +95,4 @@ TEST(EnvelopeMap, is_absent_without_a_limit_that_was_fixed_beforehand) {
 }
 
 }  // namespace
-}  // namespace fleetproof::html
+}  // namespace fleetproof::html::envelope_map_test

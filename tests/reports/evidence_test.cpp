@@ -6,7 +6,7 @@
 #include "core/base/error.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::evidence_test {
 namespace {
 
 using samples::campaign_of;
@@ -266,4 +266,4 @@ TEST(ExitCode, one_violated_gate_outweighs_many_demonstrated_ones) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::evidence_test

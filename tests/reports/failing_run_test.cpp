@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof {
+namespace fleetproof::failing_run_test {
 namespace {
 
 Violation near_miss(std::int64_t clearance_um, std::int64_t speed_um_s) {
@@ -57,4 +57,4 @@ TEST(FailingRun, RunsAreOrderedByTheirWorstViolation) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::failing_run_test

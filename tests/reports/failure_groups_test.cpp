@@ -5,7 +5,7 @@
 #include "core/scenario/faults.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::failure_groups_test {
 namespace {
 
 using testing::ElementsAre;
@@ -124,4 +124,4 @@ TEST(FailureGroups, WithoutGatesTheMostSeriousComesFirst) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::failure_groups_test

@@ -9,7 +9,7 @@
 #include "reports/evidence/clusters.hpp"
 #include "tests/reports/synthetic_campaigns.hpp"
 
-namespace fleetproof {
+namespace fleetproof::few_layouts_test {
 namespace {
 
 using namespace synthetic;
@@ -230,4 +230,4 @@ TEST(FewLayouts, TheVarianceBehindTheDesignEffectHasNoBias) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::few_layouts_test

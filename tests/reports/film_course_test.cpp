@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fleetproof::web {
+namespace fleetproof::web::film_course_test {
 namespace {
 
 using testing::ElementsAre;
@@ -52,4 +52,4 @@ TEST(FilmCourse, NotesHaveTheirOwnRoom) {
 }
 
 }  // namespace
-}  // namespace fleetproof::web
+}  // namespace fleetproof::web::film_course_test

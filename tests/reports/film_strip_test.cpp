@@ -7,7 +7,7 @@
 #include <regex>
 #include <sstream>
 
-namespace fleetproof::html {
+namespace fleetproof::html::film_strip_test {
 namespace {
 
 using testing::HasSubstr;
@@ -203,4 +203,4 @@ TEST(FilmStrip, a_strip_of_nothing_is_drawn) {
 }
 
 }  // namespace
-}  // namespace fleetproof::html
+}  // namespace fleetproof::html::film_strip_test

@@ -7,7 +7,7 @@
 #include "reports/evidence/run_result.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::first_cause_test {
 namespace {
 
 constexpr std::uint32_t kAgvs = 4;
@@ -181,4 +181,4 @@ TEST(ForeignBodies, AStandstillWhileOneLayIsUnknown) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::first_cause_test

@@ -13,7 +13,7 @@
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/synthetic_archive.hpp"
 
-namespace fleetproof {
+namespace fleetproof::folded_reports_test {
 namespace {
 
 // Two agents, cells with a value and cells whose runs lie on both sides of the contract.
@@ -168,4 +168,4 @@ INSTANTIATE_TEST_SUITE_P(Campaigns, FoldedReports,
                                          Case{512, 0.0}, Case{600, 0.02, false}, Case{1030, 0.1, false}));
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::folded_reports_test

@@ -6,7 +6,7 @@
 #include "core/base/error.hpp"
 #include "reports/evidence/rounding.hpp"
 
-namespace fleetproof {
+namespace fleetproof::gate_verdict_test {
 namespace {
 
 using testing::HasSubstr;
@@ -213,4 +213,4 @@ TEST(Rounding, a_bound_is_never_flattered) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::gate_verdict_test

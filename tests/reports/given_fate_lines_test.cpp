@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof::web {
+namespace fleetproof::web::given_fate_lines_test {
 namespace {
 
 TEST(GivenFateLines, CopiesStandInTheOrderOfTime) {
@@ -28,4 +28,4 @@ TEST(GivenFateLines, CopiesStandInTheOrderOfTime) {
 }
 
 }  // namespace
-}  // namespace fleetproof::web
+}  // namespace fleetproof::web::given_fate_lines_test

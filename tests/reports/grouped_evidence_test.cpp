@@ -12,7 +12,7 @@
 #include "reports/evidence/strata.hpp"
 #include "tests/support/reference_table.hpp"
 
-namespace fleetproof {
+namespace fleetproof::grouped_evidence_test {
 namespace {
 
 using test::expect_close;
@@ -247,4 +247,4 @@ TEST(Dispersion, compares_runs_with_a_poisson_count) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::grouped_evidence_test

@@ -4,7 +4,7 @@
 
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::head_notes_test {
 namespace {
 
 using testing::ElementsAre;
@@ -79,4 +79,4 @@ TEST(HeadNotes, AreSilentAboutSoundnessBesideAnEngineError) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::head_notes_test

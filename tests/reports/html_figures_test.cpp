@@ -8,7 +8,7 @@
 #include "reports/html/markup.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof::html {
+namespace fleetproof::html::html_figures_test {
 namespace {
 
 TEST(Markup, escapes_text_and_values) {
@@ -149,4 +149,4 @@ TEST(CampaignFigures, count_the_situations_of_the_table) {
 }
 
 }  // namespace
-}  // namespace fleetproof::html
+}  // namespace fleetproof::html::html_figures_test

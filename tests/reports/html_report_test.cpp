@@ -15,7 +15,7 @@
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::html_report_test {
 namespace {
 
 using samples::campaign_of;
@@ -288,4 +288,4 @@ TEST(HtmlReport, the_conditions_come_from_the_plan) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::html_report_test

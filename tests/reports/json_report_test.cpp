@@ -7,7 +7,7 @@
 
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::json_report_test {
 namespace {
 
 TEST(JsonReport, tells_exposure_in_agv_hours) {
@@ -34,4 +34,4 @@ TEST(JsonReport, tells_exposure_in_agv_hours) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::json_report_test

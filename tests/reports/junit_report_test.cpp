@@ -9,7 +9,7 @@
 #include "core/base/outside_text.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::junit_report_test {
 namespace {
 
 using samples::campaign_of;
@@ -162,4 +162,4 @@ TEST(JUnitReport, NamesAreNoMarkup) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::junit_report_test

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace fleetproof::web {
+namespace fleetproof::web::message_numbers_test {
 namespace {
 
 using testing::ElementsAre;
@@ -54,4 +54,4 @@ TEST(MessageNumbers, ALaterAttemptIsOfTheSameRequest) {
 }
 
 }  // namespace
-}  // namespace fleetproof::web
+}  // namespace fleetproof::web::message_numbers_test

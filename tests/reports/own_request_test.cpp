@@ -8,7 +8,7 @@
 #include "reports/web/drive_reasons.hpp"
 #include "reports/web/replay_page.hpp"
 
-namespace fleetproof::web {
+namespace fleetproof::web::own_request_test {
 namespace {
 
 using testing::EndsWith;
@@ -218,4 +218,4 @@ TEST(OwnRequest, ThePageLeadsWithItAndOpensAtTheDecision) {
 }
 
 }  // namespace
-}  // namespace fleetproof::web
+}  // namespace fleetproof::web::own_request_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace fleetproof {
+namespace fleetproof::plan_conditions_test {
 namespace {
 
 std::string fact(const std::vector<Fact>& facts, std::string_view name) {
@@ -48,4 +48,4 @@ TEST(PlanConditions, OfATextThatIsNoPlanThereAreNone) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::plan_conditions_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/reference_table.hpp"
 
-namespace fleetproof {
+namespace fleetproof::poisson_rate_test {
 namespace {
 
 using test::expect_close;
@@ -69,4 +69,4 @@ TEST(RateRatio, without_events_nothing_is_known) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::poisson_rate_test

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-namespace fleetproof {
+namespace fleetproof::quiet_run_test {
 namespace {
 
 RunRecord quiet_run() {
@@ -45,4 +45,4 @@ TEST(QuietRuns, MayHaveFaultsButNoAccusation) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::quiet_run_test

@@ -4,7 +4,7 @@
 
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::release_comparison_test {
 namespace {
 
 // Releases in two cells; `fails` says which runs break the safety distance.
@@ -103,4 +103,4 @@ TEST(Comparison, WithoutWorldsNothingIsSaid) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::release_comparison_test

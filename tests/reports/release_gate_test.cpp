@@ -11,7 +11,7 @@
 #include "reports/evidence/gate_characteristic.hpp"
 #include "tests/support/reference_table.hpp"
 
-namespace fleetproof {
+namespace fleetproof::release_gate_test {
 namespace {
 
 using test::expect_close;
@@ -183,4 +183,4 @@ TEST(ReleaseGate, no_number_of_trials_is_enough_for_a_tiny_limit) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::release_gate_test

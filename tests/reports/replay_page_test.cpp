@@ -9,7 +9,7 @@
 
 #include "reports/web/film_budget.hpp"
 
-namespace fleetproof::web {
+namespace fleetproof::web::replay_page_test {
 namespace {
 
 using testing::HasSubstr;
@@ -274,4 +274,4 @@ TEST(ReplayPage, LeavesNothingOutWhereItSaysSo) {
 }
 
 }  // namespace
-}  // namespace fleetproof::web
+}  // namespace fleetproof::web::replay_page_test

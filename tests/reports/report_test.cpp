@@ -12,7 +12,7 @@
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::report_test {
 namespace {
 
 using samples::campaign_of;
@@ -377,4 +377,4 @@ TEST(Report, every_format_renders_an_empty_campaign) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::report_test

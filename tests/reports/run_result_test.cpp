@@ -4,7 +4,7 @@
 
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::run_result_test {
 namespace {
 
 Incident incident(IncidentKind kind, double first_s) {
@@ -75,4 +75,4 @@ TEST(RunResult, OnlyAFastContactIsHazardous) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::run_result_test

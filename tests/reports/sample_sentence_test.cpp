@@ -8,7 +8,7 @@
 
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::sample_sentence_test {
 namespace {
 
 using samples::campaign_of;
@@ -198,4 +198,4 @@ TEST(SampleSentence, ACrashedRunIsShownToADebugger) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::sample_sentence_test

@@ -4,7 +4,7 @@
 
 #include "reports/sensitivity/sensitivity_section.hpp"
 
-namespace fleetproof {
+namespace fleetproof::sensitivity_record_test {
 namespace {
 
 SensitivityRecord sample() {
@@ -95,4 +95,4 @@ TEST(SensitivityTable, HasMediansAndSaysWhatHasNone) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::sensitivity_record_test

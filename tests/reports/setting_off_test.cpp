@@ -5,7 +5,7 @@
 
 #include "reports/web/drive_reasons.hpp"
 
-namespace fleetproof::web {
+namespace fleetproof::web::setting_off_test {
 namespace {
 
 using testing::Contains;
@@ -155,4 +155,4 @@ TEST(SettingOff, AKindSentAllTheTimeIsNotTheOneThatAsks) {
 }
 
 }  // namespace
-}  // namespace fleetproof::web
+}  // namespace fleetproof::web::setting_off_test

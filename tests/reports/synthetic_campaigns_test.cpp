@@ -13,7 +13,7 @@
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/reports/synthetic_campaigns.hpp"
 
-namespace fleetproof {
+namespace fleetproof::synthetic_campaigns_test {
 namespace {
 
 using synthetic::kConfidence;
@@ -201,4 +201,4 @@ TEST(SyntheticCampaigns, EvidenceDecidesByTheSameTable) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::synthetic_campaigns_test

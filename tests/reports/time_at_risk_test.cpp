@@ -4,7 +4,7 @@
 #include "reports/evidence/run_result.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::time_at_risk_test {
 namespace {
 
 Outcome of_100_s() {
@@ -94,4 +94,4 @@ TEST(TimeAtRisk, OfACrashIsOpenBecauseNobodyKnowsItsInstant) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::time_at_risk_test

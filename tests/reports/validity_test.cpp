@@ -4,7 +4,7 @@
 
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::validity_test {
 namespace {
 
 using testing::HasSubstr;
@@ -45,4 +45,4 @@ TEST(Validity, AnErrorOfTheSimulatorFails) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::validity_test

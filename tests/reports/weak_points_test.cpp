@@ -5,7 +5,7 @@
 #include "reports/wording.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
-namespace fleetproof {
+namespace fleetproof::weak_points_test {
 namespace {
 
 using samples::campaign_of;
@@ -46,4 +46,4 @@ TEST(WeakPoints, NoNumberOfWorldsIsOfferedToAGateWithAFailure) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::weak_points_test

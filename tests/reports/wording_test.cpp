@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetproof {
+namespace fleetproof::wording_test {
 namespace {
 
 TEST(Wording, ClearancesAreRoundedDown) {
@@ -45,4 +45,4 @@ TEST(Wording, AClearanceThatWasNotMeasuredIsNotCalledLarge) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::wording_test

@@ -3,7 +3,7 @@
 
 #include "tests/oracle/detector_check.hpp"
 
-namespace fleetproof::oracle {
+namespace fleetproof::oracle::detector_soak_test {
 namespace {
 
 class DetectorSoak : public testing::TestWithParam<std::uint64_t> {};
@@ -21,4 +21,4 @@ TEST_P(DetectorSoak, AgreesWithATenMicrosecondClockOnTenThousandPairs) {
 INSTANTIATE_TEST_SUITE_P(Parts, DetectorSoak, testing::Range<std::uint64_t>(100, 110));
 
 }  // namespace
-}  // namespace fleetproof::oracle
+}  // namespace fleetproof::oracle::detector_soak_test

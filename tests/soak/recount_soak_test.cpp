@@ -5,7 +5,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/synthetic_archive.hpp"
 
-namespace fleetproof {
+namespace fleetproof::recount_soak_test {
 namespace {
 
 using RecountSoak = test::ProgramTest;
@@ -26,4 +26,4 @@ TEST_F(RecountSoak, AMillionRuns) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::recount_soak_test

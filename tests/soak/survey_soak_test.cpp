@@ -6,7 +6,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace fleetproof {
+namespace fleetproof::survey_soak_test {
 namespace {
 
 using SurveySoak = test::ProgramTest;
@@ -22,4 +22,4 @@ TEST_F(SurveySoak, RealLayouts) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::survey_soak_test

@@ -1,7 +1,7 @@
 // Three hundred whole runs over all families of layouts against a global clock of 2.5 ms.
 #include "tests/oracle/whole_runs.hpp"
 
-namespace fleetproof::oracle {
+namespace fleetproof::oracle::whole_runs_soak_test {
 namespace {
 
 TEST(WholeRunsSoak, TheGlobalClockSeesTheSamePairsInThreeHundredRuns) {
@@ -9,4 +9,4 @@ TEST(WholeRunsSoak, TheGlobalClockSeesTheSamePairsInThreeHundredRuns) {
 }
 
 }  // namespace
-}  // namespace fleetproof::oracle
+}  // namespace fleetproof::oracle::whole_runs_soak_test

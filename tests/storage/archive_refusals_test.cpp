@@ -11,7 +11,7 @@
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/unprivileged.hpp"
 
-namespace fleetproof {
+namespace fleetproof::archive_refusals_test {
 namespace {
 
 using samples::TemporaryFolder;
@@ -374,4 +374,4 @@ TEST(ArchiveWriter, an_empty_file_that_appears_while_the_campaign_runs_gives_way
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::archive_refusals_test

@@ -13,7 +13,7 @@
 #include "core/base/error.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::archive_test {
 namespace {
 
 using samples::TemporaryFolder;
@@ -213,4 +213,4 @@ TEST(Archive, a_run_index_that_does_not_belong_to_cell_and_replicate_is_our_bug)
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::archive_test

@@ -6,7 +6,7 @@
 
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::checksum_test {
 namespace {
 
 // The digest is that of all checksums in their order, however often its value is asked for in between.
@@ -37,4 +37,4 @@ TEST(RowChecksum, DoesNotDependOnTheRowBefore) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::checksum_test

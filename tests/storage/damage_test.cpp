@@ -15,7 +15,7 @@
 #include "tests/storage/refusal.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::damage_test {
 namespace {
 
 using samples::TemporaryFolder;
@@ -202,4 +202,4 @@ TEST_P(Damage, OfTheSealItself) {
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutFoldedRuns, Damage, testing::Bool());
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::damage_test

@@ -10,7 +10,7 @@
 #include "core/base/machine_error.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::durable_file_test {
 namespace {
 
 TEST(PublishOnce, AFileAppearsOnceAndIsNeverReplaced) {
@@ -68,4 +68,4 @@ TEST(PublishOnce, OneOfManyIsTheFirst) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::durable_file_test

@@ -10,7 +10,7 @@
 #include "storage/archive_writer.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::faulty_disk_test {
 namespace {
 
 using samples::TemporaryFolder;
@@ -140,4 +140,4 @@ INSTANTIATE_TEST_SUITE_P(Each, DiskFaults,
                          });
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::faulty_disk_test

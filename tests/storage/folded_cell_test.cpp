@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace fleetproof {
+namespace fleetproof::folded_cell_test {
 namespace {
 
 using testing::ElementsAre;
@@ -87,4 +87,4 @@ TEST(FoldedCells, RefuseEveryPartOfTheirContent) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::folded_cell_test

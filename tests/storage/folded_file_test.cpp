@@ -8,7 +8,7 @@
 #include "tests/storage/refusal.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::folded_file_test {
 namespace {
 
 using testing::HasSubstr;
@@ -92,4 +92,4 @@ TEST_F(FoldedFile, CannotGoOn) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::folded_file_test

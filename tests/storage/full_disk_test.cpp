@@ -11,7 +11,7 @@
 #include "tests/storage/refusal.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::full_disk_test {
 namespace {
 
 using samples::TemporaryFolder;
@@ -107,4 +107,4 @@ TEST(ArchiveWriter, a_disk_too_small_for_a_second_copy_costs_no_run) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::full_disk_test

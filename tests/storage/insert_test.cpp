@@ -9,7 +9,7 @@
 
 #include "core/base/error.hpp"
 
-namespace fleetproof {
+namespace fleetproof::insert_test {
 namespace {
 
 class Inserts : public testing::Test {
@@ -75,4 +75,4 @@ TEST_F(Inserts, SayThatNoRowCameAndWhatWentWrong) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::insert_test

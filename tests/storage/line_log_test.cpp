@@ -11,7 +11,7 @@
 #include "core/base/machine_error.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::line_log_test {
 namespace {
 
 using samples::TemporaryFolder;
@@ -95,4 +95,4 @@ TEST(LineLog, TwoArchivesHaveTwo) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::line_log_test

@@ -11,7 +11,7 @@
 #include "storage/schema.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::older_schemas_test {
 namespace {
 
 using samples::TemporaryFolder;
@@ -178,4 +178,4 @@ INSTANTIATE_TEST_SUITE_P(Each, OlderSchemas, testing::Range(4, kSchemaVersion));
 INSTANTIATE_TEST_SUITE_P(Each, ChunkedSchemas, testing::Range(kFirstChunked, kSchemaVersion));
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::older_schemas_test

@@ -7,7 +7,7 @@
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::outcome_encoding_test {
 namespace {
 
 TEST(OutcomeEncoding, comes_back_as_it_went) {
@@ -223,4 +223,4 @@ TEST(FileViolations, none_leave_the_outcome_clean) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::outcome_encoding_test

@@ -9,7 +9,7 @@
 #include "storage/checksum.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::sealed_content_test {
 namespace {
 
 using testing::ElementsAre;
@@ -120,4 +120,4 @@ TEST_F(SealedFile, ASessionThatGoesOnSeesTheAuditsOfTheOneBefore) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::sealed_content_test

@@ -10,7 +10,7 @@
 #include "tests/storage/refusal.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::table_pages_test {
 namespace {
 
 constexpr const char* kColumns = "key, part, text, real, number";
@@ -125,4 +125,4 @@ TEST_F(TablePagesTest, EndsWithAnErrorInADamagedFile) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::table_pages_test

@@ -16,7 +16,7 @@
 #include "storage/write_lock.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof {
+namespace fleetproof::two_programs_test {
 namespace {
 
 using samples::TemporaryFolder;
@@ -171,4 +171,4 @@ TEST(TwoPrograms, ReadersOfAWriterAtWorkSeeAWholeStateAndNoError) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::two_programs_test

@@ -7,7 +7,7 @@
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof {
+namespace fleetproof::views_test {
 namespace {
 
 using samples::TemporaryFolder;
@@ -146,4 +146,4 @@ TEST_F(Views, the_file_names_its_kind_and_version) {
 }
 
 }  // namespace
-}  // namespace fleetproof
+}  // namespace fleetproof::views_test

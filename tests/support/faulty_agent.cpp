@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/agents/agent_type.hpp"
-#include "core/agents/agents.h"
+#include "tests/support/reference_agent.hpp"
 
 namespace {
 
@@ -20,15 +20,9 @@ struct Faulty {
   std::string kind;
 };
 
-const fp_agent_type* hull_lock() {
-  for (std::uint32_t i = 0; i < fp_reference_agent_count; ++i) {
-    if (std::strcmp(fp_reference_agents[i]->name, "hull-lock") == 0) return fp_reference_agents[i];
-  }
-  return nullptr;
-}
-
 void* create(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
-  auto* agent = new Faulty{hull_lock(), nullptr, host, controller, briefing, briefing->config};
+  auto* agent = new Faulty{
+      &fleetproof::test::reference_agent("hull-lock"), nullptr, host, controller, briefing, briefing->config};
   fp_briefing own = *briefing;
   own.config = "";
   agent->inner = agent->type->create(host, controller, &own);

@@ -39,8 +39,8 @@ const fp_host* numbering(const fp_host* host) {
 }
 
 const fp_agent_type* named(const std::string& name) {
-  for (std::uint32_t i = 0; i < fp_faulty_agent_count; ++i) {
-    if (name == fp_faulty_agents[i]->name) return fp_faulty_agents[i];
+  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_faulty_agent(i); ++i) {
+    if (name == agent->name) return agent;
   }
   return nullptr;
 }
