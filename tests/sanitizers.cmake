@@ -34,14 +34,14 @@ add_dependencies(sanitized_tests fleetproof_agents_plugin retouched_agent)
 target_compile_options(sanitized_tests PRIVATE ${test_warnings})
 target_precompile_headers(sanitized_tests
   PRIVATE <gtest/gtest.h> <gmock/gmock.h> <Eigen/Core> <fmt/format.h> <map> <set> <string> <vector>)
-gtest_discover_tests(sanitized_tests TEST_PREFIX Sanitized. DISCOVERY_TIMEOUT 60
-  PROPERTIES LABELS sanitized TIMEOUT 240 ENVIRONMENT "${sanitizer_options}")
+gtest_discover_tests(sanitized_tests TEST_PREFIX Sanitized. DISCOVERY_TIMEOUT 600
+  PROPERTIES LABELS sanitized TIMEOUT ${hang_s} ENVIRONMENT "${sanitizer_options}")
 
 # A fault planted for the sanitizer. The test passes only if the sanitizer reports it.
 add_executable(${planted} EXCLUDE_FROM_ALL contract/${planted}.cpp)
 target_link_libraries(${planted} PRIVATE fleetproof_campaign)
 add_test(NAME Sanitizer.Finds_${planted} COMMAND ${planted})
-set_tests_properties(Sanitizer.Finds_${planted} PROPERTIES LABELS sanitized TIMEOUT 240
+set_tests_properties(Sanitizer.Finds_${planted} PROPERTIES LABELS sanitized TIMEOUT ${hang_s}
   ENVIRONMENT "${sanitizer_options}" PASS_REGULAR_EXPRESSION "${report}")
 
 add_custom_target(sanitized DEPENDS sanitized_tests ${planted})

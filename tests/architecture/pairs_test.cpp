@@ -75,6 +75,15 @@ std::map<std::string, int> uses_in(const std::vector<Source>& product) {
   return uses;
 }
 
+// A header that stands first in its source compiles without any include before it.
+Findings not_first(const Source& source, const std::set<std::string>& headers) {
+  const std::string own = source.path.substr(0, source.path.size() - 4) + ".hpp";
+  if (!source.path.ends_with(".cpp") || !headers.contains(own)) return {};
+  const auto first = std::ranges::find_if(source.lines, [](const auto& line) { return line.starts_with("#include"); });
+  if (first != source.lines.end() && *first == "#include \"" + own + "\"") return {};
+  return {source.path + " does not include " + own + " first"};
+}
+
 // A name that occurs twice, for two functions, is taken as used as soon as one of them is: this finds no false ones,
 // but not all.
 Findings unused(const std::vector<Source>& product) {
@@ -106,6 +115,12 @@ TEST(Pairs, ASourceDefinesWhatItsHeaderDeclares) {
   });
 }
 
+TEST(Pairs, ASourceIncludesItsHeaderFirst) {
+  std::set<std::string> headers;
+  for (const Source& source : sources()) headers.insert(source.path);
+  expect_none(sources(), [&](const Source& source) { return not_first(source, headers); });
+}
+
 TEST(Pairs, TheProductUsesWhatItsHeadersDeclare) { EXPECT_EQ(unused(product()), Findings{}); }
 
 TEST(Pairs, ListedExceptionsAreStillNeeded) {
@@ -130,6 +145,14 @@ TEST(PairsFind, AFunctionOfAnotherPair) {
   EXPECT_EQ(find("namespace a { std::map<int, int> h(int b) { return {}; } }"), 1U);
   EXPECT_EQ(find("void B::h() {}"), 1U);
   EXPECT_EQ(undeclared({"core/b.cpp", {"int f() { return 1; }"}}, nullptr).size(), 1U);
+}
+
+TEST(PairsFind, AHeaderBehindAnother) {
+  const std::string own = "#include \"core/a.hpp\"";
+  EXPECT_TRUE(not_first({"core/a.cpp", {"// A comment.", own, "#include <map>"}}, {"core/a.hpp"}).empty());
+  EXPECT_EQ(not_first({"core/a.cpp", {"#include <map>", own}}, {"core/a.hpp"}).size(), 1U);
+  EXPECT_EQ(not_first({"core/a.cpp", {}}, {"core/a.hpp"}).size(), 1U);
+  EXPECT_TRUE(not_first({"core/a.cpp", {"#include <map>"}}, {}).empty());
 }
 
 TEST(PairsFind, AFunctionThatNobodyCalls) {

@@ -1,4 +1,4 @@
-#include "readers.hpp"
+#include "tests/fuzz/readers.hpp"
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "seeds.hpp"
+#include "tests/fuzz/seeds.hpp"
 
 #include <fstream>
 #include <iterator>

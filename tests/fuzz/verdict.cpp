@@ -1,4 +1,4 @@
-#include "verdict.hpp"
+#include "tests/fuzz/verdict.hpp"
 
 #include <algorithm>
 #include <set>
