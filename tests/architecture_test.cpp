@@ -67,8 +67,9 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   rooms["campaign/shrink"] = with(rooms["campaign/batch"], {"campaign/batch"});
   rooms["campaign/explain"] = with(rooms["campaign/shrink"], {"campaign/shrink"});
   rooms["campaign/findings"] = with(rooms["campaign/explain"], {"campaign/explain"});
-  rooms["campaign/cli"] = with(rooms["campaign/findings"],
-                               {"campaign/findings", "campaign/shards", "reports", "reports/html", "reports/web"});
+  rooms["campaign/watch"] = with(rooms["campaign/run"], {"campaign/run", "reports", "reports/html", "reports/web"});
+  rooms["campaign/cli"] = with(rooms["campaign/findings"], {"campaign/findings", "campaign/shards", "campaign/watch",
+                                                            "reports", "reports/html", "reports/web"});
   return rooms;
 }();
 

@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "campaign/cli/campaign_words.hpp"
-#include "campaign/cli/film_frames.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/run/replay.hpp"
 #include "campaign/run/run_one.hpp"
+#include "campaign/watch/film_frames.hpp"
 #include "campaign/workers/run_host.hpp"
 #include "core/base/error.hpp"
 

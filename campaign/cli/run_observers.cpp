@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "campaign/cli/moment_picture.hpp"
 #include "campaign/cli/output_file.hpp"
+#include "campaign/watch/moment_picture.hpp"
 #include "core/base/error.hpp"
 
 namespace fleetproof::cli {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "campaign/cli/chrome_trace.hpp"
 #include "campaign/cli/command_line.hpp"
-#include "campaign/cli/moment.hpp"
-#include "campaign/cli/pieces_file.hpp"
-#include "campaign/cli/replay_file.hpp"
 #include "campaign/cli/trace_words.hpp"
+#include "campaign/watch/chrome_trace.hpp"
+#include "campaign/watch/moment.hpp"
+#include "campaign/watch/pieces_file.hpp"
+#include "campaign/watch/replay_file.hpp"
 
 namespace fleetproof::cli {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "campaign/cli/output_file.hpp"
-#include "campaign/cli/run_text.hpp"
 #include "campaign/cli/streams.hpp"
+#include "campaign/watch/run_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "reports/wording.hpp"

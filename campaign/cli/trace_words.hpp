@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "campaign/cli/command_line.hpp"
-#include "campaign/cli/trace_printer.hpp"
+#include "campaign/watch/trace_printer.hpp"
 
 namespace fleetproof::cli {
 

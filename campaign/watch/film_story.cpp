@@ -1,0 +1,241 @@
+#include "campaign/watch/film_story.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "campaign/watch/film_evidence.hpp"
+#include "campaign/watch/film_floor.hpp"
+#include "campaign/watch/film_shapes.hpp"
+#include "campaign/watch/run_text.hpp"
+#include "core/base/outside_text.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+constexpr std::int64_t kBeforeViolation_us = 3'000'000;
+constexpr std::size_t kMostInvolved = 8;
+
+// Cut, not rounded: no digit differs from the full number.
+double millimetres(std::int64_t um) { return static_cast<double>(um - um % 1000) / 1e6; }
+double in_milliseconds(std::int64_t us) { return static_cast<double>(us / 1000) / 1e3; }
+double in_milliseconds(SimTime t) { return in_milliseconds(film_us(t)); }
+
+// Tells one story, into one film.
+class Storyteller {
+ public:
+  Storyteller(web::Film& film, const Scenario& scenario, const PiecesOfBodies& bodies, const Outcome& outcome)
+      : film_(film), scenario_(scenario), bodies_(bodies), outcome_(outcome), evidence_(film, scenario, bodies) {}
+
+  void tell() {
+    film_.failed = outcome_.outcome_class() != OutcomeClass::Clean;
+    if (!outcome_.violations.empty()) return tell_violation(outcome_.violations.front());
+    tell_without_violation();
+    if (film_.nearest) add(nearest_text(*film_.nearest));
+  }
+
+ private:
+  void tell_without_violation() {
+    if (const web::Happening* end = crash()) return tell_crash(*end);
+    for (const IncidentKind kind : {IncidentKind::Deadlock, IncidentKind::Livelock, IncidentKind::Starvation}) {
+      if (const Incident* incident = longest(kind)) return tell_stall(*incident);
+    }
+    for (const Incident& incident : outcome_.incidents) {
+      if (accuses(incident.kind) && film_.failed) return tell_stall(incident);
+    }
+    tell_end();
+  }
+
+  std::string nearest_text(const web::Nearest& nearest) const {
+    return fmt::format("The two that came closest: {} and {}, {:.3f} m at {:.3f} s.", name(EntityId{nearest.a}),
+                       name(EntityId{nearest.b}), millimetres(nearest.clearance_um),
+                       static_cast<double>(nearest.at_us / 1000) / 1e3);
+  }
+  std::string name(EntityId id) const { return printable(body_name(scenario_, id)); }
+  void add(std::string sentence) { film_.story.push_back(std::move(sentence)); }
+  void look_at(SimTime focus, std::int64_t before_us) {
+    film_.focus_us = film_us(focus);
+    film_.open_us = std::max<std::int64_t>(0, film_.focus_us - before_us);
+  }
+
+  void tell_violation(const Violation& v) {
+    look_at(v.first, kBeforeViolation_us);
+    film_.involved = {v.a.index(), v.b.index()};
+    const char* what = v.contact ? "Contact" : "Safety distance broken";
+    film_.title = fmt::format("{}: {} and {} at {:.3f} s", what, name(v.a), name(v.b), in_milliseconds(v.first));
+    const std::string limit = distance_text(scenario_.law.safety_distance_m);
+    const double speed_mps = millimetres(v.relative_speed_um_s);
+    const std::string where =
+        "near " + place_text({static_cast<double>(v.x_um) / 1e6, static_cast<double>(v.y_um) / 1e6});
+    if (v.contact) {
+      add(
+          fmt::format("{} and {} come closer than {} at {:.3f} s and touch, {}, with {:.2f} m/s between their closest "
+                      "points ({}).",
+                      name(v.a), name(v.b), limit, in_milliseconds(v.first), where, speed_mps, name_of(level_of(v))));
+    } else {
+      add(
+          fmt::format("{} and {} are closer than {} from {:.3f} s to {:.3f} s: {:.3f} m at {:.3f} s, {}, with {:.2f} "
+                      "m/s between their closest points.",
+                      name(v.a), name(v.b), limit, in_milliseconds(v.first), in_milliseconds(v.last),
+                      millimetres(v.min_clearance_um), in_milliseconds(v.closest_at), where, speed_mps));
+    }
+    const SimTime over = at_ns(static_cast<std::int64_t>(outcome_.simulated_ns));
+    for (std::string& sentence : shape_sentences(scenario_, bodies_, v, over)) add(std::move(sentence));
+    const web::Happening* end = crash();
+    if (end != nullptr && end->at_us <= film_us(v.first)) add(crash_text(*end));
+    for (const auto& [one, other] : {std::pair(v.a, v.b), std::pair(v.b, v.a)}) {
+      std::string told = evidence_.doing(one, v.first);
+      for (const std::string& sentence : evidence_.belief(one, other, v.first)) told += " " + sentence;
+      add(std::move(told));
+    }
+    for (std::string& sentence : evidence_.messages(v.a, v.b, v.first)) add(std::move(sentence));
+    add(evidence_.faults(film_.involved, v.first));
+    tell_more_violations();
+  }
+
+  void tell_more_violations() {
+    const std::size_t more = outcome_.violations.size() - 1;
+    if (more == 0) return;
+    const Violation& next = outcome_.violations[1];
+    add(fmt::format("{} after it, the next between {} and {} at {:.3f} s. They may follow from the first.",
+                    count_text(more, "more violation"), name(next.a), name(next.b), in_milliseconds(next.first)));
+  }
+
+  const web::Happening* crash() const {
+    if (!outcome_.crash && !outcome_.hang) return nullptr;
+    const auto found = std::ranges::find_if(film_.happenings, [](const web::Happening& h) {
+      return h.what == name_of(TraceKind::AgentCrashed) || h.what == name_of(TraceKind::AgentHung);
+    });
+    return found == film_.happenings.end() ? nullptr : &*found;
+  }
+  std::string crash_text(const web::Happening& end) const {
+    const bool hung = end.what == name_of(TraceKind::AgentHung);
+    return fmt::format("The agent of {} {} at {:.3f} s{}{}.", name(EntityId{end.body}),
+                       hung ? "did not return from a call" : "crashed", in_milliseconds(end.at_us),
+                       outcome_.message.empty() ? "" : ": ", printable(outcome_.message, 300));
+  }
+  void tell_crash(const web::Happening& end) {
+    film_.focus_us = end.at_us;
+    film_.open_us = std::max<std::int64_t>(0, end.at_us - kBeforeViolation_us);
+    film_.involved = {end.body};
+    const EntityId agv{end.body};
+    film_.title = fmt::format("{} of the agent of {} at {:.3f} s", outcome_.crash ? "Crash" : "Hang", name(agv),
+                              in_milliseconds(end.at_us));
+    add(crash_text(end));
+    const SimTime at = at_ns(end.at_us * 1000);
+    add(evidence_.doing(agv, at));
+    add(evidence_.faults(film_.involved, at - std::chrono::microseconds(1)));  // the crash itself stands above
+  }
+
+  // The one that was there longest, the first of equals.
+  const Incident* longest(IncidentKind kind) const {
+    const Incident* found = nullptr;
+    for (const Incident& incident : outcome_.incidents) {
+      if (incident.kind != kind) continue;
+      if (found == nullptr || incident.last - incident.first > found->last - found->first) found = &incident;
+    }
+    return found;
+  }
+
+  void tell_stall(const Incident& incident) {
+    look_at(incident.first, 0);
+    const auto involve = [&](EntityId id) {
+      if (!id.valid() || film_.involved.size() == kMostInvolved) return;
+      if (std::ranges::find(film_.involved, id.index()) == film_.involved.end()) film_.involved.push_back(id.index());
+    };
+    involve(incident.a);
+    involve(incident.b);
+    std::vector<const Incident*> waits;
+    for (const Incident& wait : outcome_.incidents) {
+      const bool is_wait = wait.kind == IncidentKind::WaitsDeclared || wait.kind == IncidentKind::WaitsInferred;
+      if (incident.kind != IncidentKind::Deadlock || !is_wait || wait.first != incident.first) continue;
+      if (wait.last != incident.last) continue;
+      waits.push_back(&wait);
+      involve(wait.a);
+      involve(wait.b);
+    }
+    open_when_all_wait(waits);
+    const IncidentKindInfo& info = info_of(incident.kind);
+    std::string word(info.name);
+    word.front() = static_cast<char>(word.front() - 'a' + 'A');
+    std::string whom;
+    for (const std::size_t body : film_.involved) whom += (whom.empty() ? "" : ", ") + name(EntityId{body});
+    film_.title =
+        fmt::format("{}{}{} from {:.3f} s on", word, whom.empty() ? "" : ": ", whom, in_milliseconds(incident.first));
+    add(fmt::format("From {:.3f} s to {:.3f} s: {}.", in_milliseconds(incident.first), in_milliseconds(incident.last),
+                    info.meaning));
+    for (const Incident* wait : waits) {
+      add(fmt::format("{} waits for {}{}.", name(wait->a), name(wait->b),
+                      wait->kind == IncidentKind::WaitsDeclared
+                          ? ", as its agent declares"
+                          : ", which stands in its way (its agent declares nothing)"));
+    }
+    for (const std::size_t body : film_.involved) add(evidence_.doing(EntityId{body}, incident.last));
+    tell_waiting_fleet(incident.last);
+    add(evidence_.faults(film_.involved, incident.first));
+    std::set<std::string> others;
+    for (const Incident& other : outcome_.incidents) {
+      if (accuses(other.kind) && other.kind != incident.kind && other.kind != IncidentKind::WaitsDeclared &&
+          other.kind != IncidentKind::WaitsInferred)
+        others.insert(std::string(info_of(other.kind).name));
+    }
+    if (!others.empty()) add("The run was also filed for: " + joined({others.begin(), others.end()}) + ".");
+  }
+
+  // A deadlock is known from when it began, often before its AGVs say for whom they wait: the page opens when they do,
+  // so that the circle shows.
+  void open_when_all_wait(const std::vector<const Incident*>& waits) {
+    std::map<std::size_t, std::optional<std::size_t>> now;
+    const auto holds = [&](const Incident* wait) {
+      const auto found = now.find(wait->a.index());
+      return wait->kind == IncidentKind::WaitsInferred ||
+             (found != now.end() && found->second == std::optional(wait->b.index()));
+    };
+    for (const web::Waiting& w : film_.waits) {
+      now[w.body] = w.for_whom;
+      if (w.at_us < film_.focus_us || !std::ranges::all_of(waits, holds)) continue;
+      if (!waits.empty()) film_.open_us = w.at_us;
+      return;
+    }
+  }
+
+  void tell_waiting_fleet(SimTime at) {
+    std::map<std::size_t, bool> waits;
+    for (const web::Waiting& w : film_.waits) {
+      if (w.at_us <= film_us(at)) waits[w.body] = w.for_whom.has_value();
+    }
+    const auto waiting = std::ranges::count_if(waits, [](const auto& entry) { return entry.second; });
+    if (waiting > 0)
+      add(fmt::format("At {:.3f} s, {} of {} AGVs declared that they waited for another.", in_milliseconds(at), waiting,
+                      scenario_.agvs.size()));
+  }
+
+  void tell_end() {
+    const std::int64_t nearest_us = film_.nearest ? film_.nearest->at_us : 0;
+    look_at(at_ns(film_.failed ? static_cast<std::int64_t>(outcome_.simulated_ns) : nearest_us * 1000),
+            kBeforeViolation_us);
+    film_.title = fmt::format("{}: {}", printable(scenario_.name), name_of(outcome_.outcome_class()));
+    add(film_.failed ? fmt::format("The run ended at {:.3f} s: {}.",
+                                   in_milliseconds(at_ns(static_cast<std::int64_t>(outcome_.simulated_ns))),
+                                   name_of(outcome_.outcome_class()))
+                     : "No violation of the safety distance was filed, and the run came to its end.");
+    if (!outcome_.message.empty()) add(printable(outcome_.message, 300));
+  }
+
+  web::Film& film_;
+  const Scenario& scenario_;
+  const PiecesOfBodies& bodies_;
+  const Outcome& outcome_;
+  FilmEvidence evidence_;
+};
+
+}  // namespace
+
+void tell_story(web::Film& film, const Scenario& scenario, const PiecesOfBodies& bodies, const Outcome& outcome) {
+  Storyteller(film, scenario, bodies, outcome).tell();
+}
+
+}  // namespace fleetproof::cli

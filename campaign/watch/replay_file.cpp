@@ -1,0 +1,93 @@
+#include "campaign/watch/replay_file.hpp"
+
+#include <fmt/format.h>
+
+#include "campaign/watch/film_clearances.hpp"
+#include "campaign/watch/film_evidence.hpp"
+#include "campaign/watch/film_floor.hpp"
+#include "campaign/watch/film_frames.hpp"
+#include "campaign/watch/film_glossary.hpp"
+#include "campaign/watch/film_story.hpp"
+#include "reports/web/replay_page.hpp"
+#include "reports/wording.hpp"
+
+namespace fleetproof::cli {
+namespace {
+
+void add_facts(web::Film& film, const Scenario& scenario, const Outcome& outcome) {
+  const auto add = [&](const char* name, std::string value) { film.facts.push_back({name, std::move(value)}); };
+  add("scenario", scenario.name);
+  add("layout", scenario.map->layout().name);
+  add("AGVs", fmt::format("{}", scenario.agvs.size()));
+  add("horizon", fmt::format("{:g} s", to_seconds(scenario.horizon)));
+  const std::string fates = given_fates_text(scenario.fates);
+  add("loss", percent(scenario.radio.loss) + (fates.empty() ? "" : ", but of messages with a given fate"));
+  if (!fates.empty()) add("given fates", fates);
+  add("delay", fmt::format("{:g} s ({})", scenario.radio.delay_s, name_of(scenario.radio.delay_model)));
+  if (scenario.radio.outages.mean_outage_s > 0.0)
+    add("outages of", fmt::format("{:g} s", scenario.radio.outages.mean_outage_s));
+  add("safety distance", distance_text(scenario.law.safety_distance_m));
+  add("seed", fmt::format("{}", scenario.seed));
+  add("end point", name_of(outcome.outcome_class()));
+  add("trace digest", hex_text(outcome.digest));
+}
+
+void add_violations(web::Film& film, const Outcome& outcome) {
+  for (const Violation& v : outcome.violations) {
+    web::TooClose close;
+    close.a = v.a.index();
+    close.b = v.b.index();
+    close.first_us = film_us(v.first);
+    close.last_us = film_us(v.last);
+    close.closest_us = film_us(v.closest_at);
+    close.clearance_um = v.min_clearance_um;
+    close.relative_speed_um_s = v.relative_speed_um_s;
+    close.contact = v.contact;
+    close.level = name_of(level_of(v));
+    film.violations.push_back(std::move(close));
+  }
+}
+
+void add_strip(web::Film& film, const Scenario& scenario, const std::vector<Piece>& pieces, const Outcome& outcome) {
+  const SimTime end = at_ns(static_cast<std::int64_t>(outcome.simulated_ns));
+  StripSubject subject{at_ns(film.focus_us * 1000), {}, {}, false};
+  if (film.involved.size() > 1) {
+    subject.a = EntityId{film.involved[0]};
+    subject.b = EntityId{film.involved[1]};
+  }
+  if (film.is_about_nearest()) {
+    subject = {at_ns(film.nearest->at_us * 1000), EntityId{film.nearest->a}, EntityId{film.nearest->b}, true};
+  }
+  if (!outcome.violations.empty()) {
+    subject.at = outcome.violations.front().closest_at;
+    subject.is_quick = true;
+    subject.stops_there = outcome.violations.front().contact && scenario.contact_stops;
+  }
+  std::vector<Still> stills = blank_stills(subject, end);
+  StillCamera camera(stills);
+  for (const Piece& piece : pieces) camera.piece_ended(piece);
+  camera.finish(end);
+  film.strip = strip_of(stills, subject, scenario);
+}
+
+}  // namespace
+
+std::string replay_html(FilmRecorder& recorder, const Scenario& scenario, const Outcome& outcome,
+                        const ReplayWords& words, const std::string& remark) {
+  web::Film film = recorder.take(at_ns(static_cast<std::int64_t>(outcome.simulated_ns)));
+  film.command = words.command;
+  film.facts = words.facts;
+  add_facts(film, scenario, outcome);
+  add_floor(film, scenario);
+  add_motion(film, scenario, recorder.pieces());
+  add_violations(film, outcome);
+  const PiecesOfBodies bodies = pieces_of_bodies(recorder.pieces());
+  add_clearances(film, bodies, outcome);
+  tell_story(film, scenario, bodies, outcome);
+  if (!remark.empty()) film.story.insert(film.story.begin(), remark);
+  add_glossary(film);
+  add_strip(film, scenario, recorder.pieces(), outcome);
+  return web::replay_page(std::move(film));
+}
+
+}  // namespace fleetproof::cli
