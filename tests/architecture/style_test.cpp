@@ -54,13 +54,22 @@ const std::map<std::string, std::string> kWideFiles = {
     {"tests/generators/lif_test.cpp", "a sample file whose line numbers errors name"},
     {"tests/generators/opentcs_test.cpp", "a sample file whose line numbers errors name"},
     {"campaign/fields.md", "tables that a test writes from the lists of fields"},
-    {"tests/contract/hostile_names_test.cpp", "a sample file"},
+    {"tests/contract/hostile/hostile_names_test.cpp", "a sample file"},
 };
 
 // Folders of sources without a README.md of their own, each with the reason.
 const std::map<std::string, std::string> kFoldersWithoutPage = {
     {"core/sdk/fleetproof", "core/sdk/README.md describes the one header in it"},
     {"tests/agents", "mirrors core/agents: tests/README.md"},
+    {"tests/contract/agents", "a group of tests/contract: its README.md has a section for each"},
+    {"tests/contract/audits", "a group of tests/contract: its README.md has a section for each"},
+    {"tests/contract/campaigns", "a group of tests/contract: its README.md has a section for each"},
+    {"tests/contract/failures", "a group of tests/contract: its README.md has a section for each"},
+    {"tests/contract/hostile", "a group of tests/contract: its README.md has a section for each"},
+    {"tests/contract/reports", "a group of tests/contract: its README.md has a section for each"},
+    {"tests/contract/same_bits", "a group of tests/contract: its README.md has a section for each"},
+    {"tests/contract/watch", "a group of tests/contract: its README.md has a section for each"},
+    {"tests/contract/worlds", "a group of tests/contract: its README.md has a section for each"},
     {"tests/campaign", "mirrors campaign: tests/README.md"},
     {"tests/core", "mirrors core: tests/README.md"},
     {"tests/generators", "mirrors generators: tests/README.md"},

@@ -4,7 +4,7 @@
 
 #include "campaign/run/run_one.hpp"
 #include "storage/archive_writer.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof {

@@ -5,7 +5,7 @@
 
 #include "campaign/plan/campaign_file.hpp"
 #include "generators/worlds/world_fields.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof::every_fault_test {

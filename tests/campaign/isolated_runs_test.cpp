@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/planted_ends.hpp"
 

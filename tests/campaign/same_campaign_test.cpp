@@ -4,7 +4,7 @@
 
 #include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 
 namespace fleetproof::same_campaign_test {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "campaign/run/run_one.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 
 namespace fleetproof::still_camera_test {
 namespace {

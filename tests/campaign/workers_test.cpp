@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 
 namespace fleetproof::workers_test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "campaign/run/run_one.hpp"
 #include "core/base/error.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof::world_shelf_test {

@@ -260,7 +260,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^The data (?:obey the plan|are a part of the plan): ([0-9]+) of ([0-9]+) planned", planned),
     (r"^Layouts as units: runs of (.+) failed or stayed unknown on ([0-9]+) of ([0-9]+) layouts(?: \(design effect, by which .*: "
      r"([0-9.]+)\))?\. A claim about layouts that were not run has ([0-9]+) units", layouts),
-    # From files beside the archive: contract/attempt_ledgers_test.cpp and reports/attempts_test.cpp.
+    # From files beside the archive: contract/campaigns/attempt_ledgers_test.cpp and reports/attempts_test.cpp.
     (r"^Earlier attempts unknown: the ledger names no other", compared_elsewhere),
     (r"^The ledger names [0-9]+ attempts", compared_elsewhere),
     (r"^The results were looked at with [0-9]+ numbers of runs", compared_elsewhere),

@@ -2,7 +2,7 @@
 // environment but the variables of Slurm.
 #include <gmock/gmock.h>
 
-#include "tests/contract/sharded_campaign.hpp"
+#include "tests/contract/campaigns/sharded_campaign.hpp"
 
 namespace fleetproof::submit_test {
 namespace {

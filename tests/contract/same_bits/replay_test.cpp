@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "campaign/run/sha256.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof::replay_test {

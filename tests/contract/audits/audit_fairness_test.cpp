@@ -6,7 +6,7 @@
 #include "campaign/run/run_one.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
-#include "tests/contract/audited_campaign.hpp"
+#include "tests/contract/audits/audited_campaign.hpp"
 
 namespace fleetproof::audit_fairness_test {
 namespace {

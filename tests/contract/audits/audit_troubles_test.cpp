@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "storage/archive_reader.hpp"
-#include "tests/contract/audited_campaign.hpp"
+#include "tests/contract/audits/audited_campaign.hpp"
 
 namespace fleetproof::audit_troubles_test {
 namespace {

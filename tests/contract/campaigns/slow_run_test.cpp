@@ -6,7 +6,7 @@
 
 #include "campaign/batch/campaign.hpp"
 #include "campaign/run/run_one.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/planted_ends.hpp"
 #include "tests/support/program.hpp"

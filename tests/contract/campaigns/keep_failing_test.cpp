@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "storage/archive_reader.hpp"
-#include "tests/contract/sharded_campaign.hpp"
+#include "tests/contract/campaigns/sharded_campaign.hpp"
 
 namespace fleetproof::keep_failing_test {
 namespace {

@@ -14,7 +14,7 @@ using samples::grid;
 class JUnitSchema : public test::ProgramTest {
  protected:
   test::Finished validated(const std::string& file, const std::string& dialect) const {
-    return shell("xmllint --noout --nonet --schema '" + test::source("tests/contract/junit/" + dialect + ".xsd") +
+    return shell("xmllint --noout --nonet --schema '" + test::source("tests/contract/reports/junit/" + dialect + ".xsd") +
                  "' " + file);
   }
   void expect_valid(const std::string& archive) const {

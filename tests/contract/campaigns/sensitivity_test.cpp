@@ -5,7 +5,7 @@
 
 #include "campaign/batch/sensitivity.hpp"
 #include "campaign/run/run_one.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof::sensitivity_test {

@@ -7,7 +7,7 @@
 
 #include "campaign/batch/pilot.hpp"
 #include "reports/evidence/binomial.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof::plan_test {

@@ -5,7 +5,7 @@
 
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof::hostile_radio_test {

@@ -9,7 +9,7 @@
 #include "core/base/random.hpp"
 #include "laws/laws.hpp"
 #include "storage/archive_reader.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof::determinism_test {

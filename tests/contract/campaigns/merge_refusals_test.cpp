@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tests/contract/sharded_campaign.hpp"
+#include "tests/contract/campaigns/sharded_campaign.hpp"
 
 namespace fleetproof::merge_refusals_test {
 namespace {

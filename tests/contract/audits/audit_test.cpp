@@ -9,7 +9,7 @@
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/run/replay.hpp"
 #include "storage/archive_reader.hpp"
-#include "tests/contract/audited_campaign.hpp"
+#include "tests/contract/audits/audited_campaign.hpp"
 
 namespace fleetproof::audit_test {
 namespace {

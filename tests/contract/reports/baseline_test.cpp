@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/contract/two_releases.hpp"
+#include "tests/contract/reports/two_releases.hpp"
 
 namespace fleetproof::baseline_test {
 namespace {

@@ -13,7 +13,7 @@
 #include "campaign/workers/run_host.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/own_process.hpp"
 #include "tests/support/program.hpp"
 

@@ -11,7 +11,7 @@
 #include "reports/evidence/quiet_run.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
-#include "tests/contract/small_campaign.hpp"
+#include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof::verify_test {

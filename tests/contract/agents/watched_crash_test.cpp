@@ -1,7 +1,7 @@
 // Traces, pages and files of runs whose agent crashes or hangs, without a recording: it ends its run, not the program.
 #include <gmock/gmock.h>
 
-#include "tests/contract/audited_campaign.hpp"
+#include "tests/contract/audits/audited_campaign.hpp"
 
 namespace fleetproof::watched_crash_test {
 namespace {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <yaml-cpp/yaml.h>
 
-#include "tests/contract/sharded_campaign.hpp"
+#include "tests/contract/campaigns/sharded_campaign.hpp"
 
 namespace fleetproof::cluster_examples_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "storage/archive_reader.hpp"
-#include "tests/contract/sharded_campaign.hpp"
+#include "tests/contract/campaigns/sharded_campaign.hpp"
 
 namespace fleetproof::shards_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "storage/archive_reader.hpp"
-#include "tests/contract/audited_campaign.hpp"
+#include "tests/contract/audits/audited_campaign.hpp"
 
 namespace fleetproof::film_strip_page_test {
 namespace {
