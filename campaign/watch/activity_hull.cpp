@@ -6,7 +6,7 @@
 
 #include "core/geometry/rotation.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr double kMostHullSteps = 1000.0;
@@ -137,4 +137,4 @@ bool are_within(const Hull& one, const Hull& other, double distance_m) {
   });
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

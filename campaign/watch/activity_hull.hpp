@@ -4,7 +4,7 @@
 
 #include "core/motion/piece.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // Convex, anticlockwise.
 using Polygon = std::vector<Vec2>;
@@ -24,4 +24,4 @@ Hull hull_of(const OrientedRectangle& body);
 // Whether less than `distance_m` is between the two.
 bool are_within(const Hull& one, const Hull& other, double distance_m);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -10,7 +10,7 @@
 #include "core/base/outside_text.hpp"
 #include "core/outcome/trace_records.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -171,4 +171,4 @@ std::string ChromeTrace::text(const std::vector<Violation>& violations, SimTime 
   return text + "]}\n";
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -11,7 +11,7 @@
 #include "core/outcome/trace.hpp"
 #include "core/scenario/scenario.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // A run in the JSON trace event format of Chrome, which Perfetto and chrome://tracing show. Every body is a process
 // with rows: what it does, what its agent says of itself, the radio, what happened to it. A message that is received is
@@ -49,4 +49,4 @@ class ChromeTrace final : public TraceSink {
   std::set<Row> more_rows_;                         // those that go on another
 };
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

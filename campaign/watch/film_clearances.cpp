@@ -8,7 +8,7 @@
 #include "campaign/watch/film_nearest.hpp"
 #include "core/geometry/rectangle.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr std::size_t kMostCurves = 6;
@@ -81,4 +81,4 @@ void add_clearances(web::Film& film, const PiecesOfBodies& bodies, const Outcome
   add_curve(film, bodies, {nearest->a, nearest->b, nearest->at, nearest->at, nearest->at, clearance_um}, end);
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -8,7 +8,7 @@
 #include "core/outcome/outcome.hpp"
 #include "reports/web/film.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // The pieces of each body, in order.
 using PiecesOfBodies = std::map<EntityId, std::vector<const Piece*>>;
@@ -21,4 +21,4 @@ const Piece* piece_at(const PiecesOfBodies& bodies, EntityId body, SimTime t);
 // instant, and film.nearest.
 void add_clearances(web::Film& film, const PiecesOfBodies& bodies, const Outcome& outcome);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -13,7 +13,7 @@
 #include "reports/web/body_then.hpp"
 #include "reports/wording.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr std::int64_t kFaultsBefore_us = 120'000'000;
@@ -147,4 +147,4 @@ std::string FilmEvidence::faults(const std::vector<std::size_t>& bodies, SimTime
          (more > 0 ? fmt::format("; and {} more", more) : "") + "." + radio;
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -8,7 +8,7 @@
 #include "core/scenario/scenario.hpp"
 #include "reports/web/film.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // "2 messages (1 lost, 1 delivered twice)"; empty: the scenario gives no fates.
 std::string given_fates_text(std::span<const GivenFate> fates);
@@ -40,4 +40,4 @@ class FilmEvidence {
   const PiecesOfBodies& bodies_;
 };
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -6,7 +6,7 @@
 #include "campaign/watch/run_text.hpp"
 #include "campaign/watch/trace_context.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 // Between points of a track the page follows a cubic. Over so much turning, or so much change of the curvature, the
@@ -113,4 +113,4 @@ void add_motion(web::Film& film, const Scenario& scenario, std::span<const Piece
   for (const Piece& piece : pieces) film.pieces.push_back(motion_of(film, scenario, piece));
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -6,7 +6,7 @@
 #include "core/scenario/scenario.hpp"
 #include "reports/web/film.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // The numbers of a film: rounded to the nearest microsecond and micrometre.
 std::int64_t film_us(SimTime t);
@@ -20,4 +20,4 @@ void add_floor(web::Film& film, const Scenario& scenario);
 // called.
 void add_motion(web::Film& film, const Scenario& scenario, std::span<const Piece> pieces);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -6,7 +6,7 @@
 #include "campaign/watch/run_text.hpp"
 #include "core/base/outside_text.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr int kPointsOfACurve = 10;
@@ -99,4 +99,4 @@ html::FilmStrip strip_of(const std::vector<Still>& stills, const StripSubject& s
   return strip;
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -6,7 +6,7 @@
 #include "core/scenario/scenario.hpp"
 #include "reports/html/film_strip.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // What a film strip is about: an instant, and the bodies that went wrong there, if there are any.
 struct StripSubject {
@@ -23,4 +23,4 @@ std::vector<Still> blank_stills(const StripSubject& subject, SimTime end);
 
 html::FilmStrip strip_of(const std::vector<Still>& stills, const StripSubject& subject, const Scenario& scenario);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -7,7 +7,7 @@
 #include "core/agents/vocabulary.hpp"
 #include "reports/web/message_numbers.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 void add_glossary(web::Film& film) {
   std::set<std::string> said, contents;
@@ -24,4 +24,4 @@ void add_glossary(web::Film& film) {
   }
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -4,7 +4,7 @@
 
 #include "core/clearance/clearance_over_time.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr double kAnywhere_m = 1e6;  // more than any two bodies are apart
@@ -68,4 +68,4 @@ std::optional<NearestPair> nearest_pair(const PiecesOfBodies& bodies, std::size_
   return search.found();
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

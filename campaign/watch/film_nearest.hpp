@@ -4,7 +4,7 @@
 
 #include "campaign/watch/film_clearances.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // The smallest clearance of a run, and the two bodies that had it.
 struct NearestPair {
@@ -17,4 +17,4 @@ struct NearestPair {
 // AGV was on the floor together with another body.
 std::optional<NearestPair> nearest_pair(const PiecesOfBodies& bodies, std::size_t agv_count);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -12,7 +12,7 @@
 #include "core/base/outside_text.hpp"
 #include "core/outcome/note_records.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr std::size_t kLongestText = 160;
@@ -267,4 +267,4 @@ web::Film FilmRecorder::take(SimTime end) {
   return std::move(film_);
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

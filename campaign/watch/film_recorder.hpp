@@ -13,7 +13,7 @@
 #include "core/scenario/scenario.hpp"
 #include "reports/web/film.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // Listens to a run and keeps what the replay page shows of it.
 class FilmRecorder final : public TraceSink {
@@ -68,4 +68,4 @@ class FilmRecorder final : public TraceSink {
   std::map<LoadId, std::size_t> carrier_of_;
 };
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -14,7 +14,7 @@
 #include "core/geometry/rectangle.hpp"
 #include "core/geometry/rotation.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr Duration kShapeStep = std::chrono::milliseconds(1);
@@ -215,4 +215,4 @@ std::vector<std::string> shape_sentences(const Scenario& scenario, const PiecesO
   return told;
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -6,7 +6,7 @@
 #include "campaign/watch/film_clearances.hpp"
 #include "core/scenario/scenario.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // What in the shapes of two bodies broke the safety distance: the sweep of a turn on the spot, the corners in it, a
 // bend, a load, the size of one of them, lanes that come near without a common station, half of a margin. Each is a
@@ -15,4 +15,4 @@ namespace fleetproof::cli {
 std::vector<std::string> shape_sentences(const Scenario& scenario, const PiecesOfBodies& bodies,
                                          const Violation& violation, SimTime end);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -13,7 +13,7 @@
 #include "core/base/outside_text.hpp"
 #include "reports/wording.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr std::int64_t kBeforeViolation_us = 3'000'000;
@@ -238,4 +238,4 @@ void tell_story(web::Film& film, const Scenario& scenario, const PiecesOfBodies&
   Storyteller(film, scenario, bodies, outcome).tell();
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

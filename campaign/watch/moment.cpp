@@ -7,7 +7,7 @@
 #include "core/outcome/trace_records.hpp"
 #include "laws/stretch.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 bool moves(const MomentBody& body) { return std::ranges::any_of(body.pieces, &MomentPiece::moves); }
@@ -72,4 +72,4 @@ Moment MomentKeeper::moment() const {
   return moment;
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -8,7 +8,7 @@
 #include "core/outcome/trace.hpp"
 #include "core/scenario/scenario.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // A piece that is in progress at an instant, its first and last instant included.
 struct MomentPiece {
@@ -60,4 +60,4 @@ class MomentKeeper final : public TraceSink {
   std::map<LoadId, AgvId> carriers_;
 };
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -13,7 +13,7 @@
 #include "generators/map/layout_svg.hpp"
 #include "reports/wording.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr double kLine_px = 18.0, kLegend_px = 30.0;
@@ -218,4 +218,4 @@ std::string moment_svg(const Moment& moment, const Scenario& scenario) {
   return MomentPicture(moment, scenario).draw();
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -7,7 +7,7 @@
 #include "core/base/outside_text.hpp"
 #include "reports/wording.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr std::size_t kMostLetters = 135, kMostActivityLines = 8, kMostMeetings = 10;
@@ -86,4 +86,4 @@ std::vector<std::string> moment_lines(const Moment& moment, const Scenario& scen
   return lines;
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -5,7 +5,7 @@
 
 #include "campaign/watch/moment.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // Printable; at most 20 characters, and "..." if there are more.
 std::string moment_name(const Scenario& scenario, EntityId id);
@@ -16,4 +16,4 @@ std::string activity_text(const Scenario& scenario, const Piece& piece);
 // at most 20 lines.
 std::vector<std::string> moment_lines(const Moment& moment, const Scenario& scenario);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -11,7 +11,7 @@
 #include "core/base/outside_text.hpp"
 #include "reports/export/csv_tables.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -117,4 +117,4 @@ std::string poses_csv(const Scenario& scenario, const std::vector<Piece>& pieces
   return text;
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

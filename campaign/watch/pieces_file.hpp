@@ -8,7 +8,7 @@
 #include "core/outcome/trace.hpp"
 #include "core/scenario/scenario.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // Keeps the pieces of all bodies of a run, as they truly were.
 class PieceKeeper final : public TraceSink {
@@ -32,4 +32,4 @@ std::string pieces_json(const Scenario& scenario, const std::vector<Piece>& piec
 // The poses of all bodies at every multiple of `step`, as CSV.
 std::string poses_csv(const Scenario& scenario, const std::vector<Piece>& pieces, Duration step);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -11,7 +11,7 @@
 #include "reports/web/replay_page.hpp"
 #include "reports/wording.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 void add_facts(web::Film& film, const Scenario& scenario, const Outcome& outcome) {
@@ -90,4 +90,4 @@ std::string replay_html(FilmRecorder& recorder, const Scenario& scenario, const 
   return web::replay_page(std::move(film));
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -7,7 +7,7 @@
 #include "core/outcome/outcome.hpp"
 #include "reports/web/film.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // What a replay page says of its run besides what the scenario and the outcome say.
 struct ReplayWords {
@@ -20,4 +20,4 @@ struct ReplayWords {
 std::string replay_html(FilmRecorder& recorder, const Scenario& scenario, const Outcome& outcome,
                         const ReplayWords& words, const std::string& remark);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -11,7 +11,7 @@
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "reports/wording.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 // The first digits of a number in millionths: cut, not rounded, so that no digit differs from the full number.
@@ -139,4 +139,4 @@ std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool 
   return text + counters_text(outcome) + met_text(outcome) + fmt::format("  trace digest {:016x}\n", outcome.digest);
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -8,7 +8,7 @@
 #include "core/scenario/scenario.hpp"
 #include "laws/comparison.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // The name as it is in the scenario, with every character. The caller passes it through printable() before it prints
 // it. Of a fallen load: `load_of` and the AGV that dropped it.
@@ -26,4 +26,4 @@ std::string met_text(const Outcome& outcome);
 // differences. Published laws leave the clearance of bodies that they do not accuse unmeasured.
 std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool clearance_measured = true);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

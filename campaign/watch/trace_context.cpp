@@ -10,7 +10,7 @@
 #include "core/base/tolerances.hpp"
 #include "core/outcome/note_records.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 constexpr std::size_t kBytesShown = 8;
@@ -104,4 +104,4 @@ std::string TraceContext::place_of(const Piece& piece, const Vec2& position_m) c
   return {};
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -11,7 +11,7 @@
 #include "core/outcome/trace.hpp"
 #include "core/scenario/scenario.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // A message, as far as the trace has told of it.
 struct TracedMessage {
@@ -65,4 +65,4 @@ class TraceContext {
   std::map<EntityId, double> turn_goals_deg_;
 };
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

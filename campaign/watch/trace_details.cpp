@@ -8,7 +8,7 @@
 #include "core/base/outside_text.hpp"
 #include "core/outcome/note_records.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 const char* text_of(Assist assist) {
@@ -162,4 +162,4 @@ std::string trace_details(const TraceRecord& record, std::string_view text, cons
   return {};
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

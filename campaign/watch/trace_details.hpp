@@ -5,7 +5,7 @@
 
 #include "campaign/watch/trace_context.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 // What a record says besides its time, body and kind, in words. `text` as in TraceSink.
 std::string trace_details(const TraceRecord& record, std::string_view text, const TraceContext& context);
@@ -13,4 +13,4 @@ std::string trace_details(const TraceRecord& record, std::string_view text, cons
 // Seconds with nine digits, cut from the whole number of nanoseconds.
 std::string nanosecond_text(SimTime t);
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

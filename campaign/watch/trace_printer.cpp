@@ -10,7 +10,7 @@
 #include "core/base/outside_text.hpp"
 #include "core/base/words.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -119,4 +119,4 @@ std::vector<std::string> trace_kind_words() {
   return words;
 }
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof

@@ -12,7 +12,7 @@
 #include "core/outcome/trace.hpp"
 #include "core/scenario/scenario.hpp"
 
-namespace fleetproof::cli {
+namespace fleetproof {
 
 enum class TraceFormat : std::uint8_t { Text, JsonLines };
 
@@ -60,4 +60,4 @@ class TracePrinter final : public TraceSink {
 // The words that TraceFilter::kinds may hold.
 std::vector<std::string> trace_kind_words();
 
-}  // namespace fleetproof::cli
+}  // namespace fleetproof
