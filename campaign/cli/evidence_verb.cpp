@@ -3,7 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "campaign/cli/evidence_methods.hpp"
+#include "campaign/cli/evidence/evidence_methods.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/catalogue.hpp"

@@ -1,4 +1,4 @@
-#include "campaign/cli/figures.hpp"
+#include "campaign/cli/evidence/figures.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "campaign/cli/evidence_input.hpp"
-#include "campaign/cli/figures.hpp"
+#include "campaign/cli/evidence/evidence_input.hpp"
+#include "campaign/cli/evidence/figures.hpp"
 
 namespace fleetproof::cli {
 

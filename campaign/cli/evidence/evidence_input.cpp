@@ -1,4 +1,4 @@
-#include "campaign/cli/evidence_input.hpp"
+#include "campaign/cli/evidence/evidence_input.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "campaign/cli/comparison_methods.hpp"
+#include "campaign/cli/evidence/comparison_methods.hpp"
 
 #include <array>
 

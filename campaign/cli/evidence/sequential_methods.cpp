@@ -1,4 +1,4 @@
-#include "campaign/cli/sequential_methods.hpp"
+#include "campaign/cli/evidence/sequential_methods.hpp"
 
 #include <fmt/format.h>
 

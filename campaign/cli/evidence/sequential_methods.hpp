@@ -1,6 +1,6 @@
 #pragma once
 
-#include "campaign/cli/evidence_methods.hpp"
+#include "campaign/cli/evidence/evidence_methods.hpp"
 
 namespace fleetproof::cli {
 

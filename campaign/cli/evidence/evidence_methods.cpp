@@ -1,9 +1,9 @@
-#include "campaign/cli/evidence_methods.hpp"
+#include "campaign/cli/evidence/evidence_methods.hpp"
 
-#include "campaign/cli/comparison_methods.hpp"
-#include "campaign/cli/fixed_size_methods.hpp"
-#include "campaign/cli/grouped_methods.hpp"
-#include "campaign/cli/sequential_methods.hpp"
+#include "campaign/cli/evidence/comparison_methods.hpp"
+#include "campaign/cli/evidence/fixed_size_methods.hpp"
+#include "campaign/cli/evidence/grouped_methods.hpp"
+#include "campaign/cli/evidence/sequential_methods.hpp"
 
 namespace fleetproof::cli {
 
