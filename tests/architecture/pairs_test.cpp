@@ -23,10 +23,13 @@ const std::map<std::string, std::string> kDeclaredElsewhere = {
 struct Catalogue {
   std::string ending, header;
 };
-const Catalogue kVerbs{"_verb.cpp", "campaign/cli/verbs.hpp"};
+const std::vector<Catalogue> kCatalogues = {{"_verb.cpp", "campaign/cli/verbs.hpp"},
+                                            {"_methods.cpp", "campaign/cli/evidence/evidence_methods.hpp"}};
 
 std::string header_of(const std::string& path) {
-  if (path.ends_with(kVerbs.ending)) return kVerbs.header;
+  for (const Catalogue& catalogue : kCatalogues) {
+    if (path.ends_with(catalogue.ending)) return catalogue.header;
+  }
   return path.substr(0, path.size() - 4) + ".hpp";
 }
 

@@ -1,4 +1,4 @@
-#include "campaign/cli/evidence/comparison_methods.hpp"
+#include "campaign/cli/evidence/evidence_methods.hpp"
 
 #include <array>
 

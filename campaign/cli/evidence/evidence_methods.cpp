@@ -1,10 +1,5 @@
 #include "campaign/cli/evidence/evidence_methods.hpp"
 
-#include "campaign/cli/evidence/comparison_methods.hpp"
-#include "campaign/cli/evidence/fixed_size_methods.hpp"
-#include "campaign/cli/evidence/grouped_methods.hpp"
-#include "campaign/cli/evidence/sequential_methods.hpp"
-
 namespace fleetproof::cli {
 
 std::vector<EvidenceMethod> evidence_methods() {

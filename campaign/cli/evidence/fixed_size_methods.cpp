@@ -1,4 +1,4 @@
-#include "campaign/cli/evidence/fixed_size_methods.hpp"
+#include "campaign/cli/evidence/evidence_methods.hpp"
 
 #include <fmt/format.h>
 

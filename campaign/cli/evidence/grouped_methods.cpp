@@ -1,4 +1,4 @@
-#include "campaign/cli/evidence/grouped_methods.hpp"
+#include "campaign/cli/evidence/evidence_methods.hpp"
 
 #include <fmt/format.h>
 
