@@ -2,17 +2,38 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 #include "campaign/watch/film_clearances.hpp"
 #include "campaign/watch/film_evidence.hpp"
 #include "campaign/watch/film_floor.hpp"
 #include "campaign/watch/film_frames.hpp"
-#include "campaign/watch/film_glossary.hpp"
 #include "campaign/watch/film_story.hpp"
+#include "core/agents/vocabulary.hpp"
+#include "reports/web/message_numbers.hpp"
 #include "reports/web/replay_page.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
 namespace {
+
+// What the words of agents in this run mean, as far as the project's agents use them: notes, states, and words in the
+// contents of messages.
+void add_glossary(web::Film& film) {
+  std::set<std::string> said, contents;
+  for (const web::Happening& h : film.happenings) {
+    if (h.is_note) said.insert(h.details);
+  }
+  for (const web::Declared& state : film.states) said.insert(state.word);
+  for (const web::Message& message : film.messages) contents.insert(message.content);
+  for (const auto& [word, meaning] : agents::vocabulary()) {
+    const bool occurs = said.contains(std::string(word)) || std::ranges::any_of(contents, [&](const std::string& c) {
+                          return web::after_word(c, word).has_value();
+                        });
+    if (occurs) film.glossary.push_back({std::string(word), std::string(meaning)});
+  }
+}
 
 void add_facts(web::Film& film, const Scenario& scenario, const Outcome& outcome) {
   const auto add = [&](const char* name, std::string value) { film.facts.push_back({name, std::move(value)}); };
