@@ -46,7 +46,7 @@ constexpr std::array kArguments = {
 
 constexpr std::uint64_t kMostUnits = 1'000'000'000'000'000;
 // Beyond this number of failures or events, the inverses of the beta and gamma functions are not found.
-constexpr std::uint64_t kMostFailures = 1'000'000'000;
+constexpr std::uint64_t kMostCounted = 1'000'000'000;
 
 [[noreturn]] void refuse(const std::string& name, std::string_view value, std::string_view allowed) {
   throw InputError("--" + name, fmt::format("{} is refused; allowed: {}", in_quotes(value), allowed));
@@ -115,7 +115,7 @@ std::uint64_t EvidenceInput::units_from_one(const std::string& name) const {
   return count_in(name, word(name), 1, kMostUnits);
 }
 
-std::uint64_t EvidenceInput::failures(const std::string& name) const { return count(name, kMostFailures); }
+std::uint64_t EvidenceInput::failures(const std::string& name) const { return count(name, kMostCounted); }
 
 std::uint64_t EvidenceInput::failures(const std::string& name, const std::string& units) const {
   const std::uint64_t all = count(units, kMostUnits), value = failures(name);
@@ -154,7 +154,7 @@ std::vector<std::uint64_t> EvidenceInput::list(const std::string& name, std::uin
 std::vector<std::uint64_t> EvidenceInput::unit_list(const std::string& name) const { return list(name, kMostUnits); }
 
 std::vector<std::uint64_t> EvidenceInput::failure_list(const std::string& name) const {
-  return list(name, kMostFailures);
+  return list(name, kMostCounted);
 }
 
 std::vector<double> EvidenceInput::positives(const std::string& name) const {
@@ -190,7 +190,7 @@ std::vector<std::vector<std::uint64_t>> EvidenceInput::unit_rows(const std::stri
 }
 
 std::vector<std::vector<std::uint64_t>> EvidenceInput::failure_rows(const std::string& name) const {
-  return rows(name, kMostFailures);
+  return rows(name, kMostCounted);
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> EvidenceInput::pairs(const std::string& name, std::size_t end_of_first,
