@@ -16,8 +16,6 @@ using Cubics = std::vector<std::array<Point, 4>>;
 
 constexpr double kLength_m = 1.6, kWidth_m = 1.0, kSafe_m = 0.10;  // the default footprint and distance
 
-Vec2 vec(Point p) { return {p.x, p.y}; }
-
 Curve curve_of(const Cubics& cubics) {
   std::vector<Curve> curves;
   for (const auto& p : cubics) curves.push_back(Curve::bezier(vec(p[0]), vec(p[1]), vec(p[2]), vec(p[3])));
