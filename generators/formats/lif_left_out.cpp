@@ -16,7 +16,7 @@ constexpr Topic kDetails{
     "{0} kinds of details of actions are left out ({1}); here an action takes the time of its task"};
 constexpr Topic kTurns{"{0} edges have rules for turning ({1}); here an AGV turns at stations only, at its own speed"};
 constexpr Topic kLifts{"{0} edges and stations give the height of a lift or load ({1}); here the floor is flat"};
-constexpr Topic kLoads{"{0} nodes and edges are for sets of loads ({1}); here all loads are alike"};
+constexpr Topic kLoadRules{"{0} nodes and edges are for sets of loads ({1}); here all loads are alike"};
 constexpr Topic kReentry{"{0} edges have rules for reentry ({1}); they are left out"};
 constexpr Topic kCorridors{
     "{0} nodes and edges let an AGV leave the lane ({1}); leaving the lane is not modelled: it stays on the lane"};
@@ -70,7 +70,7 @@ constexpr LifRule kLifRules[] = {
     {"nodes/types/loadRestriction"},
     {"nodes/types/loadRestriction/loaded"},
     {"nodes/types/loadRestriction/unloaded"},
-    {"nodes/types/loadRestriction/loadSetNames", &kLoads},
+    {"nodes/types/loadRestriction/loadSetNames", &kLoadRules},
     {"edges"},
     {"edges/edgeId"},
     {"edges/startNodeId"},
@@ -103,7 +103,7 @@ constexpr LifRule kLifRules[] = {
     {"edges/types/loadRestriction"},
     {"edges/types/loadRestriction/loaded"},
     {"edges/types/loadRestriction/unloaded"},
-    {"edges/types/loadRestriction/loadSetNames", &kLoads},
+    {"edges/types/loadRestriction/loadSetNames", &kLoadRules},
     {"edges/types/actions"},
     {"edges/types/requiredActions"},
     {"edges/types/feasibleActions"},

@@ -12,7 +12,7 @@
 namespace fleetproof::web {
 namespace {
 
-constexpr std::int64_t kRemembered_us = 120'000'000;
+constexpr std::int64_t kRequestRemembered_us = 120'000'000;
 constexpr std::size_t kMostAnswers = 3;  // of those that differ, the last
 
 struct Asking {
@@ -30,7 +30,8 @@ class OwnRequestFinder {
         setting_(setting),
         until_(std::max(setting.begin, decision_on(film.activities[activity]))),
         other_(other) {
-    const std::int64_t since_us = std::max(setting.knows_since_us, film.activities[activity].begin_us - kRemembered_us);
+    const std::int64_t since_us =
+        std::max(setting.knows_since_us, film.activities[activity].begin_us - kRequestRemembered_us);
     knows_all_ = since_us == setting.knows_since_us;
     for (const Message* m : talk.sent_by(setting.body)) {
       const Moment sent{m->sent_us, m->order};

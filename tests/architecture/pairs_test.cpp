@@ -16,6 +16,8 @@ using Findings = std::vector<std::string>;
 // Functions that another header declares, each with the reason.
 const std::map<std::string, std::string> kDeclaredElsewhere = {
     {"campaign/cli/main.cpp main", "the program"},
+    {"core/agents/agents.cpp fp_reference_agent", "a C header, agents.h, declares it"},
+    {"core/agents/agents.cpp fp_faulty_agent", "a C header, agents.h, declares it"},
     {"core/agents/plugin.cpp fp_agent_query", "the entry point that core/sdk/fleetproof/agent.h declares"},
 };
 

@@ -14,8 +14,8 @@ using samples::grid;
 class JUnitSchema : public test::ProgramTest {
  protected:
   test::Finished validated(const std::string& file, const std::string& dialect) const {
-    return shell("xmllint --noout --nonet --schema '" + test::source("tests/contract/reports/junit/" + dialect + ".xsd") +
-                 "' " + file);
+    return shell("xmllint --noout --nonet --schema '" +
+                 test::source("tests/contract/reports/junit/" + dialect + ".xsd") + "' " + file);
   }
   void expect_valid(const std::string& archive) const {
     const auto report = run("report " + archive + " --format junit --exit-zero -o j.xml");
