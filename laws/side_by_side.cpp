@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kAlong = 0.985;  // cosine of 10 degrees
 constexpr double kSlack_m = 1e-6;
-constexpr double kSurelyApart_m = 1e-3;  // more than slack and rounding
+constexpr double kSurelyWithin_m = 1e-3;  // more than slack and rounding
 
 // Of a point from a straight piece of a middle line.
 struct Distance {
@@ -76,7 +76,7 @@ double bodies_apart_m(const Track& a, const Track& b, double within_m) {
 
 bool surely_not_side_by_side(const MiddleLine& a, const MiddleLine& b, double widths_m) {
   if (std::abs(a.travel.dot(b.travel)) < kAlong) return true;
-  const double within_m = std::max(0.0, widths_m - kSurelyApart_m), square_m2 = within_m * within_m;
+  const double within_m = std::max(0.0, widths_m - kSurelyWithin_m), square_m2 = within_m * within_m;
   return b.square_distance_m2(a.begin_m) < square_m2 || a.square_distance_m2(b.begin_m) < square_m2 ||
          b.square_distance_m2(a.end_m()) < square_m2 || a.square_distance_m2(b.end_m()) < square_m2;
 }
