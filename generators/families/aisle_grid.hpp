@@ -1,3 +1,4 @@
+// The family of aisle grids; some have aisles with a dead end.
 #pragma once
 
 #include "core/base/random.hpp"
@@ -7,7 +8,7 @@
 namespace fleetproof {
 
 // Aisles between two or three cross aisles; storage bays are short spurs off the aisles, so that a picking AGV does not
-// block the aisle. Stress: dead_end_aisles.hpp.
+// block the aisle. Stress: one cross aisle, and aisles that end dead.
 Layout make_aisle_grid(Draws& draws, Range range);
 
 }  // namespace fleetproof
