@@ -1,11 +1,7 @@
-#include "generators/families/aisle_grid.hpp"
-
 #include <fmt/format.h>
 
-#include "core/base/random.hpp"
-#include "core/scenario/layout.hpp"
+#include "generators/families/families.hpp"
 #include "generators/families/layout_builder.hpp"
-#include "generators/families/range.hpp"
 
 namespace fleetproof {
 namespace {
