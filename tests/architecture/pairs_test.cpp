@@ -32,7 +32,8 @@ const std::vector<Catalogue> kCatalogues = {
 
 // Its own, if it has one.
 std::string header_of(const std::string& path, const std::map<std::string, const Source*>& headers) {
-  const std::string own = path.substr(0, path.size() - 4) + ".hpp";
+  const std::string stem = path.substr(0, path.size() - 4),
+                    own = stem + (headers.contains(stem + ".h") ? ".h" : ".hpp");
   for (const Catalogue& catalogue : kCatalogues) {
     const bool belongs = path.starts_with(catalogue.folder) && path.ends_with(catalogue.ending);
     if (belongs && !headers.contains(own)) return catalogue.header;
