@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "laws/encounter.hpp"
 #include "laws/map_places.hpp"
-#include "laws/middle_line.hpp"
 #include "laws/side_by_side.hpp"
 
 namespace fleetproof {

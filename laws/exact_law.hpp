@@ -1,3 +1,4 @@
+// The judge: every violation of the safety distance, to the nanosecond.
 #pragma once
 
 #include <memory>

@@ -10,10 +10,9 @@
 #include "laws/coverage_law.hpp"
 #include "laws/exempting_law.hpp"
 #include "laws/fault_record_law.hpp"
-#include "laws/global_step_law.hpp"
 #include "laws/normal_operation_law.hpp"
-#include "laws/paper_law.hpp"
 #include "laws/progress_law.hpp"
+#include "laws/published_law.hpp"
 
 namespace fleetproof {
 namespace {

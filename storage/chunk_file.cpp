@@ -12,7 +12,6 @@
 
 #include "core/base/byte_text.hpp"
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "storage/run_bytes.hpp"
 
 namespace fleetproof {

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/base/machine_error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

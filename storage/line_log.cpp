@@ -13,7 +13,6 @@
 #include <fstream>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "storage/beside.hpp"
 
 namespace fleetproof {

@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "core/base/machine_error.hpp"
+#include "core/base/error.hpp"
 #include "storage/durable_file.hpp"
 #include "storage/sqlite_errors.hpp"
 #include "storage/target_file.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
-#include "core/base/machine_error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "storage/opened_file.hpp"
 #include "storage/query.hpp"
 #include "storage/schema.hpp"

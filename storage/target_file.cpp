@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "storage/schema.hpp"
 
 namespace fleetproof {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/machine_error.hpp"
+#include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "storage/checksum.hpp"
 

@@ -12,7 +12,6 @@
 #include "campaign/run/engine_identity.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof::cli {

@@ -15,7 +15,6 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "reports/attempts/attempt_section.hpp"
 #include "reports/export/csv_tables.hpp"
 #include "reports/export/report_schema.hpp"

@@ -2,7 +2,7 @@
 
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/streams.hpp"
-#include "generators/formats/csv_text.hpp"
+#include "generators/formats/csv_layout.hpp"
 #include "generators/formats/importer.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif_text.hpp"

@@ -12,7 +12,6 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "reports/attempts/looks.hpp"
 #include "reports/html/html_report.hpp"
 

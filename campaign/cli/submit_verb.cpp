@@ -12,7 +12,6 @@
 #include "campaign/shards/shard.hpp"
 #include "campaign/shards/slurm_jobs.hpp"
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof::cli {

@@ -14,7 +14,6 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof {

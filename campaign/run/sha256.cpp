@@ -6,7 +6,7 @@
 #include <array>
 #include <fstream>
 
-#include "core/base/machine_error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/workers/run_host.hpp"
-#include "core/base/machine_error.hpp"
+#include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "storage/checksum.hpp"
 #include "storage/durable_file.hpp"

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "storage/durable_file.hpp"
 #include "storage/run_bytes.hpp"
 

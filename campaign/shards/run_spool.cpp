@@ -10,7 +10,6 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 
 namespace fleetproof {
 namespace {

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 #include "storage/durable_file.hpp"

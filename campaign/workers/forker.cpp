@@ -15,7 +15,7 @@
 #include <cstring>
 #include <set>
 
-#include "core/base/machine_error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

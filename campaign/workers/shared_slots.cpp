@@ -10,7 +10,7 @@
 #include <cstring>
 #include <new>
 
-#include "core/base/machine_error.hpp"
+#include "core/base/error.hpp"
 
 namespace fleetproof {
 namespace {

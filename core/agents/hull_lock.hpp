@@ -14,7 +14,6 @@
 #include "core/agents/map_view.hpp"
 #include "core/agents/neighbours.hpp"
 #include "core/agents/right_of_way.hpp"
-#include "core/agents/seniority.hpp"
 #include "core/agents/settings.hpp"
 #include "core/agents/stretch_planner.hpp"
 #include "core/agents/way_ahead.hpp"

@@ -3,7 +3,6 @@
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof {
-
 namespace {
 
 // An error quotes words of a file, and they may be megabytes long. The middle is left out, at the borders of

@@ -1,3 +1,4 @@
+// The errors of the program: who or what is at fault decides which one is thrown.
 #pragma once
 
 #include <stdexcept>
@@ -32,5 +33,12 @@ inline void ensure(bool holds, const char* sentence) {
   if (!holds) [[unlikely]]
     invariant_violated(sentence);
 }
+
+// The machine failed: a full or failing disk, no memory or process to be had, a helper process that somebody killed.
+// It is no fault of the engine, and nothing is damaged. `what` ends with the remedy.
+class MachineError : public EngineError {
+ public:
+  using EngineError::EngineError;
+};
 
 }  // namespace fleetproof

@@ -1,3 +1,4 @@
+// The clearance of two bodies over time: its first instant below a distance, and its least value.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// How fast two bodies approach each other.
 #pragma once
 
 #include "core/clearance/clearance_over_time.hpp"

@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
+#include "core/engine/drives.hpp"
 #include "core/geometry/rotation.hpp"
 #include "core/outcome/note_records.hpp"
 #include "core/scenario/lane_rules.hpp"

@@ -16,7 +16,7 @@ class Actions {
     ActivitiesPort activities;
     AgentHostPort agents;
     BatteryPort battery;
-    DrivesPort drives;
+    Drives& drives;
   };
   Actions(RunContext& run, const Ports& ports);
 

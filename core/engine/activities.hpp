@@ -13,8 +13,8 @@ class Activities {
  public:
   struct Ports {
     BatteryPort battery;
-    ContactsPort contacts;
-    FaultDeskPort faults;
+    Contacts& contacts;
+    FaultDesk& faults;
     MessengerPort messenger;
     PositionSensorPort sensor;
   };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/outside_text.hpp"
+#include "core/engine/agv_controller.hpp"
 
 namespace fleetproof {
 namespace {

@@ -1,20 +1,48 @@
+// The agents of a run: activations, crashes, hangs and restarts.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/engine/activation_count.hpp"
+#include "core/base/sim_time.hpp"
 #include "core/engine/agent_caller.hpp"
 #include "core/engine/briefings.hpp"
-#include "core/engine/controller_handle.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
 #include "core/engine/run_watch.hpp"
 
 namespace fleetproof {
+
+// Counts how often one agent is called.
+class ActivationCount {
+ public:
+  static constexpr std::uint32_t kMostAtInstant = 10'000;  // without time advancing
+
+  // Counts an activation. False: it is one too many. `most`: in the run.
+  bool admit(SimTime now, std::uint64_t most) {
+    if (now == last_) [[unlikely]] {
+      if (++at_instant_ > kMostAtInstant) return false;
+    } else {
+      last_ = now;
+      at_instant_ = 1;
+    }
+    return ++in_run_ <= most;
+  }
+  // After one too many: which limit it broke, in words.
+  const char* broken_limit() const {
+    return at_instant_ > kMostAtInstant ? "10 000 activations without time advancing"
+                                        : "woke up more often than any control software needs";
+  }
+
+ private:
+  SimTime last_ = SimTime::min();
+  std::uint32_t at_instant_ = 0;
+  std::uint64_t in_run_ = 0;
+};
 
 // The agents and the computers on which they run: when an agent is called, what it is told, and what happens when it
 // crashes, hangs or loses its computer for a time.
@@ -22,7 +50,7 @@ class AgentHost {
  public:
   struct Ports {
     ActionsPort actions;
-    AgvControllerPort controller;
+    AgvController& controller;
     TimersPort timers;
   };
   // `agent_config` is handed to every agent as its own parameters.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/random.hpp"
+#include "core/engine/declarations.hpp"
 
 namespace fleetproof {
 namespace {
@@ -69,6 +70,10 @@ bool AgvController::admit_service(fp_controller& handle) {
   if (!handle.in_activation() || ++handle.services > kServicesMax) return false;
   handle.cost += call_cost_;
   return true;
+}
+
+bool AgvController::admit_note(AgvId agv) {
+  return slices_[agv.index()].handle.in_activation() && ports_.declarations.admits_note(agv);
 }
 
 void AgvController::admit_services(AgvId agv, std::uint64_t count) {

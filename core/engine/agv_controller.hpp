@@ -1,3 +1,4 @@
+// The controller of the AGVs: what an agent calls, and the handle by which it calls.
 #pragma once
 
 #include <cstdint>
@@ -5,9 +6,33 @@
 #include <string_view>
 #include <vector>
 
-#include "core/engine/controller_handle.hpp"
+#include "core/engine/call_limits.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
+
+namespace fleetproof {
+class AgvController;
+class CallTape;
+}  // namespace fleetproof
+
+// The handle that an agent holds: which AGV of which run, and what the activation under way has used so far.
+struct fp_controller {
+  fleetproof::AgvController* part = nullptr;
+  fleetproof::AgvId agv;
+  bool hears_notes = false;               // as RunContext::hears_notes
+  fleetproof::CallTape* tape = nullptr;   // takes the calls of the activation; null: nobody records them
+  fleetproof::Duration cost{};            // of its calls
+  std::uint64_t calls = 0, services = 0;  // so many
+  std::uint64_t calls_max = 0;            // so many are admitted; none outside an activation
+
+  bool in_activation() const { return calls_max > 0; }
+  // Which limit the agent has exceeded, in words; null: none.
+  const char* broken_limit() const {
+    return calls > fleetproof::kCallsMax         ? "10 000 controller calls in one activation"
+           : services > fleetproof::kServicesMax ? "ten million calls of random and now_ns in one activation"
+                                                 : nullptr;
+  }
+};
 
 namespace fleetproof {
 
@@ -19,7 +44,7 @@ class AgvController {
   struct Ports {
     ActionsPort actions;
     BatteryPort battery;
-    DeclarationsPort declarations;
+    Declarations& declarations;
     HaltsPort halts;
     MessengerPort messenger;
     PositionSensorPort sensor;
@@ -43,9 +68,7 @@ class AgvController {
   // Likewise for `random` and `now_ns`, which have a limit of their own: they neither act nor perceive.
   bool admit_service(fp_controller& handle);
   // Likewise for notes, which do not count as calls. Requires: somebody hears them.
-  bool admit_note(AgvId agv) {
-    return slices_[agv.index()].handle.in_activation() && ports_.declarations.admits_note(agv);
-  }
+  bool admit_note(AgvId agv);
   // So many calls of `admit_service`, and of `admit` when its limit is reached, in one.
   void admit_services(AgvId agv, std::uint64_t count);
   void refuse(AgvId agv, std::uint64_t count);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/engine/operator_desk.hpp"
+
 namespace fleetproof {
 namespace {
 

@@ -13,7 +13,7 @@ class Battery {
  public:
   struct Ports {
     HaltsPort halts;
-    OperatorDeskPort operator_desk;
+    OperatorDesk& operator_desk;
   };
   Battery(RunContext& run, const Ports& ports);
 

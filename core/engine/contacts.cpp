@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/engine/operator_desk.hpp"
+
 namespace fleetproof {
 
 Contacts::Contacts(RunContext& run, const Ports& ports) : run_(run), ports_(ports) {}

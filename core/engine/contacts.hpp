@@ -13,7 +13,7 @@ class Contacts {
  public:
   struct Ports {
     ActionsPort actions;
-    OperatorDeskPort operator_desk;
+    OperatorDesk& operator_desk;
   };
   Contacts(RunContext& run, const Ports& ports);
 

@@ -2,6 +2,7 @@
 #include "core/engine/controller_table.hpp"
 
 #include "core/engine/agv_controller.hpp"
+#include "core/engine/declarations.hpp"
 
 namespace fleetproof {
 namespace {

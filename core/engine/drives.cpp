@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/tolerances.hpp"
+#include "core/engine/scanner.hpp"
 #include "core/geometry/rotation.hpp"
 
 namespace fleetproof {

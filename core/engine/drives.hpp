@@ -8,13 +8,20 @@
 
 namespace fleetproof {
 
+// How a leg of a drive has ended.
+struct LegEnd {
+  enum class Kind : std::uint8_t { NextLegBegins, Arrived, Halted } kind = Kind::Arrived;
+  double way_m = 0.0;      // Halted: along the lane
+  double speed_mps = 0.0;  // Arrived: with which the AGV passes the station
+};
+
 // Drives along one lane: a sequence of legs of one speed limit each. An AGV with a halt brakes; one whose next lane is
 // known and goes straight on rolls through the station.
 class Drives {
  public:
   struct Ports {
     ActivitiesPort activities;
-    ScannerPort scanner;
+    Scanner& scanner;
   };
   Drives(RunContext& run, const Ports& ports);
 

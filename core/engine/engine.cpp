@@ -9,6 +9,26 @@
 
 namespace fleetproof {
 
+// A part may get another one that has not been constructed yet: it keeps the address and calls nothing.
+Parts::Parts(RunContext& run, const fp_agent_type& agent, const char* agent_config, const RunWatch& watch)
+    : battery(run, {HaltsPort(halts), operator_desk}),
+      contacts(run, {ActionsPort(actions), operator_desk}),
+      sensor(run),
+      scanner(run, {contacts, HaltsPort(halts), operator_desk}),
+      messenger(run, AgentHostPort(agents)),
+      activities(run, {BatteryPort(battery), contacts, faults, MessengerPort(messenger), PositionSensorPort(sensor)}),
+      drives(run, {ActivitiesPort(activities), scanner}),
+      actions(run, {ActivitiesPort(activities), AgentHostPort(agents), BatteryPort(battery), drives}),
+      halts(run, ActionsPort(actions)),
+      faults(run, {ActionsPort(actions), AgentHostPort(agents), contacts, HaltsPort(halts)}),
+      operator_desk(run, {ActionsPort(actions), AgentHostPort(agents), BatteryPort(battery), contacts, faults,
+                          HaltsPort(halts), MessengerPort(messenger), PositionSensorPort(sensor), scanner}),
+      timers(run, AgentHostPort(agents)),
+      declarations(run),
+      controller(run, {ActionsPort(actions), BatteryPort(battery), declarations, HaltsPort(halts),
+                       MessengerPort(messenger), PositionSensorPort(sensor), TimersPort(timers)}),
+      agents(run, {ActionsPort(actions), controller, TimersPort(timers)}, agent, agent_config, watch) {}
+
 Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
                TraceSink* sink, const char* agent_config, const RunWatch& watch)
     : laws_(laws), abandon_(watch.abandon), run_(scenario, laws, sink), parts_(run_, agent, agent_config, watch) {}

@@ -1,16 +1,119 @@
+// The events to come, in the order in which they happen: a lane of arrivals, a row of timers, a heap for the rest.
 #pragma once
 
+#include <algorithm>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
-#include "core/engine/event_heap.hpp"
-#include "core/engine/event_order.hpp"
-#include "core/engine/event_row.hpp"
 
 namespace fleetproof {
+
+// The place of an event among those of its instant: entity and sequence in one number, which compares as they do.
+class EventOrder {
+ public:
+  // Requires of every entity: it is below kNoEntity, or invalid.
+  static constexpr std::uint32_t kNoEntity = 0xffffff;
+
+  constexpr EventOrder() = default;  // after every event
+  constexpr EventOrder(EntityId entity, std::uint64_t sequence)
+      : bits_(std::uint64_t{std::min(entity.value, kNoEntity)} << kSequenceBits | sequence) {}
+  // Requires: the AGV is valid.
+  static constexpr EventOrder of_agv(AgvId agv, std::uint64_t sequence) {
+    EventOrder order;
+    order.bits_ = std::uint64_t{agv.value} << kSequenceBits | sequence;
+    return order;
+  }
+
+  constexpr EntityId entity() const { return agv().value == kNoEntity ? EntityId{} : agv(); }
+  constexpr AgvId agv() const { return AgvId{static_cast<std::uint32_t>(bits_ >> kSequenceBits)}; }
+  constexpr std::uint64_t sequence() const { return bits_ & ((std::uint64_t{1} << kSequenceBits) - 1); }
+
+  friend constexpr auto operator<=>(const EventOrder&, const EventOrder&) = default;
+
+ private:
+  static constexpr unsigned kSequenceBits = 40;
+
+  std::uint64_t bits_ = ~std::uint64_t{0};
+};
+
+// Of two things that have a time and an order.
+template <class One, class Other>
+constexpr bool is_before(const One& one, const Other& other) {
+  return one.at != other.at ? one.at < other.at : one.order < other.order;
+}
+
+// Events that are added at the end and taken from the front, one behind the other in memory.
+template <class Item>
+class EventRow {
+ public:
+  bool empty() const { return next_ == end_; }
+  std::size_t size() const { return end_ - next_; }
+  // Requires, of these: it is not empty.
+  const Item& front() const { return items_[next_]; }
+  const Item& back() const { return items_[end_ - 1]; }
+  void drop_front() {
+    if (++next_ == end_) next_ = end_ = 0;
+  }
+  Item* begin() { return items_.get() + next_; }
+
+  // Room for so many items behind the last; `added` says how many have been written there.
+  Item* room_for(std::size_t items) {
+    if (end_ + items > capacity_) [[unlikely]]
+      make_room(items);
+    return items_.get() + end_;
+  }
+  void added(std::size_t items) { end_ += items; }
+
+ private:
+  static constexpr std::size_t kFirstRoom = 256;
+
+  // Most of a full row has been taken, or it becomes twice as long: either is seldom enough to cost nothing.
+  [[gnu::noinline]] void make_room(std::size_t items) {
+    const std::size_t waiting = size();
+    std::unique_ptr<Item[]> longer;
+    if (2 * (waiting + items) > capacity_) {
+      capacity_ = std::max(kFirstRoom, 2 * (waiting + items));
+      longer = std::make_unique_for_overwrite<Item[]>(capacity_);
+    }
+    std::copy_n(begin(), waiting, longer ? longer.get() : items_.get());
+    if (longer) items_ = std::move(longer);
+    end_ = waiting;
+    next_ = 0;
+  }
+
+  std::unique_ptr<Item[]> items_;
+  std::size_t next_ = 0, end_ = 0, capacity_ = 0;
+};
+
+// An event as the queue keeps it.
+struct FiledEvent {
+  static constexpr unsigned kKindBits = 8;
+  SimTime at;
+  EventOrder order;
+  std::uint64_t stamp = 0;
+  std::uint64_t payload_and_kind = 0;
+  std::uint64_t payload() const { return payload_and_kind >> kKindBits; }
+};
+
+// Events of which the next one is always known.
+class EventHeap {
+ public:
+  EventHeap() { events_.reserve(256); }
+  bool empty() const { return events_.empty(); }
+  // Requires, of these: it is not empty.
+  const FiledEvent& front() const { return events_.front(); }
+  FiledEvent take();
+  void push(const FiledEvent& event);
+
+ private:
+  std::vector<FiledEvent> events_;  // the next event is at the front
+};
 
 // Something that will happen. The meaning of `payload` and `stamp` depends on the kind. If the stamp no longer matches,
 // the event is stale and nothing happens.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/engine/contacts.hpp"
+
 namespace fleetproof {
 namespace {
 

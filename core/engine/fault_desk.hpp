@@ -14,7 +14,7 @@ class FaultDesk {
   struct Ports {
     ActionsPort actions;
     AgentHostPort agents;
-    ContactsPort contacts;
+    Contacts& contacts;
     HaltsPort halts;
   };
   FaultDesk(RunContext& run, const Ports& ports);

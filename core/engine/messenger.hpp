@@ -1,12 +1,15 @@
+// Messages from sender to inbox.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "core/engine/hearers.hpp"
-#include "core/engine/inbox.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
 #include "core/radio/message_pool.hpp"
@@ -14,6 +17,40 @@
 #include "core/radio/radio_channel.hpp"
 
 namespace fleetproof {
+
+// The unread messages of an AGV, oldest first. A message is named by its slot in the message pool.
+class Inbox {
+ public:
+  bool empty() const { return read_ == end_; }
+  std::span<const std::uint32_t> unread() const { return {slots_.get() + read_, slots_.get() + end_}; }
+
+  void push(std::uint32_t slot) {
+    if (end_ == capacity_) make_room();
+    slots_[end_++] = slot;
+  }
+  // Requires: it is not empty.
+  std::uint32_t take() {
+    const std::uint32_t slot = slots_[read_++];
+    if (empty()) clear();
+    return slot;
+  }
+  void clear() { read_ = end_ = 0; }
+
+ private:
+  // Out of the way of `push`, which needs it seldom.
+  [[gnu::noinline]] void make_room() {
+    const std::uint32_t waiting = end_ - read_;
+    capacity_ = std::max(16U, 2 * waiting);
+    auto more = std::make_unique_for_overwrite<std::uint32_t[]>(capacity_);
+    std::ranges::copy(unread(), more.get());
+    slots_ = std::move(more);
+    read_ = 0;
+    end_ = waiting;
+  }
+
+  std::unique_ptr<std::uint32_t[]> slots_;
+  std::uint32_t read_ = 0, end_ = 0, capacity_ = 0;
+};
 
 // Messages between AGVs: a transmission has an air time of its own and one reception for each receiver in range. What
 // arrives waits in the receiver's inbox.

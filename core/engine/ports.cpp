@@ -5,23 +5,13 @@
 #include "core/engine/actions.hpp"
 #include "core/engine/activities.hpp"
 #include "core/engine/agent_host.hpp"
-#include "core/engine/agv_controller.hpp"
 #include "core/engine/battery.hpp"
-#include "core/engine/contacts.hpp"
-#include "core/engine/declarations.hpp"
-#include "core/engine/drives.hpp"
-#include "core/engine/fault_desk.hpp"
 #include "core/engine/halts.hpp"
 #include "core/engine/messenger.hpp"
-#include "core/engine/operator_desk.hpp"
 #include "core/engine/position_sensor.hpp"
-#include "core/engine/scanner.hpp"
 #include "core/engine/timers.hpp"
 
 namespace fleetproof {
-
-void ContactsPort::predict(EntityId body) const { part_->predict(body); }
-bool ContactsPort::foresees(EntityId one, EntityId other) const { return part_->foresees(one, other); }
 
 void BatteryPort::settle(AgvId agv) const { part_->settle(agv); }
 void BatteryPort::activity_changed(AgvId agv, bool drive_begins) const { part_->activity_changed(agv, drive_begins); }
@@ -59,14 +49,6 @@ void ActivitiesPort::end_turn_at(AgvId agv, const Vec2& heading) const { part_->
 void ActivitiesPort::end_rolling(AgvId agv) const { part_->end_rolling(agv); }
 void ActivitiesPort::stand(AgvId agv, const Pose& pose) const { part_->stand(agv, pose); }
 
-void DrivesPort::begin(AgvId agv, const Lane& lane, double from_m, double entry_mps, const Lane* next) const {
-  part_->begin(agv, lane, from_m, entry_mps, next);
-}
-void DrivesPort::replan(AgvId agv) const { part_->replan(agv); }
-void DrivesPort::release_next(AgvId agv, const Lane& next) const { part_->release_next(agv, next); }
-LegEnd DrivesPort::leg_ends(AgvId agv) const { return part_->leg_ends(agv); }
-std::uint32_t DrivesPort::begun(AgvId agv) const { return part_->begun(agv); }
-
 bool ActionsPort::accept(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) const {
   return part_->accept(agv, call, segment, load);
 }
@@ -87,36 +69,9 @@ void HaltsPort::end(AgvId agv, std::uint64_t number) const { part_->end(agv, num
 void HaltsPort::end_all(AgvId agv, Halt::Reason reason) const { part_->end_all(agv, reason); }
 void HaltsPort::forget(AgvId agv) const { part_->forget(agv); }
 
-void FaultDeskPort::load_taken_up(AgvId agv, TransportId transport) const { part_->load_taken_up(agv, transport); }
-void FaultDeskPort::end_halts_of(AgvId agv) const { part_->end_halts_of(agv); }
-
-void OperatorDeskPort::call(AgvId agv, Assist what, std::uint64_t halt) const { part_->call(agv, what, halt); }
-
-void ScannerPort::drive_begins(AgvId agv) const { part_->drive_begins(agv); }
-void ScannerPort::set_muted(AgvId agv, bool muted) const { part_->set_muted(agv, muted); }
-
 std::int64_t TimersPort::now_ns(AgvId agv) const { return part_->now_ns(agv); }
 void TimersPort::set(AgvId agv, std::uint32_t number, std::int64_t at_ns) const { part_->set(agv, number, at_ns); }
 void TimersPort::forget(AgvId agv) const { part_->forget(agv); }
-
-void DeclarationsPort::set_safe_mode(AgvId agv, bool on) const { part_->set_safe_mode(agv, on); }
-void DeclarationsPort::set_waiting_for(AgvId agv, AgvId other) const { part_->set_waiting_for(agv, other); }
-void DeclarationsPort::note(AgvId agv, TraceKind kind, std::string_view text) const { part_->note(agv, kind, text); }
-bool DeclarationsPort::admits_note(AgvId agv) const { return part_->admits_note(agv); }
-void DeclarationsPort::leave_out(AgvId agv, std::uint64_t notes) const { part_->leave_out(agv, notes); }
-void DeclarationsPort::describe(AgvId agv, std::string_view kind) const { part_->describe(agv, kind); }
-bool DeclarationsPort::message_sent(AgvId agv, std::uint64_t hash) const { return part_->message_sent(agv, hash); }
-void DeclarationsPort::set_state(AgvId agv, std::string_view state) const { part_->set_state(agv, state); }
-void DeclarationsPort::believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns) const {
-  part_->believe(agv, about, where, as_of_ns);
-}
-void DeclarationsPort::end_activation(AgvId agv) const { part_->end_activation(agv); }
-void DeclarationsPort::forget(AgvId agv) const { part_->forget(agv); }
-
-fp_controller* AgvControllerPort::handle_of(AgvId agv) const { return part_->handle_of(agv); }
-void AgvControllerPort::begin_activation(fp_controller& handle) const { part_->begin_activation(handle); }
-bool AgvControllerPort::end_activation(fp_controller& handle) const { return part_->end_activation(handle); }
-void AgvControllerPort::forget(AgvId agv) const { part_->forget(agv); }
 
 void AgentHostPort::tell(AgvId agv, const fp_event& event) const { part_->tell(agv, event); }
 bool AgentHostPort::is_up(AgvId agv) const { return part_->is_up(agv); }

@@ -10,9 +10,9 @@
 #include "core/scenario/faults.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
-// What the parts of the engine ask of each other. A part sees another part only as a port: a pointer with the few
-// functions that others need. Each function passes its call on to the part (ports.cpp) with neither a virtual call nor
-// a decision, and its contract stands here or, where the words are the same, at the part.
+// What the parts of the engine ask of each other. A part that several others call is seen by them only as a port: a
+// pointer with the few functions that they need. Each function passes its call on to the part (ports.cpp) with neither
+// a virtual call nor a decision, and its contract stands here or, where the words are the same, at the part.
 namespace fleetproof {
 
 class Actions;
@@ -30,18 +30,6 @@ class OperatorDesk;
 class PositionSensor;
 class Scanner;
 class Timers;
-
-class ContactsPort {
- public:
-  explicit ContactsPort(Contacts& part) : part_(&part) {}
-  // Sets an event for each touch that the body's current piece leads to.
-  void predict(EntityId body) const;
-  // Whether a touch of these two is predicted.
-  bool foresees(EntityId one, EntityId other) const;
-
- private:
-  Contacts* part_;
-};
 
 class BatteryPort {
  public:
@@ -103,26 +91,6 @@ class ActivitiesPort {
   Activities* part_;
 };
 
-// How a leg of a drive has ended.
-struct LegEnd {
-  enum class Kind : std::uint8_t { NextLegBegins, Arrived, Halted } kind = Kind::Arrived;
-  double way_m = 0.0;      // Halted: along the lane
-  double speed_mps = 0.0;  // Arrived: with which the AGV passes the station
-};
-
-class DrivesPort {
- public:
-  explicit DrivesPort(Drives& part) : part_(&part) {}
-  void begin(AgvId agv, const Lane& lane, double from_m, double entry_mps, const Lane* next) const;
-  void replan(AgvId agv) const;
-  void release_next(AgvId agv, const Lane& next) const;
-  LegEnd leg_ends(AgvId agv) const;
-  std::uint32_t begun(AgvId agv) const;
-
- private:
-  Drives* part_;
-};
-
 // The lanes that an AGV drives or is going to drive, each null if there is none.
 struct LanesAhead {
   const Lane* current = nullptr;  // of the action under way
@@ -160,35 +128,6 @@ class HaltsPort {
   Halts* part_;
 };
 
-class FaultDeskPort {
- public:
-  explicit FaultDeskPort(FaultDesk& part) : part_(&part) {}
-  void load_taken_up(AgvId agv, TransportId transport) const;
-  void end_halts_of(AgvId agv) const;
-
- private:
-  FaultDesk* part_;
-};
-
-class OperatorDeskPort {
- public:
-  explicit OperatorDeskPort(OperatorDesk& part) : part_(&part) {}
-  void call(AgvId agv, Assist what, std::uint64_t halt) const;
-
- private:
-  OperatorDesk* part_;
-};
-
-class ScannerPort {
- public:
-  explicit ScannerPort(Scanner& part) : part_(&part) {}
-  void drive_begins(AgvId agv) const;
-  void set_muted(AgvId agv, bool muted) const;
-
- private:
-  Scanner* part_;
-};
-
 class TimersPort {
  public:
   explicit TimersPort(Timers& part) : part_(&part) {}
@@ -198,37 +137,6 @@ class TimersPort {
 
  private:
   Timers* part_;
-};
-
-class DeclarationsPort {
- public:
-  explicit DeclarationsPort(Declarations& part) : part_(&part) {}
-  void set_safe_mode(AgvId agv, bool on) const;
-  void set_waiting_for(AgvId agv, AgvId other) const;
-  void note(AgvId agv, TraceKind kind, std::string_view text) const;
-  bool admits_note(AgvId agv) const;
-  void leave_out(AgvId agv, std::uint64_t notes) const;
-  void describe(AgvId agv, std::string_view kind) const;
-  bool message_sent(AgvId agv, std::uint64_t hash) const;
-  void set_state(AgvId agv, std::string_view state) const;
-  void believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns) const;
-  void end_activation(AgvId agv) const;
-  void forget(AgvId agv) const;
-
- private:
-  Declarations* part_;
-};
-
-class AgvControllerPort {
- public:
-  explicit AgvControllerPort(AgvController& part) : part_(&part) {}
-  fp_controller* handle_of(AgvId agv) const;
-  void begin_activation(fp_controller& handle) const;
-  bool end_activation(fp_controller& handle) const;
-  void forget(AgvId agv) const;
-
- private:
-  AgvController* part_;
 };
 
 class AgentHostPort {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "core/engine/contacts.hpp"
+#include "core/engine/operator_desk.hpp"
+
 namespace fleetproof {
 
 Scanner::Scanner(RunContext& run, const Ports& ports) : run_(run), ports_(ports), slices_(run.agvs.size()) {}

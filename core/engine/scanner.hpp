@@ -13,9 +13,9 @@ namespace fleetproof {
 class Scanner {
  public:
   struct Ports {
-    ContactsPort contacts;
+    Contacts& contacts;
     HaltsPort halts;
-    OperatorDeskPort operator_desk;
+    OperatorDesk& operator_desk;
   };
   Scanner(RunContext& run, const Ports& ports);
 

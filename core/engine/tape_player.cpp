@@ -3,6 +3,7 @@
 #include "core/base/error.hpp"
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/controller_table.hpp"
+#include "core/engine/declarations.hpp"
 #include "core/engine/notes.hpp"
 
 namespace fleetproof {

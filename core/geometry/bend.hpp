@@ -1,3 +1,4 @@
+// How fast a Bezier curve bends, with bounds that hold on the whole curve.
 #pragma once
 
 #include <array>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/geometry/biarc.hpp"
+#include "core/geometry/arc.hpp"
 
 namespace fleetproof {
 namespace {

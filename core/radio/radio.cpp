@@ -2,8 +2,83 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+
+#include "core/base/random.hpp"
 
 namespace fleetproof {
+namespace {
+
+// The Lomax quantile for scale 1.
+double lomax(double share, double shape) { return natural_exp(-natural_log(1.0 - share) / shape) - 1.0; }
+
+}  // namespace
+
+DelayModel::DelayModel(const RadioSetup& setup)
+    : model_(setup.delay_model), delay_s_(setup.delay_s), constant_(seconds(setup.delay_s)), tail_(setup.delay_tail) {
+  scale_ = (tail_.median_share - tail_.min_share) / lomax(0.5, tail_.shape);
+}
+
+Duration DelayModel::heavy_tail(double share) const {
+  double of_nominal = tail_.min_share + scale_ * lomax(share, tail_.shape);
+  if (tail_.cap_share > 0.0) of_nominal = std::min(of_nominal, tail_.cap_share);
+  return seconds(delay_s_ * of_nominal);
+}
+
+namespace {
+
+auto in_order_of(const RecordedMessage& message) { return std::tuple(message.sender, message.receiver, message.sent); }
+
+}  // namespace
+
+RecordedRadio::RecordedRadio(std::shared_ptr<const RadioTrace> trace) : trace_(std::move(trace)) {
+  if (empty()) return;
+  period_ = std::ranges::max_element(*trace_, {}, &RecordedMessage::sent)->sent +
+            Duration{1};  // the last instant belongs to the recording
+}
+
+const RecordedMessage* RecordedRadio::at(AgvId sender, AgvId receiver, SimTime t) const {
+  const auto first_from = [&](Duration from) -> const RecordedMessage* {
+    const auto found = std::ranges::lower_bound(*trace_, std::tuple(sender, receiver, from), {}, in_order_of);
+    const bool of_this_pair = found != trace_->end() && found->sender == sender && found->receiver == receiver;
+    return of_this_pair ? &*found : nullptr;
+  };
+  if (const auto* message = first_from(t.time_since_epoch() % period_)) return message;
+  return first_from(Duration::zero());
+}
+
+namespace {
+
+// Kinds of draws under the key of external sources.
+constexpr std::uint32_t kOnProcess = 1, kLossKey = 2;
+
+OutageLaw on_and_off(const RadioSource& source) {
+  return {.sojourn = OutageLaw::Sojourn::Exponential,
+          .bad_share = source.mean_on_s / (source.mean_on_s + source.mean_off_s),
+          .mean_bad_s = source.mean_on_s};
+}
+
+}  // namespace
+
+RadioSources::RadioSources(const std::vector<RadioSource>& sources, std::uint64_t key) {
+  for (const RadioSource& source : sources) {
+    const auto number = static_cast<std::uint32_t>(sources_.size());
+    sources_.push_back({.at_m = Vec2(source.x_m, source.y_m),
+                        .range_m = source.range_m,
+                        .loss = source.loss,
+                        .on = OutageProcess(on_and_off(source), {.key = key, .kind = kOnProcess, .a = number, .b = 0}),
+                        .loss_key = word64(philox(key, {0, kLossKey << 1, number, 0}), 0)});
+  }
+}
+
+bool RadioSources::destroy(const MessageKey& message, const Vec2& receiver_m) {
+  for (Source& source : sources_) {
+    if ((receiver_m - source.at_m).norm() > source.range_m || !source.on.bad_at(message.sent)) continue;
+    if (unit_interval(word64(draw_for(message, source.loss_key), 0)) < source.loss) return true;
+  }
+  return false;
+}
+
 namespace {
 
 // The kinds of processes and draws under the key of radio states. RadioPlaces uses 1 to 3, RadioCrossings uses 10.

@@ -1,3 +1,4 @@
+// The radio: what happens to each message between sender and receiver.
 #pragma once
 
 #include <algorithm>
@@ -8,19 +9,74 @@
 #include <vector>
 
 #include "core/base/random.hpp"
-#include "core/radio/delay_model.hpp"
+#include "core/geometry/pose.hpp"
 #include "core/radio/given_fates.hpp"
 #include "core/radio/message_key.hpp"
 #include "core/radio/outage_process.hpp"
 #include "core/radio/radio_channel.hpp"
-#include "core/radio/radio_crossings.hpp"
 #include "core/radio/radio_places.hpp"
-#include "core/radio/radio_sources.hpp"
-#include "core/radio/recorded_radio.hpp"
 #include "core/scenario/draw_numbers.hpp"
 #include "core/scenario/radio_setup.hpp"
 
 namespace fleetproof {
+
+// Turns one uniform draw into the delay of a transmission, by the quantile function of the delay. The same draw
+// therefore gives comparable delays at every nominal delay. The air time is not included: the engine uses the longer
+// of delay and air time.
+class DelayModel {
+ public:
+  explicit DelayModel(const RadioSetup& setup);
+  // Requires: share in [0, 1).
+  Duration at(double share) const {
+    if (model_ == RadioSetup::DelayModel::Constant) return constant_;
+    return model_ == RadioSetup::DelayModel::Uniform ? seconds(delay_s_ * share) : heavy_tail(share);
+  }
+
+ private:
+  Duration heavy_tail(double share) const;
+
+  RadioSetup::DelayModel model_;
+  double delay_s_;
+  Duration constant_;
+  DelayTailSetup tail_;
+  double scale_ = 0.0;  // scale of the Lomax part, as a share of delay_s
+};
+
+// A recording as a function of time. It repeats after its last instant. That instant is the same for all pairs, so
+// that losses at the same instant stay at the same instant.
+class RecordedRadio {
+ public:
+  explicit RecordedRadio(std::shared_ptr<const RadioTrace> trace);
+  bool empty() const { return trace_ == nullptr || trace_->empty(); }
+  // The first recorded message of this pair at or after t; null if the recording does not contain the pair.
+  const RecordedMessage* at(AgvId sender, AgvId receiver, SimTime t) const;
+
+ private:
+  std::shared_ptr<const RadioTrace> trace_;
+  Duration period_{};
+};
+
+// External sources, see RadioSource. Each source has its own randomness, keyed by its number. Whether a source is on
+// depends on key and time only. Whether it destroys a message depends on the message and the place of the receiver.
+// The draws of one source do not depend on the other sources.
+// Threads: one object serves one run on one thread.
+class RadioSources {
+ public:
+  RadioSources(const std::vector<RadioSource>& sources, std::uint64_t key);
+
+  // Whether a source destroys this message at a receiver at this place.
+  bool destroy(const MessageKey& message, const Vec2& receiver_m);
+  OutageProcess& on_process(std::size_t source) { return sources_[source].on; }  // "bad" means: the source is on
+
+ private:
+  struct Source {
+    Vec2 at_m;
+    double range_m, loss;
+    OutageProcess on;
+    std::uint64_t loss_key;
+  };
+  std::vector<Source> sources_;
+};
 
 // What happens to one message at one receiver. Air time and interference are not included.
 struct Fate {

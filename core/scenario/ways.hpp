@@ -10,7 +10,7 @@ namespace fleetproof {
 
 // The one search for best ways over the lanes of a map (Dijkstra). What a way costs and which queue holds the open
 // stations is the caller's choice: the operator and the laws ask for lengths, the timetable of the generators for times
-// in whole nanoseconds with a queue of its own (generators/map/calendar_queue.hpp).
+// in whole nanoseconds with a queue of its own (generators/map/timetable.hpp).
 inline constexpr std::uint32_t kNoLane = ~std::uint32_t{0};
 
 template <class Cost>

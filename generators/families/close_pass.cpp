@@ -1,11 +1,10 @@
-#include "generators/families/close_pass.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 
+#include "generators/families/families.hpp"
 #include "generators/families/layout_builder.hpp"
 
 namespace fleetproof {

@@ -1,9 +1,8 @@
-#include "generators/families/corridor_sidings.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "generators/families/families.hpp"
 #include "generators/families/layout_builder.hpp"
 
 namespace fleetproof {

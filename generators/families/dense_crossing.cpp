@@ -1,7 +1,6 @@
-#include "generators/families/dense_crossing.hpp"
-
 #include <fmt/format.h>
 
+#include "generators/families/families.hpp"
 #include "generators/families/layout_builder.hpp"
 
 namespace fleetproof {

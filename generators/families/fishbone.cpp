@@ -1,11 +1,10 @@
-#include "generators/families/fishbone.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
 #include "core/geometry/rotation.hpp"
+#include "generators/families/families.hpp"
 #include "generators/families/layout_builder.hpp"
 
 namespace fleetproof {

@@ -7,13 +7,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "generators/families/aisle_grid.hpp"
-#include "generators/families/close_pass.hpp"
-#include "generators/families/corridor_sidings.hpp"
-#include "generators/families/dense_crossing.hpp"
-#include "generators/families/fishbone.hpp"
-#include "generators/families/loop_spurs.hpp"
-#include "generators/families/random_planar.hpp"
+#include "generators/families/families.hpp"
 #include "generators/map/waiting_room.hpp"
 #include "generators/text/text_file.hpp"
 
@@ -23,41 +17,6 @@ namespace {
 constexpr std::uint32_t kClosedOneIn = 10;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-constexpr Entry<MakeLayout> kFamilies[] = {
-    {"aisle-grid",
-     "4-6 aisles between 2-3 cross aisles, one-way or two-way, with storage bays, docks, parking and chargers; 49-83 "
-     "segments",
-     make_aisle_grid},
-    {"corridor-sidings",
-     "one two-way lane of 30-60 m with sidings to let other AGVs pass, and storage spurs; 17-39 segments",
-     make_corridor_sidings},
-    {"loop-spurs",
-     "a one-way loop of 60-200 m with Bezier bends and 8-30 spurs of 3.5-6 m: no AGV can overtake another; 20-87 "
-     "segments",
-     make_loop_spurs},
-    {"random-planar",
-     "16-34 stations at random places, lanes at all angles and 4-9 m long, 40-100 % two-way; places to wait lie in "
-     "the middle of the traffic",
-     make_random_planar},
-    {"fishbone",
-     "two diagonal cross aisles of 30-60 degrees with picking aisles above and below; an AGV that picks blocks its "
-     "aisle",
-     make_fishbone},
-    {"dense-crossing",
-     "3-6 x 3-6 one-way lines 2.4-4 m apart: segments shorter than usual, traffic at every crossing; 10-24 spurs at "
-     "the edge",
-     make_dense_crossing},
-    {"close-pass",
-     "a one-way ring of two lanes that bend and kink, with 8-14 bars that end beside the lane across, entered and left "
-     "with either end first; 22-48 segments",
-     make_close_pass},
-    {"plant",
-     "zones of aisles inside rings of two one-way lanes, with docks, buffer lanes and charger rows; 20-10000 stations, "
-     "as in plant/2000, else 40 for each AGV and at most 5000; more of one thing, as in plant/tight-gap: crossing, "
-     "curve-beside-lane, tight-gap, overhang-pass, bottleneck, four-way, back-in",
-     make_plant},
-};
 
 Layout make(const FamilyRange& choice, Draws& draws, std::uint32_t fleet_size) {
   if (choice.family->make != static_cast<MakeLayout>(make_plant)) return choice.family->make(draws, choice.range);
@@ -105,7 +64,7 @@ FamilyRange plant_range(const Entry<MakeLayout>& family, std::string_view words)
 
 }  // namespace
 
-std::span<const Entry<MakeLayout>> layout_families() { return kFamilies; }
+std::span<const Entry<MakeLayout>> layout_families() { return kLayoutFamilies; }
 
 const Entry<MakeLayout>& layout_family(std::string_view name) {
   if (const auto* found = find_entry(layout_families(), name)) return *found;

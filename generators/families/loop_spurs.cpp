@@ -1,10 +1,9 @@
-#include "generators/families/loop_spurs.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/geometry/rotation.hpp"
+#include "generators/families/families.hpp"
 #include "generators/families/layout_builder.hpp"
 
 namespace fleetproof {

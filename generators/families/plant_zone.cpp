@@ -4,8 +4,134 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
+
+#include "generators/families/layout_builder.hpp"
 
 namespace fleetproof {
+namespace {
+
+struct Between {
+  std::int64_t low, high, step;
+};
+
+std::int64_t draw(Draws& draws, const Between& normal, const Between& provoking, bool provoked) {
+  const Between& range = provoked ? provoking : normal;
+  return draw_between(draws, range.low, range.high, range.step);
+}
+
+}  // namespace
+
+PlantKnobs draw_plant_knobs(Draws& draws, const PlantWish& wish) {
+  const bool stress = wish.range == Range::Stress;
+  // One draw for each, whatever is asked for, so that a plant with one knob turned is like the plant without it.
+  const auto turned = [&](Provocation one) {
+    const bool drawn = draws.below(2) == 0;
+    return wish.provocation == one || (stress && drawn);
+  };
+  PlantKnobs k;
+  k.all_mouths_cross = turned(Provocation::Crossing);
+  const bool curves = turned(Provocation::CurveBesideLane), tight = turned(Provocation::TightGap),
+             overhang = turned(Provocation::OverhangPass) && !tight;
+  k.bottleneck = turned(Provocation::Bottleneck);
+  k.four_way = turned(Provocation::FourWay);
+  k.side_lanes_everywhere = curves;
+  k.lane_gap = overhang ? draw_between(draws, 100, 150, 10) : draw(draws, {300, 600, 50}, {0, 120, 10}, tight);
+  k.side_gap = draw(draws, {1200, 1700, 50}, {0, 300, 20}, curves);
+  k.corner_radius = draw(draws, {2000, 3000, 50}, {1200, 1600, 50}, overhang);
+  k.mouth_radius = draw_between(draws, 1500, 2200, 50);
+  k.stop_pitch = draw(draws, {1000, 1500, 50}, {500, 1500, 50}, stress);
+  k.aisle_rest = draw_between(draws, 2000, 3600, 100);
+  k.corridor = draw_between(draws, 6000, 12000, 500);
+  // Every second plant. The corridors say which, so that this takes no draw of its own.
+  k.back_in = k.corridor >= 9'000 || wish.provocation == Provocation::BackIn;
+  return k;
+}
+
+namespace {
+
+constexpr std::int64_t kLongestStep_mm = 12'000;
+
+}  // namespace
+
+PlantRing::PlantRing(LayoutBuilder& builder, std::string name, PointMm low, const RingShape& shape)
+    : builder_(builder), name_(std::move(name)), low_(low), shape_(shape) {}
+
+PointMm PlantRing::point(Side side, std::int64_t place, std::int64_t outwards) const {
+  const std::int64_t w = shape_.width, h = shape_.height;
+  switch (side) {
+    case South:
+      return {low_.x + place, low_.y - outwards};
+    case East:
+      return {low_.x + w + outwards, low_.y + place};
+    case North:
+      return {low_.x + w - place, low_.y + h + outwards};
+    case West:
+      return {low_.x - outwards, low_.y + h - place};
+  }
+  return low_;
+}
+
+StationId PlantRing::on_lane(Lane lane, Side side, std::int64_t place) {
+  auto& stations = stations_[lane][side];
+  const auto found = stations.find(place);
+  if (found != stations.end()) return found->second;
+  auto name = fmt::format("{}.{}{}{}", name_, "senw"[side], lane == Inner ? "i" : "o", place / 10);
+  return stations[place] = builder_.station(std::move(name), point(side, place, outwards(lane)));
+}
+
+StationId PlantRing::mouth(Side side, std::int64_t place, Facing facing, std::int64_t radius, bool crosses) {
+  const bool inside = facing == Facing::Inside;
+  const Lane near = inside ? Inner : outermost_lane();
+  const std::int64_t at = inside ? -radius : outwards(near) + radius;
+  const StationId made = builder_.station(fmt::format("{}.{}{}{}", name_, "senw"[side], inside ? "m" : "g", place / 10),
+                                          point(side, place, at));
+  join(near, side, place, radius, made);
+  if (crosses && shape_.has_outer_lane) join(inside ? Outer : Inner, side, place, radius + shape_.lane_pitch, made);
+  return made;
+}
+
+void PlantRing::join(Lane lane, Side side, std::int64_t place, std::int64_t reach, StationId mouth) {
+  const std::int64_t ahead = lane == Outer ? reach : -reach;
+  const PointMm corner = point(side, place, outwards(lane));
+  builder_.quarter_bend(on_lane(lane, side, place - ahead), corner, mouth, Way::Forward);
+  builder_.quarter_bend(mouth, corner, on_lane(lane, side, place + ahead), Way::Forward);
+}
+
+void PlantRing::connect() {
+  connect(Inner);
+  if (shape_.has_outer_lane) connect(Outer);
+}
+
+void PlantRing::divide(Lane lane, Side side) {
+  std::vector<std::int64_t> places;
+  for (const auto& [place, station] : stations_[lane][side]) places.push_back(place);
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const std::int64_t stretch = places[i + 1] - places[i], steps = (stretch + kLongestStep_mm - 1) / kLongestStep_mm;
+    for (std::int64_t k = 1; k < steps; ++k) on_lane(lane, side, places[i] + stretch * k / steps);
+  }
+}
+
+void PlantRing::connect(Lane lane) {
+  const Way way = lane == Outer ? Way::Forward : Way::Backward;
+  const std::int64_t radius = shape_.corner_radius;
+  for (const Side side : {South, East, North, West}) {
+    on_lane(lane, side, radius);
+    on_lane(lane, side, length(side) - radius);
+    divide(lane, side);
+    const auto& stations = stations_[lane][side];
+    for (auto next = std::next(stations.begin()); next != stations.end(); ++next)
+      builder_.straight(std::prev(next)->second, next->second, way);
+  }
+  for (const Side side : {South, East, North, West}) {
+    const auto after = static_cast<Side>((side + 1) % 4);
+    const std::int64_t out = outwards(lane);
+    const PointMm here = point(side, length(side), out), there = point(after, 0, out);
+    const PointMm corner = side % 2 == 0 ? PointMm{there.x, here.y} : PointMm{here.x, there.y};
+    builder_.quarter_bend(stations_[lane][side].rbegin()->second, corner, stations_[lane][after].begin()->second, way);
+  }
+}
+
 namespace {
 
 // Millimetres.

@@ -1,10 +1,9 @@
-#include "generators/families/random_planar.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "generators/families/families.hpp"
 #include "generators/families/layout_builder.hpp"
 #include "generators/map/reachability.hpp"
 

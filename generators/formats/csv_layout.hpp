@@ -1,3 +1,4 @@
+// Layouts as tables in CSV: reading and writing them.
 #pragma once
 
 #include <string>
@@ -41,5 +42,10 @@ Layout parse_csv_layout(std::string_view text, std::string_view source, std::vec
 
 // The word for a node without any purpose.
 inline constexpr std::string_view kNoPurpose = "none";
+
+// The layout as tables that parse_csv_layout reads. Reading it gives the same layout, but a layout without a name is
+// named after the file, and twins become one segment unless the reader keeps them. A layout without segments cannot be
+// read again.
+std::string to_csv(const Layout& layout);
 
 }  // namespace fleetproof

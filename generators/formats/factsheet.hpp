@@ -1,3 +1,4 @@
+// Vehicle types from VDA 5050 factsheets, with the loads that they carry.
 #pragma once
 
 #include <string>

@@ -5,27 +5,28 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "core/base/tolerances.hpp"
+#include "core/scenario/layout.hpp"
 #include "core/scenario/vehicle_fields.hpp"
 #include "generators/formats/heading.hpp"
 #include "generators/formats/left_out.hpp"
-#include "generators/formats/lif_actions.hpp"
-#include "generators/formats/lif_corridor.hpp"
-#include "generators/formats/lif_layouts.hpp"
 #include "generators/formats/lif_left_out.hpp"
 #include "generators/formats/lif_spots.hpp"
 #include "generators/formats/lif_trajectories.hpp"
 #include "generators/formats/lif_travel.hpp"
-#include "generators/formats/lif_tree.hpp"
-#include "generators/formats/lif_turns.hpp"
 #include "generators/formats/lif_types.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/map/antiparallel.hpp"
@@ -36,6 +37,179 @@
 
 namespace fleetproof {
 namespace {
+
+// A layout means something else without them, or nothing.
+constexpr std::string_view kNeeded[] = {
+    "layouts",    "nodes",      "nodeId",        "nodePosition",       "x",
+    "y",          "edges",      "edgeId",        "startNodeId",        "endNodeId",
+    "actionType", "knotVector", "controlPoints", "interactionNodeIds", "vehicleTypeId",
+    "seriesName", "loaded",     "unloaded"};
+
+bool says_nothing(const std::string& key, const JsonValue& value) {
+  return value.shape == JsonValue::Shape::Scalar && std::holds_alternative<std::nullptr_t>(value.scalar) &&
+         std::ranges::find(kNeeded, key) == std::end(kNeeded);
+}
+
+void drop_nulls(JsonValue& value) {
+  std::vector<std::string> keys;
+  std::vector<JsonValue> items;
+  for (std::size_t i = 0; i < value.items.size(); ++i) {
+    drop_nulls(value.items[i]);
+    if (value.shape == JsonValue::Shape::Object) {
+      if (says_nothing(value.keys[i], value.items[i])) continue;
+      keys.push_back(std::move(value.keys[i]));
+    }
+    items.push_back(std::move(value.items[i]));
+  }
+  value.keys = std::move(keys);
+  value.items = std::move(items);
+}
+
+// The JSON text of a LIF file. A key whose value is null is taken out: programs write it where they have no value. Keys
+// that LIF asks for stay, so that they are refused where they are read.
+JsonValue parse_lif_tree(std::string_view text, std::string_view source) {
+  auto root = parse_json(text, source);
+  drop_nulls(root);
+  return root;
+}
+
+// The keys of the left and the right side: as two drafts of LIF 2.0 and, between them, VDA 5050 spell them.
+constexpr const char* kSides[][2] = {
+    {"maximumLeftWidth", "maximumRightWidth"}, {"leftWidth", "rightWidth"}, {"maxLeft", "maxRight"}};
+
+double side_m(const JsonReader& corridor, const char* key) {
+  const auto side = corridor.find(key);
+  if (side && !(side->number() >= 0.0)) side->refuse("expected a width of 0 m or more");
+  return side ? side->number() : 0.0;
+}
+
+// How wide the corridors of an edge of LIF are, in metres: the widest of all rules, at most kWidestFloor_m; 0 without a
+// corridor. Throws InputError if a width is below 0.
+double corridor_width_m(const std::vector<JsonReader>& rules) {
+  double widest_m = 0.0;
+  for (const JsonReader& rule : rules) {
+    const auto corridor = rule.find("corridor");
+    if (!corridor) continue;
+    for (const auto& [left, right] : kSides)
+      widest_m = std::max(widest_m, side_m(*corridor, left) + side_m(*corridor, right));
+  }
+  return std::min(widest_m, kWidestFloor_m);
+}
+
+Purposes purpose_of_action(std::string_view type, const PurposeWords& own) {
+  if (const auto said = own.said_of(type)) return *said;
+  if (type == "pick" || type == "drop") return Purpose::Storage;
+  return type == "startCharging" ? Purposes(Purpose::Charging) : Purposes::from_bits(0);
+}
+
+// LIF 1.0 has one list of them, its successor two.
+std::vector<JsonReader> actions_of(const JsonReader& rule) {
+  std::vector<JsonReader> all;
+  for (const char* key : {"actions", "requiredActions", "feasibleActions"}) {
+    if (const auto list = rule.find(key)) std::ranges::copy(list->items(), std::back_inserter(all));
+  }
+  return all;
+}
+
+// What AGVs of all types do on a node or edge with these rules.
+Purposes purposes_of_actions(const std::vector<JsonReader>& rules, const PurposeWords& own) {
+  auto purposes = Purposes::from_bits(0);
+  for (const auto& rule : rules) {
+    for (const auto& action : actions_of(rule))
+      purposes = purposes | purpose_of_action(action.at("actionType").text(), own);
+  }
+  return purposes;
+}
+
+// Whether a rule forbids to pick or to drop there (forbiddenActionTypes).
+bool forbid_transfers(const std::vector<JsonReader>& rules) {
+  return std::ranges::any_of(rules, [](const JsonReader& rule) {
+    const auto forbidden = rule.find("forbiddenActionTypes");
+    return forbidden && std::ranges::any_of(forbidden->items(), [](const JsonReader& type) {
+             return type.text() == "pick" || type.text() == "drop";
+           });
+  });
+}
+
+struct ChosenLayout {
+  JsonReader layout;
+  std::set<std::string> elsewhere{};  // ids of the nodes of the other layouts
+  std::string sentence{};             // begins with file and line; empty if there was no choice
+};
+
+// Those of the file and of all its origins.
+std::vector<JsonReader> layouts_of(const JsonReader& root) {
+  const auto origins = root.find("origins");
+  if (!origins) return root.at("layouts").items();
+  std::vector<JsonReader> all;
+  if (const auto layouts = root.find("layouts")) all = layouts->items();
+  for (const auto& origin : origins->items()) {
+    const auto layouts = origin.find("layouts");
+    if (layouts) std::ranges::copy(layouts->items(), std::back_inserter(all));
+  }
+  return all;
+}
+
+std::string text_in(const JsonReader& layout, const char* key) {
+  const auto found = layout.find(key);
+  return found && found->is_text() ? found->text() : "";
+}
+
+// `"Hall" (level "2")`
+std::string called(const JsonReader& layout) {
+  const auto level = text_in(layout, "layoutLevelId");
+  return in_quotes(text_in(layout, "layoutId")) + (level.empty() ? "" : fmt::format(" (level {})", in_quotes(level)));
+}
+
+// An id is unique, a level is not: what is an id does not count as a level.
+std::vector<std::size_t> matching(const std::vector<JsonReader>& all, const std::string& wanted) {
+  for (const char* key : {"layoutId", "layoutLevelId"}) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (wanted.empty() || text_in(all[i], key) == wanted) found.push_back(i);
+    }
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+std::size_t place_of_choice(const JsonReader& holder, const std::vector<JsonReader>& all, const std::string& wanted) {
+  const auto found = matching(all, wanted);
+  if (found.size() == 1) return found[0];
+  std::string known;
+  for (const JsonReader& layout : all) known += (known.empty() ? "" : ", ") + called(layout);
+  if (wanted.empty())
+    holder.refuse(
+        fmt::format("there are {} layouts; choose one by its id or level (import --level, or level = \"...\" in a "
+                    "campaign): {}",
+                    all.size(), known));
+  const bool by_id = !found.empty() && text_in(all[found[0]], "layoutId") == wanted;
+  if (by_id)
+    holder.refuse(
+        fmt::format("{} layouts have the id {}; ids are unique: rename one", found.size(), in_quotes(wanted)));
+  holder.refuse(fmt::format("{} layouts have the id or level {}; choose one of: {}",
+                            found.empty() ? "no" : std::to_string(found.size()), in_quotes(wanted), known));
+}
+
+// The layout of a LIF file with this layoutId, or if there is none with this layoutLevelId, among the layouts of the
+// file and of all its origins. An empty `wanted` is the layout of a file that has one. Throws InputError that lists the
+// layouts if none or several match.
+ChosenLayout choose_layout(const JsonReader& root, const std::string& wanted) {
+  const auto all = layouts_of(root);
+  const auto holder = root.find("layouts") ? root.at("layouts") : root.at("origins");
+  if (all.empty()) holder.refuse("there is no layout; add one");
+  const auto chosen = place_of_choice(holder, all, wanted);
+  ChosenLayout found{all[chosen]};
+  if (all.size() > 1)
+    found.sentence = fmt::format("{}: of {} layouts, {} is read", holder.place(), all.size(), called(all[chosen]));
+  for (const auto& other : all) {
+    if (&other == &all[chosen]) continue;
+    if (const auto nodes = other.find("nodes")) {
+      for (const auto& node : nodes->items()) found.elsewhere.insert(node.at("nodeId").text());
+    }
+  }
+  return found;
+}
 
 constexpr Topic kElsewhere{"{0} edges lead to another layout and are left out ({1})"};
 constexpr Topic kForNobody{

@@ -1,3 +1,4 @@
+// Layouts in LIF (VDMA): reading one of the layouts of a file.
 #pragma once
 
 #include <string>

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scenario/segment.hpp"
+#include "core/scenario/layout.hpp"
 #include "generators/text/json_value.hpp"
 
 namespace fleetproof {

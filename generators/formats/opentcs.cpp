@@ -16,7 +16,6 @@
 #include "core/geometry/rotation.hpp"
 #include "generators/formats/heading.hpp"
 #include "generators/formats/left_out.hpp"
-#include "generators/formats/opentcs_drawing.hpp"
 #include "generators/formats/opentcs_left_out.hpp"
 #include "generators/formats/opentcs_positions.hpp"
 #include "generators/formats/opentcs_purposes.hpp"

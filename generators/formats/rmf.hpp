@@ -1,3 +1,4 @@
+// Layouts of Open-RMF: reading building files.
 #pragma once
 
 #include <cstdint>

@@ -1,13 +1,77 @@
+// Which stations an AGV can reach and leave again, heading included.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/scenario/lane_rules.hpp"
 #include "core/scenario/layout.hpp"
-#include "generators/map/drive_states.hpp"
+#include "generators/map/strong_components.hpp"
 
 namespace fleetproof {
+
+// What AGVs can do at a station and then go on, for ever, by whichever lane they come.
+struct StationUse {
+  bool passed = false;   // come, and go on, perhaps after a pick or drop
+  bool started = false;  // start there without a load
+  bool stopped = false;  // come without a load, stand there as the station asks, and go on without one
+  bool picks = false;    // come without a load, pick one, and go on with it
+  bool drops = false;    // come with a load, drop it, and go on without one
+};
+inline constexpr StationUse kEveryUse{true, true, true, true, true};
+
+// Where an AGV of one type can get on a map with rules, with a load and without one. How it may go on depends on the
+// lane by which it has come; a load is picked and dropped at stations. From every station where AGVs start, stop or
+// drop, a way without a load leads to every station where they pick or stop. carried_from() says where loads get.
+class DriveStates {
+ public:
+  // `vehicle_type` as in LaneRules. Requires: the map outlives the object.
+  DriveStates(const LogicalMap& map, std::string vehicle_type);
+
+  // Whether an AGV that leaves by this lane, empty, gets to all stations where AGVs pick or stop.
+  bool may_start_along(std::uint32_t lane) const;
+  bool permits(std::uint32_t lane, bool loaded) const { return traffic_[loaded].permitted[lane]; }
+  const std::vector<StationUse>& uses() const { return uses_; }  // by station
+  // Whether every load that AGVs pick can be dropped at every station where they drop.
+  bool carries_all() const { return carries_all_; }
+  // Where a load that is picked at `from` can be dropped, by station.
+  std::vector<bool> carried_from(StationId from) const;
+  // Whether a way leads from one station to the other, where the AGV may stop; it may be a trap.
+  bool reaches(StationId from, StationId to, bool loaded) const;
+
+ private:
+  // Of AGVs with a load, or of those without one, by the lane at whose end they are.
+  struct Traffic {
+    std::vector<bool> permitted;
+    // "There" is a station, or lanes that all lead to each other: the part of the map through which most ways lead.
+    std::vector<bool> comes_from_there, leads_there;
+  };
+
+  // At the end of a lane, with a load or without one. It may have been picked or dropped there.
+  static std::uint32_t state(std::uint32_t lane, bool loaded) { return 2 * lane + (loaded ? 1 : 0); }
+
+  LaneRules rules(bool loaded) const { return {*map_, vehicle_type_, loaded}; }
+  bool stops_after(std::uint32_t lane) const;
+  // Calls `visit` with each lane by which an AGV that has come by `lane` may go on.
+  template <class Visit>
+  void for_each_next(std::uint32_t lane, bool loaded, const Visit& visit) const;
+  std::vector<Arrow> onward(bool loaded) const;
+  void find_states_for_ever();
+  void find_ways(bool loaded);
+  void find_uses();
+  // The lanes that an AGV can drive which begins with one of `first`; if `among` is given, only through these states.
+  std::vector<bool> driven_from(const std::vector<std::uint32_t>& first, bool loaded,
+                                const std::vector<bool>* among) const;
+
+  const LogicalMap* map_;
+  std::string vehicle_type_;
+  std::array<Traffic, 2> traffic_;  // without a load, with one
+  std::vector<StationUse> uses_;    // by station
+  std::vector<bool> for_ever_;      // by state: whether AGVs come into it again and again
+  bool carries_all_ = false;
+};
 
 // Which stations of a logical map can be reached from which, under the rules of the plant. `type` is the place of a
 // vehicle type among those of the fleet. Requires: the map outlives the object.

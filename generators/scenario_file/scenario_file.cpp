@@ -2,17 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/catalogue.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/scenario/canonical_bytes.hpp"
+#include "core/scenario/scenario_fields.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
-#include "generators/scenario_file/field_reader.hpp"
 #include "generators/scenario_file/field_rules.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/text/json_value.hpp"
@@ -20,6 +25,100 @@
 
 namespace fleetproof {
 namespace {
+
+// The keys that a scenario file may contain for a struct, collected from the list of fields of the struct.
+class KnownKeys {
+ public:
+  // `place` is "key" or "group/key". A time may be given in seconds ("at_s") or in whole nanoseconds ("at_ns").
+  void add(std::string_view place, bool is_time);
+  // Throws InputError, with the nearest valid key, if `object` or a group in it contains another key.
+  void expect(const JsonReader& object) const;
+
+ private:
+  struct Group {
+    std::string name;  // empty: the object itself
+    std::vector<std::string> keys;
+  };
+  std::vector<Group> groups_{Group{}};
+};
+
+template <HasFields Setup>
+void expect_keys_of(const JsonReader& object, Setup& setup) {
+  KnownKeys known;
+  visit_fields(setup, [&](const Field& field, const auto& value) {
+    known.add(field.scenario_place(), std::is_same_v<std::remove_cvref_t<decltype(value)>, Duration>);
+  });
+  known.expect(object);
+}
+
+// A time. Its key ends in "_s" or "_ns"; a file that has both is refused. `in_ns`: whether the key ended in "_ns".
+struct FoundTime {
+  JsonReader reader;
+  bool in_ns = false;
+};
+
+// "drive" and "speed_mps" of "drive/speed_mps"; "" and "name" of "name".
+std::pair<std::string_view, std::string_view> parts_of(std::string_view place) {
+  const auto slash = place.find('/');
+  if (slash == std::string_view::npos) return {"", place};
+  return {place.substr(0, slash), place.substr(slash + 1)};
+}
+
+std::string in_nanoseconds(std::string_view key) { return std::string(key.substr(0, key.size() - 1)) + "ns"; }
+
+template <class Scalar>
+GivenValue as_given(const Scalar& value) {
+  return value;
+}
+GivenValue as_given(std::nullptr_t) { return std::monostate{}; }
+
+void KnownKeys::add(std::string_view place, bool is_time) {
+  const auto [name, key] = parts_of(place);
+  auto group = std::ranges::find(groups_, name, &Group::name);
+  if (group == groups_.end()) {
+    groups_.front().keys.emplace_back(name);
+    group = groups_.insert(groups_.end(), Group{std::string(name), {}});
+  }
+  group->keys.emplace_back(key);
+  if (is_time) group->keys.push_back(in_nanoseconds(key));
+}
+
+void KnownKeys::expect(const JsonReader& object) const {
+  for (const auto& [name, keys] : groups_) {
+    const auto reader = name.empty() ? std::optional(object) : object.find(name);
+    if (reader) reader->expect_object(std::vector<std::string_view>(keys.begin(), keys.end()));
+  }
+}
+
+// The value at "key" or "group/key". Throws InputError if it is absent and needed.
+std::optional<JsonReader> find_field(const JsonReader& object, const Field& field) {
+  const auto [group, key] = parts_of(field.scenario_place());
+  if (group.empty()) return field.needed ? object.at(key) : object.find(key);
+  const auto inner = object.find(group);
+  return inner ? inner->find(key) : std::nullopt;
+}
+
+std::optional<FoundTime> find_time(const JsonReader& object, const Field& field) {
+  const std::string ns_key = in_nanoseconds(field.key);
+  const auto in_s = object.find(field.key), in_ns = object.find(ns_key);
+  if (in_s && in_ns) in_s->refuse(fmt::format("the same duration is given as {}; keep one of them", ns_key));
+  if (in_ns) return FoundTime{*in_ns, true};
+  if (in_s) return FoundTime{*in_s, false};
+  if (field.needed) object.at(field.key);  // refuses
+  return std::nullopt;
+}
+
+// As `take` wants it.
+GivenValue given_by(const JsonReader& reader) {
+  if (reader.value().shape != JsonValue::Shape::Scalar) return std::monostate{};
+  return std::visit([](const auto& value) { return as_given(value); }, reader.value().scalar);
+}
+
+// A plain value: what `take` says of it, with its place.
+template <PlainValue Value>
+void read_value(const JsonReader& reader, const Field& field, Value& target) {
+  if (const auto sentence = take(field, given_by(reader), target); !sentence.empty()) reader.refuse(sentence);
+}
 
 // Ids by name. An error for an unknown name suggests the nearest name.
 class Names {

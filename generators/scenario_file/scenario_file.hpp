@@ -1,3 +1,4 @@
+// Scenario files: reading one.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// What makes a scenario invalid: its layout, its AGVs and their scripts.
 #pragma once
 
 #include "core/scenario/scenario.hpp"

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 
 namespace fleetproof {
 namespace {

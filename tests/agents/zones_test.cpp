@@ -8,8 +8,8 @@
 
 #include "core/agents/agent_type.hpp"
 #include "core/agents/membership.hpp"
-#include "core/agents/registrar.hpp"
 #include "core/agents/zone_map.hpp"
+#include "core/agents/zone_talk.hpp"
 #include "tests/agents/junction.hpp"
 
 namespace fleetproof::agents::zones_test {

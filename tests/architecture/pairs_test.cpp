@@ -23,16 +23,22 @@ const std::map<std::string, std::string> kDeclaredElsewhere = {
 
 // Files that have one header together: the catalogue declares one function of each.
 struct Catalogue {
-  std::string ending, header;
+  std::string folder, ending, header;
 };
-const std::vector<Catalogue> kCatalogues = {{"_verb.cpp", "campaign/cli/verbs.hpp"},
-                                            {"_methods.cpp", "campaign/cli/evidence/evidence_methods.hpp"}};
+const std::vector<Catalogue> kCatalogues = {
+    {"campaign/cli/", "_verb.cpp", "campaign/cli/verbs.hpp"},
+    {"campaign/cli/", "_methods.cpp", "campaign/cli/evidence/evidence_methods.hpp"},
+    {"generators/families/", ".cpp", "generators/families/families.hpp"}};
 
-std::string header_of(const std::string& path) {
+// Its own, if it has one.
+std::string header_of(const std::string& path, const std::map<std::string, const Source*>& headers) {
+  const std::string stem = path.substr(0, path.size() - 4),
+                    own = stem + (headers.contains(stem + ".h") ? ".h" : ".hpp");
   for (const Catalogue& catalogue : kCatalogues) {
-    if (path.ends_with(catalogue.ending)) return catalogue.header;
+    const bool belongs = path.starts_with(catalogue.folder) && path.ends_with(catalogue.ending);
+    if (belongs && !headers.contains(own)) return catalogue.header;
   }
-  return path.substr(0, path.size() - 4) + ".hpp";
+  return own;
 }
 
 // Functions that only tests call, each with the reason why the product has them.
@@ -115,7 +121,7 @@ TEST(Pairs, ASourceDefinesWhatItsHeaderDeclares) {
   for (const Source& source : sources()) headers[source.path] = &source;
   expect_none(product(), [&](const Source& source) {
     if (!source.path.ends_with(".cpp")) return Findings{};
-    const auto header = headers.find(header_of(source.path));
+    const auto header = headers.find(header_of(source.path, headers));
     return undeclared(source, header == headers.end() ? nullptr : header->second);
   });
 }

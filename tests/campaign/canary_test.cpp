@@ -6,7 +6,7 @@
 #include <csignal>
 #include <filesystem>
 
-#include "core/base/machine_error.hpp"
+#include "core/base/error.hpp"
 #include "tests/storage/refusal.hpp"
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/own_process.hpp"

@@ -1,5 +1,5 @@
 // AGVs that go deaf when they drive from one access-point cell into the next.
-#include "core/radio/radio_crossings.hpp"
+#include "core/radio/radio_places.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // External sources: when they are on, which receivers they hit, and that they only ever add losses.
-#include "core/radio/radio_sources.hpp"
+#include "core/radio/radio.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <random>
 #include <set>
 
-#include "core/radio/radio.hpp"
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/exact_binomial.hpp"
 #include "tests/support/worlds.hpp"

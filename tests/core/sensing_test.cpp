@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "core/base/random.hpp"
-#include "core/engine/agent_clock.hpp"
+#include "core/engine/timers.hpp"
 #include "tests/core/row_of_tens.hpp"
 
 namespace fleetproof::sensing_test {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/engine/parts.hpp"
+#include "core/engine/engine.hpp"
 #include "core/engine/run_context.hpp"
 #include "tests/core/row_of_tens.hpp"
 #include "tests/support/at_seconds.hpp"

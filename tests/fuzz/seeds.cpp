@@ -5,7 +5,7 @@
 
 #include "core/base/random.hpp"
 #include "generators/families/layout_family.hpp"
-#include "generators/formats/csv_text.hpp"
+#include "generators/formats/csv_layout.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif_text.hpp"
 #include "generators/scenario_file/scenario_file.hpp"

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "generators/formats/csv_layout.hpp"
-#include "generators/formats/csv_text.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/formats/lif_text.hpp"

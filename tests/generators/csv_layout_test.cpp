@@ -1,5 +1,4 @@
 #include "generators/formats/csv_layout.hpp"
-#include "generators/formats/csv_text.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

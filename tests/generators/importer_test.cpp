@@ -8,7 +8,6 @@
 
 #include "core/base/error.hpp"
 #include "generators/formats/csv_layout.hpp"
-#include "generators/formats/csv_text.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif_text.hpp"
 #include "independent_check.hpp"

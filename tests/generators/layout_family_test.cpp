@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/scenario/canonical_bytes.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/map/layout_check.hpp"
+#include "generators/worlds/world_maker.hpp"
 #include "independent_check.hpp"
 
 namespace fleetproof::layout_family_test {
@@ -71,18 +76,32 @@ struct UsualLength {
   std::size_t segments = 90;
 };
 
-UsualLength usual_length(std::string_view family) {
-  if (family == "loop-spurs") return {3.0, 6.0};
-  if (family == "random-planar") return {4.0, 9.0};
-  if (family == "fishbone") return {3.0, 7.5};
-  if (family == "dense-crossing") return {2.4, 4.0};
-  if (family == "close-pass") return {3.0, 60.0, 7.0};
-  if (family == "plant") return {1.0, 12.0, 8.0, 300};
-  return {};
+// What the tests below expect of a family: one line for each.
+struct Expected {
+  std::string_view family;
+  std::uint64_t digest, digest_under_stress;  // of one world
+  UsualLength usual{};
+};
+
+constexpr Expected kExpected[] = {
+    {"aisle-grid", 18052014783613591155ULL, 11725433812403717714ULL},
+    {"corridor-sidings", 1979902472353826926ULL, 14011462008100475381ULL},
+    {"loop-spurs", 2651017962446621998ULL, 11243411428364639812ULL, {3.0, 6.0}},
+    {"random-planar", 5115452292136464826ULL, 657673980484959634ULL, {4.0, 9.0}},
+    {"fishbone", 17919308294136055759ULL, 8743562111345995839ULL, {3.0, 7.5}},
+    {"dense-crossing", 11540182771911076471ULL, 13558962354659985211ULL, {2.4, 4.0}},
+    {"close-pass", 3300485100320501645ULL, 9496123743063663927ULL, {3.0, 60.0, 7.0}},
+    {"plant", 13786288425376511172ULL, 15602768705973441990ULL, {1.0, 12.0, 8.0, 300}},
+};
+
+const Expected& expected_of(std::string_view family) {
+  const auto* const found = std::ranges::find(kExpected, family, &Expected::family);
+  if (found == std::end(kExpected)) throw std::runtime_error("kExpected has no line for " + std::string(family));
+  return *found;
 }
 
 TEST_P(LayoutFamily, HasPlacesForEveryPurposeAndSegmentsOfUsualLength) {
-  const auto usual = usual_length(GetParam().name);
+  const UsualLength usual = expected_of(GetParam().name).usual;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const Layout layout = make(GetParam(), seed);
     const auto count = [&](Purpose p) {
@@ -109,6 +128,19 @@ TEST_P(LayoutFamily, IsAFunctionOfTheDraws) {
   }
   std::ranges::sort(texts);
   EXPECT_TRUE(std::ranges::adjacent_find(texts) == texts.end()) << "two of 40 seeds gave the same layout";
+}
+
+// The same program and seed mean the same world on every machine and in every later version; a change here breaks
+// stored campaigns.
+TEST_P(LayoutFamily, DigestsOfWorldsArePinned) {
+  WorldSpec spec;
+  spec.layout = std::string(GetParam().name);
+  RejectionCounts counts;
+  EXPECT_EQ(scenario_digest(generate_world(spec, 2005, counts)), expected_of(GetParam().name).digest);
+  spec.layout = family_name(GetParam().name, Range::Stress);
+  spec.placement = Placement::Adversarial;
+  spec.demand.hot_spot_skew = 1.0;
+  EXPECT_EQ(scenario_digest(generate_world(spec, 2005, counts)), expected_of(GetParam().name).digest_under_stress);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LayoutFamily, testing::ValuesIn(layout_families().begin(), layout_families().end()),

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "laws/standing_in_the_way.hpp"
 #include "tests/laws/told.hpp"
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"

@@ -1,8 +1,7 @@
 // What the published rule sees and, hole by hole, what it does not: the reasons for the exact law.
 #include <gtest/gtest.h>
 
-#include "laws/global_step_law.hpp"
-#include "laws/paper_law.hpp"
+#include "laws/published_law.hpp"
 #include "tests/laws/timeline.hpp"
 #include "tests/support/at_seconds.hpp"
 

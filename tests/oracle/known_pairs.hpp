@@ -4,7 +4,7 @@
 #include <random>
 
 #include "core/clearance/clearance_over_time.hpp"
-#include "core/geometry/biarc.hpp"
+#include "core/geometry/arc.hpp"
 #include "tests/oracle/brute_force.hpp"
 
 // Random pairs of trajectories, and the same as pieces of the program under test.

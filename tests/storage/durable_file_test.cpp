@@ -7,7 +7,7 @@
 #include <array>
 #include <map>
 
-#include "core/base/machine_error.hpp"
+#include "core/base/error.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof::durable_file_test {

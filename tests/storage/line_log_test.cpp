@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "tests/storage/sample_records.hpp"
 
 namespace fleetproof::line_log_test {

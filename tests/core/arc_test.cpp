@@ -1,4 +1,4 @@
-#include "core/geometry/biarc.hpp"
+#include "core/geometry/arc.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "tests/core/hard_beziers.hpp"
 #include "tests/oracle/bezier_track.hpp"
 
-namespace fleetproof::biarc_test {
+namespace fleetproof::arc_test {
 namespace {
 
 using test::ControlPoints;
@@ -89,4 +89,4 @@ TEST(Biarc, DegenerateBeziersStayFiniteAndSmooth) {
 }
 
 }  // namespace
-}  // namespace fleetproof::biarc_test
+}  // namespace fleetproof::arc_test

@@ -1,4 +1,4 @@
-#include "core/agents/announced_way.hpp"
+#include "core/agents/lock_claim.hpp"
 
 #include <algorithm>
 

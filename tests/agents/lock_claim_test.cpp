@@ -1,4 +1,4 @@
-#include "core/agents/announced_way.hpp"
+#include "core/agents/lock_claim.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/agents/crossing.hpp"
 
-namespace fleetproof::agents::announced_way_test {
+namespace fleetproof::agents::lock_claim_test {
 namespace {
 
 Path way(std::uint32_t station, const std::vector<std::uint32_t>& lanes) {
@@ -186,4 +186,4 @@ TEST_F(AnnouncedWays, OfMessagesThatMayBeOlderThanTheRestartDoNotCount) {
 }
 
 }  // namespace
-}  // namespace fleetproof::agents::announced_way_test
+}  // namespace fleetproof::agents::lock_claim_test

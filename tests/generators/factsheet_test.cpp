@@ -5,7 +5,7 @@
 #include "damage.hpp"
 #include "generators/formats/factsheet.hpp"
 
-namespace fleetproof::factsheet_loads_test {
+namespace fleetproof::factsheet_test {
 namespace {
 
 using testing::HasSubstr;
@@ -127,4 +127,4 @@ TEST(FactsheetLoads, AreRefusedWithPlaceValueAndRemedy) {
 }
 
 }  // namespace
-}  // namespace fleetproof::factsheet_loads_test
+}  // namespace fleetproof::factsheet_test
