@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reports/page.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof {
 

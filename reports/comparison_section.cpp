@@ -35,18 +35,19 @@ std::vector<std::string> row(const std::string& agent, const EndPointChange& cha
           change.worlds_needed ? std::to_string(*change.worlds_needed) : "-"};
 }
 
-void add_newly_failing(Section& section, const ReportInput& input, const Comparison& comparison) {
+void add_newly_failing(Section& section, const std::string& archive_path, const Comparison& comparison) {
   const auto& failing = comparison.newly_failing;
   section.remarks.emplace_back().text =
       fmt::format("{}: newly failing: {}; newly passing: {}.", printable(comparison.new_agent, 40),
                   count_text(failing.size(), "run"), count_text(comparison.newly_passing.size(), "run"));
   for (std::size_t i = 0; i < std::min(kRunsTold, failing.size()); ++i)
-    section.remarks.push_back({fmt::format("Newly failing: run {}", failing[i]), replay_line(input, failing[i])});
+    section.remarks.push_back(
+        {fmt::format("Newly failing: run {}", failing[i]), replay_command(archive_path, failing[i])});
   if (failing.size() > kRunsTold)
     section.remarks.emplace_back().text = fmt::format("{} more newly failing runs.", failing.size() - kRunsTold);
 }
 
-void add_comparison(Section& section, const ReportInput& input, const BaselineComparison& baseline) {
+void add_comparison(Section& section, const std::string& archive_path, const BaselineComparison& baseline) {
   const Comparison& comparison = *baseline.comparison;
   for (const EndPointChange& change : comparison.end_points)
     section.table.rows.push_back(row(comparison.new_agent, change));
@@ -60,23 +61,23 @@ void add_comparison(Section& section, const ReportInput& input, const BaselineCo
   if (comparison.paired)
     text += fmt::format(" (slower in {}, faster in {} worlds)", comparison.slower_worlds, comparison.faster_worlds);
   section.remarks.emplace_back().text = text + ". All cells count here, those beyond the contract region, too.";
-  if (comparison.paired) add_newly_failing(section, input, comparison);
+  if (comparison.paired) add_newly_failing(section, archive_path, comparison);
 }
 
 }  // namespace
 
-Section comparison_section(const ReportInput& input) {
+Section comparison_section(const std::vector<BaselineComparison>& baseline, const std::string& archive_path) {
   Section section{"Compared with the baseline", {}, {}};
   section.table.columns = {{"agent", false}, {"end point", false}, {"change", false},   {"before"},       {"now"},
                            {"only before"},  {"only now"},         {"difference in %"}, {"worlds needed"}};
-  const ComparisonRule rule = input.baseline.front().rule;
-  for (const BaselineComparison& baseline : input.baseline) {
-    if (baseline.comparison) {
-      add_comparison(section, input, baseline);
+  const ComparisonRule rule = baseline.front().rule;
+  for (const BaselineComparison& each : baseline) {
+    if (each.comparison) {
+      add_comparison(section, archive_path, each);
     } else {
       section.remarks.emplace_back().text =
           fmt::format("{} is not compared: {} has no agent of this name, and not exactly one under test.",
-                      printable(baseline.agent, 40), printable(baseline.baseline_path, 200));
+                      printable(each.agent, 40), printable(each.baseline_path, 200));
     }
   }
   section.remarks.emplace_back().text = fmt::format(

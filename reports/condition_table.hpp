@@ -5,6 +5,7 @@
 #include <string>
 
 #include "reports/page.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof {
 

@@ -329,8 +329,8 @@ Json attempts_json(const ReportInput& input) {
           {"own", history.own ? attempt_json(*history.own) : Json(nullptr)},
           {"others", list(history.others)},
           {"same_worlds", list(history.same_worlds)},
-          {"looks", maybe(input.looks)},
-          {"overrides", input.overrides}};
+          {"looks", maybe(history.looks)},
+          {"overrides", history.overrides}};
 }
 
 // Every key is present, but for those of claims in a search; a list without content is empty.

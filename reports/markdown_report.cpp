@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/page.hpp"
+#include "reports/page_builder.hpp"
 
 namespace fleetproof {
 namespace {

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "reports/report.hpp"
 
 namespace fleetproof {
 
@@ -63,8 +60,5 @@ struct Page {
   std::vector<Headline> headlines;
   std::vector<Section> sections;
 };
-
-// Tables that grow with cells or runs have at most `most_rows` rows; the others are counted.
-Page build_page(const ReportInput& input, std::size_t most_rows);
 
 }  // namespace fleetproof

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof {
 

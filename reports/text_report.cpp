@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "reports/page.hpp"
+#include "reports/page_builder.hpp"
 
 namespace fleetproof {
 namespace {

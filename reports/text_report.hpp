@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof {
 

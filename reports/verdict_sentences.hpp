@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reports/page.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof {
 

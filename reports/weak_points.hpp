@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof {
 

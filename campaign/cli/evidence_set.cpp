@@ -16,10 +16,10 @@
 #include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
 #include "core/base/machine_error.hpp"
-#include "reports/attempts/attempt_section.hpp"
 #include "reports/export/csv_tables.hpp"
 #include "reports/export/report_schema.hpp"
 #include "reports/export/validity.hpp"
+#include "reports/report_formats.hpp"
 #include "reports/wording.hpp"
 #include "storage/line_log.hpp"
 
@@ -97,7 +97,7 @@ std::string identity_text(const ReportInput& input) {
                                     {"release", own ? own->release : ""},
                                     {"seed", campaign.seed},
                                     {"seed_follows_from_release_and_plan", own && own->fresh_seed},
-                                    {"overrides", input.overrides},
+                                    {"overrides", input.attempts.overrides},
                                     {"agents_of_shared_objects", campaign.plugin_agents},
                                     {"engine",
                                      {{"version", campaign.engine.version},

@@ -14,7 +14,7 @@
 #include "generators/formats/importer.hpp"
 #include "laws/laws.hpp"
 #include "reports/export/report_schema.hpp"
-#include "reports/report.hpp"
+#include "reports/report_formats.hpp"
 
 namespace fleetproof::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof {
 

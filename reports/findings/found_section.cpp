@@ -14,11 +14,11 @@ std::string findings_sentence(const FoundRecord& record) {
   return fmt::format("{}, {} of which need attention", count_text(record.findings.size(), "finding"), open);
 }
 
-Section findings_section(const ReportInput& input) {
+Section findings_section(const FoundFile& file, const std::string& archive_path) {
   Section section{"Findings: failures by what they need", {}, {}};
-  const auto& [record, trouble] = input.findings;
+  const auto& [record, trouble] = file;
   if (!record) {
-    const std::string how = "fleetproof findings " + shell_word(input.archive_path);
+    const std::string how = "fleetproof findings " + shell_word(archive_path);
     section.remarks.push_back({trouble.empty()
                                    ? "Not looked for. Failures can be grouped by what they need (" + how + ")."
                                    : "Not known: " + printable(trouble, 400),

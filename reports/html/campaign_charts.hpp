@@ -2,7 +2,7 @@
 
 #include "reports/html/campaign_figures.hpp"
 #include "reports/html/markup.hpp"
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof::html {
 

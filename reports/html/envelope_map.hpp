@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "reports/html/factor_map.hpp"
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof::html {
 

@@ -5,7 +5,7 @@
 
 #include "reports/html/film_strip.hpp"
 #include "reports/html/markup.hpp"
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof::html {
 

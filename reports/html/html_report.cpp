@@ -10,7 +10,7 @@
 #include "reports/html/campaign_charts.hpp"
 #include "reports/html/look.hpp"
 #include "reports/html/section_tables.hpp"
-#include "reports/page.hpp"
+#include "reports/page_builder.hpp"
 #include "reports/plan_conditions.hpp"
 #include "reports/wording.hpp"
 

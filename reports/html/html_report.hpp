@@ -4,7 +4,7 @@
 
 #include "reports/html/campaign_figures.hpp"
 #include "reports/html/failure_part.hpp"
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof {
 

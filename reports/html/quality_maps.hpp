@@ -7,7 +7,7 @@
 #include "reports/html/campaign_figures.hpp"
 #include "reports/html/envelope_map.hpp"
 #include "reports/html/factor_map.hpp"
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 
 namespace fleetproof::html {
 

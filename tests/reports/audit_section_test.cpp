@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/audit_section.hpp"
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 #include "storage/checksum.hpp"

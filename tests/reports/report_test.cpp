@@ -1,4 +1,5 @@
-#include "reports/report.hpp"
+#include "reports/report_formats.hpp"
+#include "reports/report_input.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "reports/page.hpp"
+#include "reports/page_builder.hpp"
 
 #include <fmt/format.h>
 
@@ -159,15 +159,16 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
   add_conditions(fmt::format("Contract region: loss <= {}, delay <= {}", loss, delay),
                  [](const Condition& c) { return c.in_contract; });
   add_conditions("Outside the contract", [](const Condition& c) { return !c.in_contract; });
-  if (!input.baseline.empty()) add(SectionTopic::Comparison, comparison_section(input));
+  if (!input.baseline.empty()) add(SectionTopic::Comparison, comparison_section(input.baseline, input.archive_path));
   add(SectionTopic::Coverage, coverage_section(input, most_rows));
   add(SectionTopic::Coverage, incident_section(input, most_rows));
-  add(SectionTopic::Sensitivity, sensitivity_section(input));
+  add(SectionTopic::Sensitivity,
+      sensitivity_section(input.sensitivity, input.archive_path, input.campaign.engine.program_sha256));
   add(SectionTopic::Audit, audit_section(input));
   add(SectionTopic::WeakPoints, weak_point_section(input));
   add(SectionTopic::Failures, failure_section(input, std::min(most_rows, kMostGroups)));
-  add(SectionTopic::Failures, findings_section(input));
-  add(SectionTopic::Attempts, attempt_section(input));
+  add(SectionTopic::Failures, findings_section(input.findings, input.archive_path));
+  add(SectionTopic::Attempts, attempt_section(input.attempts, input.campaign, input.evidence));
   add(SectionTopic::Provenance, provenance_section(input));
   add(SectionTopic::Method, method_section(input));
   return page;

@@ -1,29 +1,10 @@
-#include "reports/report.hpp"
+#include "reports/report_input.hpp"
 
-#include <algorithm>
-#include <array>
 #include <utility>
 
-#include "reports/json_report.hpp"
-#include "reports/junit_report.hpp"
-#include "reports/markdown_report.hpp"
-#include "reports/text_report.hpp"
 #include "reports/wording.hpp"
 
 namespace fleetproof {
-namespace {
-
-constexpr std::array<Entry<RenderReport>, 5> kFormats{{
-    {"text", "for a terminal: verdicts first, then tables", render_text},
-    {"summary", "for a terminal: the verdicts alone", render_summary},
-    {"markdown", "for a CI summary: the same page, with shorter tables", render_markdown},
-    {"junit", "for CI: one test case for each gate and finding", render_junit},
-    {"json", "for programs: every cell and every figure in full", render_json},
-}};
-
-}  // namespace
-
-std::span<const Entry<RenderReport>> report_formats() { return kFormats; }
 
 std::string replay_line(const ReportInput& input, std::uint64_t run_index) {
   return replay_command(input.archive_path, run_index);

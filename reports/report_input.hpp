@@ -2,11 +2,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "core/base/catalogue.hpp"
 #include "reports/attempts/attempt_history.hpp"
 #include "reports/comparison/baseline.hpp"
 #include "reports/evidence/audit_tally.hpp"
@@ -33,10 +31,8 @@ struct ReportInput {
   std::vector<BaselineComparison> baseline{};  // empty: the report compares with nothing
   // Files beside the archive tell these; a caller adds them.
   AttemptHistory attempts{};
-  std::optional<std::uint64_t> looks{};  // absent: not known
   SensitivityFile sensitivity{};
   FoundFile findings{};
-  std::string overrides{};  // options of a session that changed the plan, as typed
 };
 
 // Reads all runs of the archive and judges the runs before the first gap. `also` gets each of those runs after the
@@ -46,11 +42,5 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
 
 // The command that replays a run.
 std::string replay_line(const ReportInput& input, std::uint64_t run_index);
-
-// A whole report as one text.
-using RenderReport = std::string (*)(const ReportInput& input);
-
-// Every format that `fleetproof report --format` knows.
-std::span<const Entry<RenderReport>> report_formats();
 
 }  // namespace fleetproof
