@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/report_input.hpp"
+#include "reports/sections/report_input.hpp"
 
 namespace fleetproof::cli {
 

@@ -16,11 +16,11 @@
 #include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
 #include "core/base/machine_error.hpp"
-#include "reports/export/csv_tables.hpp"
-#include "reports/export/report_schema.hpp"
-#include "reports/export/validity.hpp"
-#include "reports/report_formats.hpp"
-#include "reports/wording.hpp"
+#include "reports/formats/csv_tables.hpp"
+#include "reports/formats/report_formats.hpp"
+#include "reports/formats/report_schema.hpp"
+#include "reports/formats/validity.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/line_log.hpp"
 
 namespace fleetproof::cli {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "reports/report_formats.hpp"
+#include "reports/formats/report_formats.hpp"
 
 namespace fleetproof::cli {
 

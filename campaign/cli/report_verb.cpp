@@ -14,7 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/base/machine_error.hpp"
 #include "reports/attempts/looks.hpp"
-#include "reports/html/html_report.hpp"
+#include "reports/campaign_page/html_report.hpp"
 
 namespace fleetproof::cli {
 namespace {

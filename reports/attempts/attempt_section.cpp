@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {

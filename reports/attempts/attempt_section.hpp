@@ -4,7 +4,7 @@
 
 #include "reports/attempts/attempt_history.hpp"
 #include "reports/evidence/evidence.hpp"
-#include "reports/page.hpp"
+#include "reports/page/page.hpp"
 
 namespace fleetproof {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/outside_text.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/beside.hpp"
 
 namespace fleetproof {

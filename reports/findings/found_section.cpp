@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/base/outside_text.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "reports/findings/found_record.hpp"
-#include "reports/page.hpp"
+#include "reports/page/page.hpp"
 
 namespace fleetproof {
 

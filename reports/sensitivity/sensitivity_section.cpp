@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/base/outside_text.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "reports/page.hpp"
+#include "reports/page/page.hpp"
 #include "reports/sensitivity/sensitivity_record.hpp"
 
 namespace fleetproof {

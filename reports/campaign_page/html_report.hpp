@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "reports/campaign_page/campaign_figures.hpp"
+#include "reports/campaign_page/failure_part.hpp"
+#include "reports/sections/report_input.hpp"
+
+namespace fleetproof {
+
+// A report with all that the page shows beside it.
+struct HtmlInput {
+  ReportInput report;
+  html::CampaignFigures figures;
+  html::FilmStrips strips{};  // of failing runs, if the caller has simulated them again
+};
+
+// Reads all runs of the archive, once. Throws as read_report_input does.
+HtmlInput read_html_input(const ArchiveReader& archive, std::string archive_path);
+
+// One page that needs no other file and no network. It is also well-formed XML.
+std::string render_html(const HtmlInput& input);
+
+}  // namespace fleetproof
