@@ -27,7 +27,7 @@ struct BarChart {
 Element draw(const BarChart& chart);
 
 // Lines through points, each with its own colour and dashes, up to twelve of them, and with its number at its end.
-// Lines on each other from end to end take turns. The axis of x is logarithmic. Requires: all values are
+// Two curves that coincide are drawn as alternating dashes. The axis of x is logarithmic. Requires: all values are
 // finite, all x are above 0, and so are all y of a logarithmic axis.
 struct ChartLine {
   std::string name;
