@@ -9,7 +9,7 @@
 #include "reports/campaign_page/quality_maps.hpp"
 #include "reports/markup/section_tables.hpp"
 #include "reports/page/wording.hpp"
-#include "reports/sections/plan_facts.hpp"
+#include "reports/sections/plan_conditions.hpp"
 
 namespace fleetproof::html {
 namespace {

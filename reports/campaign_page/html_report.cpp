@@ -11,6 +11,7 @@
 #include "reports/campaign_page/look.hpp"
 #include "reports/markup/section_tables.hpp"
 #include "reports/page/wording.hpp"
+#include "reports/sections/failure_section.hpp"
 #include "reports/sections/page_builder.hpp"
 #include "reports/sections/plan_conditions.hpp"
 
@@ -22,7 +23,7 @@ using html::paragraph;
 using html::text_element;
 using html::titled;
 
-constexpr std::size_t kMostPageRows = 300, kMostPlanBytes = 100'000;
+constexpr std::size_t kMostPageRows = 300, kMostFailureGroups = 50, kMostPlanBytes = 100'000;
 
 Element head_of(const Page& page) {
   Element head("head");
@@ -99,6 +100,43 @@ Element assumptions_part() {
        "People are not modelled. Without the safety scanner, only the software keeps the distance."});
 }
 
+Element worst_of_group(const HtmlInput& input, const FailureGroup& group) {
+  Element block("div", {{"class", "case"}});
+  block.add(text_element("h3", fmt::format("{}: {}; first cause: {}; before it: {}", printable(group.agent, 40),
+                                           group.end_point, printable(group.first_cause, 80), name_of(group.before))));
+  const Remark remark = worst_of(input.report, group);
+  block.add(paragraph(remark.text));
+  if (!remark.command.empty()) block.add(Element("pre").add(text_element("code", remark.command)));
+  if (const auto strip = input.strips.find(group.worst.run_index); strip != input.strips.end())
+    block.add(html::draw(strip->second));
+  return block;
+}
+
+// Failing runs by agent, end point and first cause, at most 50 groups: a table, then the worst run of each group with
+// its replay line and its strip, if there is one.
+Element failure_part(const HtmlInput& input) {
+  Element part = titled(kFailuresTitle);
+  auto groups = input.report.failures.list(input.report.evidence.gates());
+  if (groups.empty()) return part.add(paragraph("No run failed."));
+  const std::size_t all = groups.size();
+  groups.resize(std::min(all, kMostFailureGroups));
+  part.add(paragraph(std::string(kFailureColumns)));
+  part.add(html::table_of(failure_table(groups)));
+  part.add(
+      paragraph("Below, the worst run of each group with the command that replays it. With --html FILE added, the "
+                "command writes a page that shows the run in a browser."));
+  if (!input.strips.empty()) {
+    part.add(paragraph(
+        "A film strip shows the floor from above, in metres, around the worst instant, which has a thick frame. The "
+        "AGVs in orange are those that went wrong; the dark wedge points to the front, the dashed line is the safety "
+        "distance, lanes are grey."));
+  }
+  for (const FailureGroup& group : groups) part.add(worst_of_group(input, group));
+  if (all > kMostFailureGroups)
+    part.add(paragraph(fmt::format("{} more groups are left out here.", all - kMostFailureGroups)));
+  return part;
+}
+
 Element plan_part(const ReportInput& input) {
   Element details("details");
   details.add(text_element("summary", "The resolved plan"));
@@ -127,7 +165,7 @@ std::vector<Element> parts_of(const HtmlInput& input, const Page& page) {
   parts.push_back(html::clearance_part(input.report, input.figures));
   parts.push_back(html::effort_part(input.report, input.figures));
   // The worst run of each group stands there: a list of the worst runs would be one failure many times.
-  parts.push_back(html::failure_part(input.report, input.strips));
+  parts.push_back(failure_part(input));
   add({SectionTopic::Comparison, SectionTopic::Coverage, SectionTopic::Sensitivity, SectionTopic::Conditions,
        SectionTopic::Audit, SectionTopic::WeakPoints, SectionTopic::Attempts, SectionTopic::Provenance});
   parts.push_back(plan_part(input.report));

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 
 #include "reports/campaign_page/campaign_figures.hpp"
-#include "reports/campaign_page/failure_part.hpp"
+#include "reports/markup/film_strip.hpp"
 #include "reports/sections/report_input.hpp"
 
 namespace fleetproof {
@@ -12,7 +14,7 @@ namespace fleetproof {
 struct HtmlInput {
   ReportInput report;
   html::CampaignFigures figures;
-  html::FilmStrips strips{};  // of failing runs, if the caller has simulated them again
+  std::map<std::uint64_t, html::FilmStrip> strips{};  // of failing runs, if the caller has simulated them again
 };
 
 // Reads all runs of the archive, once. Throws as read_report_input does.

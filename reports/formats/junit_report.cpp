@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "core/base/error.hpp"
 #include "core/base/markup_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "reports/page/wording.hpp"
 #include "reports/sections/gate_section.hpp"
-#include "reports/sections/gate_shortfall.hpp"
 
 namespace fleetproof {
 namespace {
@@ -45,6 +45,26 @@ std::string figures_text(const ReportInput& input, std::size_t index) {
   const GateCounts& counts = input.gates[index].counts;
   return fmt::format("unknown outcomes: {}; simulated: {:.1f} AGV-hours", counts.failing_or_unknown - counts.failing,
                      agv_hours_of(input.evidence, input.evidence.cells_of(index)));
+}
+
+// What keeps a gate from being demonstrated, in two or three words that programs may compare. The first that holds:
+// "violated", "counts only" (of a search), "not complete" (of a fixed gate, planned replicates are missing; of others,
+// all), "unknown outcomes" (without them, the counts would do), "too few worlds" (or runs, or AGV-hours: more of them
+// without a failure would do), "too many failures", "not tested", "too little progress". Requires: the gate is not
+// demonstrated.
+std::string shortfall_of(const GateRecord& gate, const GateResult& result) {
+  ensure(result.verdict != Verdict::Demonstrated, "a gate that is demonstrated falls short of nothing");
+  const GateCounts& counts = result.counts;
+  if (result.verdict == Verdict::Violated) return "violated";
+  if (counts.counts_only) return "counts only";
+  const bool waits_for_the_plan = gate.method == GateMethod::Fixed && !counts.complete();
+  if (waits_for_the_plan || result.optimistic->units == 0) return "not complete";
+  if (!meets_limit(gate, *result.claim)) {
+    if (meets_limit(gate, *result.optimistic)) return "unknown outcomes";
+    if (result.units_needed) return "too few " + std::string(result.unit);
+    return counts.failing == 0 && counts.failing_or_unknown > 0 ? "unknown outcomes" : "too many failures";
+  }
+  return counts.met_nobody ? "not tested" : "too little progress";
 }
 
 // Readers show the content of an element or its message, but not both.

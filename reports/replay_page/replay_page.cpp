@@ -13,7 +13,6 @@
 #include "reports/replay_page/film_json.hpp"
 #include "reports/replay_page/film_tables.hpp"
 #include "reports/replay_page/given_fate_lines.hpp"
-#include "reports/replay_page/reasons_part.hpp"
 
 namespace fleetproof::web {
 namespace {
@@ -69,6 +68,28 @@ Element header_of(const Film& film, const ReasonLine* decisive) {
   }
   for (const ReasonLine& line : given_fate_lines(film)) story.add(instant(line, "given"));
   return header.add(story);
+}
+
+Element reason_element(const Reason& reason) {
+  Element box("div", {{"class", "reason"}});
+  box.add(text_element("h3", reason.title));
+  for (const ReasonLine& line : reason.lines) {
+    constexpr const char* kClasses[] = {"sentence", "head-line", "item"};
+    box.add(text_element(
+        "p", line.text,
+        {{"class", fmt::format("{}{}", kClasses[static_cast<std::size_t>(line.rank)], line.marked ? " marked" : "")},
+         {"data-us", fmt::format("{}", line.at_us)}}));
+  }
+  return box;
+}
+
+// The reasons of what is fatal, side by side; the others stand in the data of the page.
+Element reasons_part(const std::vector<Reason>& reasons) {
+  Element part("div", {{"class", "reasons"}, {"id", "reasons"}});
+  for (const Reason& reason : reasons) {
+    if (reason.is_fatal) part.add(reason_element(reason));
+  }
+  return part;
 }
 
 // At the bottom: names of files may tell a cause that one wants to see first.

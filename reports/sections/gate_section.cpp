@@ -12,7 +12,7 @@
 #include "reports/evidence/rounding.hpp"
 #include "reports/page/wording.hpp"
 #include "reports/sections/coverage_section.hpp"
-#include "reports/sections/plan_facts.hpp"
+#include "reports/sections/plan_conditions.hpp"
 #include "reports/sections/sample_sentence.hpp"
 
 namespace fleetproof {

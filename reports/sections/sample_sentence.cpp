@@ -6,7 +6,7 @@
 #include <set>
 
 #include "reports/page/wording.hpp"
-#include "reports/sections/plan_facts.hpp"
+#include "reports/sections/plan_conditions.hpp"
 
 namespace fleetproof {
 namespace {
