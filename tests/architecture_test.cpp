@@ -54,10 +54,21 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
                                          "generators/families", "generators/scenario_file"})},
       {"storage", {"core/base", "core/outcome"}},
       {"reports/evidence", {"core/base", "core/outcome", "storage"}},
-      {"reports", {"core/base", "core/outcome", "storage", "reports/evidence"}},
-      {"reports/html", {"core/base", "core/outcome", "storage", "reports/evidence", "reports"}},
-      {"reports/web", {"core/base", "core/outcome", "storage", "reports/evidence", "reports", "reports/html"}},
+      {"reports/page", {"core/base", "storage", "reports/evidence"}},
   };
+  // The rooms of reports by floors, the lowest first. One floor's rooms do not know each other.
+  const std::set<std::string> pages = {"core/base", "storage", "reports/evidence", "reports/page"};
+  const std::set<std::string> subjects = {"reports/attempts", "reports/comparison", "reports/findings",
+                                          "reports/sensitivity"};
+  for (const std::string& subject : subjects) rooms[subject] = pages;
+  rooms["reports/markup"] = {"core/base", "reports/page"};
+  rooms["reports/sections"] = with(pages, subjects);
+  rooms["reports/formats"] = with(pages, {"reports/sections"});
+  rooms["reports/campaign_page"] = with(pages, {"reports/sections", "reports/markup"});
+  rooms["reports/replay_page"] = {"core/base", "reports/page", "reports/markup"};
+  const std::set<std::string> reports =
+      with(with(pages, subjects),
+           {"reports/sections", "reports/formats", "reports/markup", "reports/campaign_page", "reports/replay_page"});
   rooms["campaign/plan"] = with(with(model, generators), {"core/outcome", "laws", "storage"});
   rooms["campaign/run"] = with(with(core, generators), {"core/engine", "core/sdk", "core/agents", "laws", "storage",
                                                         "reports/evidence", "campaign/plan"});
@@ -67,9 +78,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   rooms["campaign/shrink"] = with(rooms["campaign/batch"], {"campaign/batch"});
   rooms["campaign/explain"] = with(rooms["campaign/shrink"], {"campaign/shrink"});
   rooms["campaign/findings"] = with(rooms["campaign/explain"], {"campaign/explain"});
-  rooms["campaign/watch"] = with(rooms["campaign/run"], {"campaign/run", "reports", "reports/html", "reports/web"});
-  rooms["campaign/cli"] = with(rooms["campaign/findings"], {"campaign/findings", "campaign/shards", "campaign/watch",
-                                                            "reports", "reports/html", "reports/web"});
+  rooms["campaign/watch"] = with(rooms["campaign/run"], {"campaign/run", "reports/page", "reports/formats",
+                                                         "reports/markup", "reports/replay_page"});
+  rooms["campaign/cli"] =
+      with(with(rooms["campaign/findings"], reports), {"campaign/findings", "campaign/shards", "campaign/watch"});
   return rooms;
 }();
 

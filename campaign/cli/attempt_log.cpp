@@ -77,10 +77,10 @@ void add_history(ReportInput& input, const std::string& ledger) {
   } catch (const InputError&) {
     if (!ledger.empty()) throw;  // nobody named it: a foreign file of this name tells nothing, and stops no report
   }
-  input.looks = looks_at(input.archive_path);
+  input.attempts.looks = looks_at(input.archive_path);
   input.sensitivity = sensitivity_beside(input.archive_path, input.campaign);
   input.findings = findings_beside(input.archive_path, input.campaign.plan_hash, input.stored_runs);
-  input.overrides = remembered_overrides(input.archive_path);
+  input.attempts.overrides = remembered_overrides(input.archive_path);
 }
 
 }  // namespace fleetproof::cli

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "reports/attempts/attempt_history.hpp"
-#include "reports/report.hpp"
+#include "reports/sections/report_input.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof::cli {

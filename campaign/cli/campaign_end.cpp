@@ -4,7 +4,7 @@
 #include "campaign/cli/command_line.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
-#include "reports/report.hpp"
+#include "reports/sections/report_input.hpp"
 
 namespace fleetproof::cli {
 

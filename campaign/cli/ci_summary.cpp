@@ -5,7 +5,7 @@
 
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
-#include "reports/verdict_sentences.hpp"
+#include "reports/sections/verdict_sentences.hpp"
 
 namespace fleetproof::cli {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/report.hpp"
+#include "reports/sections/report_input.hpp"
 
 namespace fleetproof::cli {
 

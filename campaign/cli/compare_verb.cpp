@@ -8,7 +8,7 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "reports/comparison/comparison_page.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

@@ -15,11 +15,11 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
-#include "reports/attempts/attempt_section.hpp"
-#include "reports/export/csv_tables.hpp"
-#include "reports/export/report_schema.hpp"
-#include "reports/export/validity.hpp"
-#include "reports/wording.hpp"
+#include "reports/formats/csv_tables.hpp"
+#include "reports/formats/report_formats.hpp"
+#include "reports/formats/report_schema.hpp"
+#include "reports/formats/validity.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/line_log.hpp"
 
 namespace fleetproof::cli {
@@ -96,7 +96,7 @@ std::string identity_text(const ReportInput& input) {
                                     {"release", own ? own->release : ""},
                                     {"seed", campaign.seed},
                                     {"seed_follows_from_release_and_plan", own && own->fresh_seed},
-                                    {"overrides", input.overrides},
+                                    {"overrides", input.attempts.overrides},
                                     {"agents_of_shared_objects", campaign.plugin_agents},
                                     {"engine",
                                      {{"version", campaign.engine.version},

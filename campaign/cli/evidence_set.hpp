@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "reports/html/html_report.hpp"
+#include "reports/campaign_page/html_report.hpp"
 #include "storage/archive_reader.hpp"
 
 namespace fleetproof::cli {

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "reports/html/html_report.hpp"
+#include "reports/campaign_page/html_report.hpp"
 #include "storage/archive_reader.hpp"
 
 namespace fleetproof::cli {

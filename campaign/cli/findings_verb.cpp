@@ -21,7 +21,7 @@
 #include "generators/scenario_file/scenario_text.hpp"
 #include "generators/text/text_file.hpp"
 #include "reports/findings/found_record.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

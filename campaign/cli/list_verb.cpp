@@ -13,8 +13,8 @@
 #include "generators/families/mutated_import.hpp"
 #include "generators/formats/importer.hpp"
 #include "laws/laws.hpp"
-#include "reports/export/report_schema.hpp"
-#include "reports/report.hpp"
+#include "reports/formats/report_formats.hpp"
+#include "reports/formats/report_schema.hpp"
 
 namespace fleetproof::cli {
 namespace {

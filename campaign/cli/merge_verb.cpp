@@ -14,7 +14,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/shards/merge.hpp"
 #include "core/base/error.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/line_log.hpp"
 
 namespace fleetproof::cli {

@@ -10,7 +10,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/shards/merge.hpp"
 #include "core/base/error.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include "generators/text/json_value.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/text/text_lines.hpp"
-#include "reports/web/replay_page.hpp"
+#include "reports/replay_page/replay_page.hpp"
 
 namespace fleetproof::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "reports/evidence/evidence.hpp"
 #include "reports/evidence/gate_bounds.hpp"
 #include "reports/evidence/rounding.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

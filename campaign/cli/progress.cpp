@@ -9,7 +9,7 @@
 
 #include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/streams.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

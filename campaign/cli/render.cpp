@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "reports/formats/report_formats.hpp"
 
 namespace fleetproof::cli {
 

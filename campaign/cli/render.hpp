@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "reports/report.hpp"
+#include "reports/sections/report_input.hpp"
 
 namespace fleetproof::cli {
 

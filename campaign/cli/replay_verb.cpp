@@ -16,7 +16,7 @@
 #include "campaign/workers/run_host.hpp"
 #include "core/base/error.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

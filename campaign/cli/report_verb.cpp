@@ -13,7 +13,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
 #include "reports/attempts/looks.hpp"
-#include "reports/html/html_report.hpp"
+#include "reports/campaign_page/html_report.hpp"
 
 namespace fleetproof::cli {
 namespace {

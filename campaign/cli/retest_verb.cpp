@@ -12,7 +12,7 @@
 #include "campaign/findings/findings_file.hpp"
 #include "campaign/findings/retest.hpp"
 #include "core/base/error.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

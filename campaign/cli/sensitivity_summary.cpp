@@ -9,7 +9,7 @@
 
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/run/engine_identity.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

@@ -14,8 +14,8 @@
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "generators/text/text_file.hpp"
+#include "reports/page/wording.hpp"
 #include "reports/sensitivity/sensitivity_section.hpp"
-#include "reports/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

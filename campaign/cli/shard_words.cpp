@@ -13,7 +13,7 @@
 #include "campaign/shards/shard_engine.hpp"
 #include "campaign/shards/shard_run.hpp"
 #include "core/base/error.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/beside.hpp"
 
 namespace fleetproof::cli {

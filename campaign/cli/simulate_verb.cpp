@@ -24,7 +24,7 @@
 #include "laws/comparison.hpp"
 #include "laws/exact_law.hpp"
 #include "laws/laws.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

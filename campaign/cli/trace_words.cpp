@@ -9,7 +9,7 @@
 #include "campaign/watch/run_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
 namespace {

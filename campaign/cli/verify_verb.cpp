@@ -10,7 +10,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/archive_reader.hpp"
 
 namespace fleetproof::cli {

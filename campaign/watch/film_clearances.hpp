@@ -6,7 +6,7 @@
 
 #include "core/motion/piece.hpp"
 #include "core/outcome/outcome.hpp"
-#include "reports/web/film.hpp"
+#include "reports/replay_page/film.hpp"
 
 namespace fleetproof {
 

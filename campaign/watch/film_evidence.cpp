@@ -10,8 +10,8 @@
 #include "campaign/watch/run_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/outcome/trace.hpp"
-#include "reports/web/body_then.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
+#include "reports/replay_page/body_then.hpp"
 
 namespace fleetproof {
 namespace {

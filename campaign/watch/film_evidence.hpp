@@ -6,7 +6,7 @@
 
 #include "campaign/watch/film_clearances.hpp"
 #include "core/scenario/scenario.hpp"
-#include "reports/web/film.hpp"
+#include "reports/replay_page/film.hpp"
 
 namespace fleetproof {
 

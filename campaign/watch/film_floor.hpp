@@ -4,7 +4,7 @@
 
 #include "core/motion/piece.hpp"
 #include "core/scenario/scenario.hpp"
-#include "reports/web/film.hpp"
+#include "reports/replay_page/film.hpp"
 
 namespace fleetproof {
 

@@ -4,7 +4,7 @@
 
 #include "campaign/run/still_camera.hpp"
 #include "core/scenario/scenario.hpp"
-#include "reports/html/film_strip.hpp"
+#include "reports/markup/film_strip.hpp"
 
 namespace fleetproof {
 

@@ -11,7 +11,7 @@
 #include "core/outcome/trace.hpp"
 #include "core/radio/given_fates.hpp"
 #include "core/scenario/scenario.hpp"
-#include "reports/web/film.hpp"
+#include "reports/replay_page/film.hpp"
 
 namespace fleetproof {
 

@@ -11,7 +11,7 @@
 #include "campaign/watch/film_shapes.hpp"
 #include "campaign/watch/run_text.hpp"
 #include "core/base/outside_text.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {

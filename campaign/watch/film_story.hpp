@@ -3,7 +3,7 @@
 #include "campaign/watch/film_clearances.hpp"
 #include "core/outcome/outcome.hpp"
 #include "core/scenario/scenario.hpp"
-#include "reports/web/film.hpp"
+#include "reports/replay_page/film.hpp"
 
 namespace fleetproof {
 

@@ -11,7 +11,7 @@
 #include "campaign/watch/moment_words.hpp"
 #include "core/base/markup_text.hpp"
 #include "generators/map/layout_svg.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {

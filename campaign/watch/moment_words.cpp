@@ -5,7 +5,7 @@
 #include "campaign/watch/run_text.hpp"
 #include "campaign/watch/trace_context.hpp"
 #include "core/base/outside_text.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "campaign/watch/run_text.hpp"
 #include "core/base/outside_text.hpp"
-#include "reports/export/csv_tables.hpp"
+#include "reports/formats/csv_tables.hpp"
 
 namespace fleetproof {
 namespace {

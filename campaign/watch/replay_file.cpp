@@ -11,9 +11,9 @@
 #include "campaign/watch/film_frames.hpp"
 #include "campaign/watch/film_story.hpp"
 #include "core/agents/vocabulary.hpp"
-#include "reports/web/message_numbers.hpp"
-#include "reports/web/replay_page.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
+#include "reports/replay_page/message_numbers.hpp"
+#include "reports/replay_page/replay_page.hpp"
 
 namespace fleetproof {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "campaign/watch/film_recorder.hpp"
 #include "core/outcome/outcome.hpp"
-#include "reports/web/film.hpp"
+#include "reports/replay_page/film.hpp"
 
 namespace fleetproof {
 

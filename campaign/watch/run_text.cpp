@@ -9,7 +9,7 @@
 #include "core/outcome/work_and_progress.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {

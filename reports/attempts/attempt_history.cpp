@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {

@@ -18,6 +18,9 @@ struct AttemptHistory {
   std::vector<Attempt> others;       // in other worlds, for the same release; the last of each plan
   std::vector<Attempt> same_worlds;  // of other releases, begun before
   std::uint64_t broken_lines = 0;
+  // The session log beside the results file tells these; a caller adds them.
+  std::optional<std::uint64_t> looks{};  // at the results; absent: not known
+  std::string overrides{};               // options of a session that changed the plan, as typed
 };
 
 AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord& campaign);

@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/line_log.hpp"
 
 namespace fleetproof {

@@ -1,6 +1,11 @@
 #include "reports/comparison/baseline.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "reports/evidence/rounding.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {
@@ -9,6 +14,60 @@ std::optional<std::string> partner_of(const std::string& agent, const ArchiveRea
   if (std::ranges::find(baseline.cells(), agent, &CellRecord::agent) != baseline.cells().end()) return agent;
   const auto under_test = agents_to_compare(baseline);
   return under_test.size() == 1 ? std::optional(under_test.front()) : std::nullopt;
+}
+
+constexpr std::size_t kNewRunsListed = 10;
+
+// Bounds of a difference in percent of the worlds: the lower is rounded down, the upper is rounded up.
+std::string lower_text(double share) {
+  return share < 0.0 ? "-" + rounded_up(-100.0 * share) : "+" + rounded_down(100.0 * share);
+}
+std::string upper_text(double share) {
+  return share < 0.0 ? "-" + rounded_down(-100.0 * share) : "+" + rounded_up(100.0 * share);
+}
+
+std::vector<std::string> row(const std::string& agent, const EndPointChange& change) {
+  const auto only = [&](std::uint64_t PairedCounts::*side) {
+    return change.pairs ? std::to_string((*change.pairs).*side) : std::string("-");
+  };
+  return {printable(agent, 40),
+          name_of(change.end_point),
+          name_of(change.change),
+          fmt::format("{}/{}", change.old_failing, change.old_worlds),
+          fmt::format("{}/{}", change.new_failing, change.new_worlds),
+          only(&PairedCounts::only_old),
+          only(&PairedCounts::only_new),
+          fmt::format("[{}, {}]", lower_text(change.lower), upper_text(change.upper)),
+          change.worlds_needed ? std::to_string(*change.worlds_needed) : "-"};
+}
+
+void add_newly_failing(Section& section, const std::string& archive_path, const Comparison& comparison) {
+  const auto& failing = comparison.newly_failing;
+  section.remarks.emplace_back().text =
+      fmt::format("{}: newly failing: {}; newly passing: {}.", printable(comparison.new_agent, 40),
+                  count_text(failing.size(), "run"), count_text(comparison.newly_passing.size(), "run"));
+  for (std::size_t i = 0; i < std::min(kNewRunsListed, failing.size()); ++i)
+    section.remarks.push_back(
+        {fmt::format("Newly failing: run {}", failing[i]), replay_command(archive_path, failing[i])});
+  if (failing.size() > kNewRunsListed)
+    section.remarks.emplace_back().text = fmt::format("{} more newly failing runs.", failing.size() - kNewRunsListed);
+}
+
+void add_comparison(Section& section, const std::string& archive_path, const BaselineComparison& baseline) {
+  const Comparison& comparison = *baseline.comparison;
+  for (const EndPointChange& change : comparison.end_points)
+    section.table.rows.push_back(row(comparison.new_agent, change));
+  std::string text = fmt::format("{}, compared with {} in {}: ", printable(comparison.new_agent, 40),
+                                 printable(comparison.old_agent, 40), printable(baseline.baseline_path, 200));
+  text += comparison.paired
+              ? fmt::format("paired, because both ran in the same {}.", count_text(comparison.worlds, "world"))
+              : fmt::format("not paired: {}; this takes more worlds.", comparison.why_unpaired);
+  text += fmt::format(" Transports (orders) per AGV-hour: {:.2f} before, {:.2f} now",
+                      comparison.old_transports_per_agv_hour, comparison.new_transports_per_agv_hour);
+  if (comparison.paired)
+    text += fmt::format(" (slower in {}, faster in {} worlds)", comparison.slower_worlds, comparison.faster_worlds);
+  section.remarks.emplace_back().text = text + ". All cells count here, those beyond the contract region, too.";
+  if (comparison.paired) add_newly_failing(section, archive_path, comparison);
 }
 
 }  // namespace
@@ -26,6 +85,29 @@ std::vector<BaselineComparison> compare_with_baseline(const ArchiveReader& archi
     }
   }
   return list;
+}
+
+Section comparison_section(const std::vector<BaselineComparison>& baseline, const std::string& archive_path) {
+  Section section{"Compared with the baseline", {}, {}};
+  section.table.columns = {{"agent", false}, {"end point", false}, {"change", false},   {"before"},       {"now"},
+                           {"only before"},  {"only now"},         {"difference in %"}, {"worlds needed"}};
+  const ComparisonRule rule = baseline.front().rule;
+  for (const BaselineComparison& each : baseline) {
+    if (each.comparison) {
+      add_comparison(section, archive_path, each);
+    } else {
+      section.remarks.emplace_back().text =
+          fmt::format("{} is not compared: {} has no agent of this name, and not exactly one under test.",
+                      printable(each.agent, 40), printable(each.baseline_path, 200));
+    }
+  }
+  section.remarks.emplace_back().text = fmt::format(
+      "before, now = worlds that failed or stayed unknown. only before, only now = worlds in which only one of the two "
+      "did; they decide a paired comparison. difference = interval of the change of the share ({} confidence), not "
+      "adjusted for the number of end points. not worse = the change is below the margin of {}. worlds needed = with "
+      "so many worlds the change could be told, if the shares stay as they are.",
+      percent(rule.confidence), percent(rule.margin));
+  return section;
 }
 
 }  // namespace fleetproof

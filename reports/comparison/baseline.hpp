@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reports/comparison/release_comparison.hpp"
+#include "reports/page/page.hpp"
 
 namespace fleetproof {
 
@@ -19,5 +20,9 @@ struct BaselineComparison {
 // under test in the baseline.
 std::vector<BaselineComparison> compare_with_baseline(const ArchiveReader& archive, const std::string& archive_path,
                                                       const ArchiveReader& baseline, const std::string& baseline_path);
+
+// What changed since the baseline, by agent and end point; the runs that newly fail, each with its replay line.
+// Requires: there is a comparison.
+Section comparison_section(const std::vector<BaselineComparison>& baseline, const std::string& archive_path);
 
 }  // namespace fleetproof

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/evidence/rounding.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {

@@ -1,9 +1,9 @@
 #include "reports/comparison/release_comparison.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
-#include "reports/comparison/same_worlds.hpp"
 #include "reports/evidence/exposure.hpp"
 #include "reports/evidence/fisher.hpp"
 
@@ -25,6 +25,29 @@ std::uint64_t failing_worlds(const ReleaseRuns& release, std::size_t end_point, 
 
 bool same_conditions(const CellRecord& a, const CellRecord& b) {
   return a.layout == b.layout && a.fleet_size == b.fleet_size && a.lowest == b.lowest && a.highest == b.highest;
+}
+
+using PlainJson = nlohmann::json;
+
+// The part of a plan that shapes worlds and judgement.
+PlainJson part_that_shapes(const std::string& plan_json) {
+  PlainJson plan = PlainJson::parse(plan_json, nullptr, false);
+  if (!plan.is_object()) return plan_json;
+  for (const char* key :
+       {"name", "replicates", "gates", "default_gates", "limits", "audit", "agent_config", "coverage"})
+    plan.erase(key);
+  if (plan.contains("factors") && plan["factors"].is_object()) plan["factors"].erase("agents");
+  return plan;
+}
+
+// Why two campaigns did not run in the same worlds, judged by the same laws: "the plans differ in /horizon_s". Empty:
+// they did, if their cells are the same. Names, agents, gates, limits, audits and the number of replicates are no
+// difference.
+std::string world_difference(const CampaignRecord& one, const CampaignRecord& other) {
+  if (one.engine.version != other.engine.version) return "the versions of fleetproof differ";
+  if (one.seed != other.seed) return "the seeds differ";
+  const PlainJson patch = PlainJson::diff(part_that_shapes(one.plan_json), part_that_shapes(other.plan_json));
+  return patch.empty() ? "" : "the plans differ in " + patch.front().at("path").get<std::string>();
 }
 
 // Why the runs cannot be paired; empty: they can.

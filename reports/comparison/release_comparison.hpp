@@ -51,7 +51,7 @@ struct Comparison {
   bool any(Change change) const;
 };
 
-// Runs are paired if both releases ran in the same worlds and cells (same_worlds.hpp); then the worlds that both have
+// Runs are paired if both releases ran in the same worlds and cells; then the worlds that both have
 // are compared, McNemar's test decides, and cells share worlds, so that the world is the unit. Otherwise Fisher's exact
 // test compares the shares of failing worlds.
 Comparison compare(const ReleaseRuns& old_release, const ReleaseRuns& new_release, const ComparisonRule& rule);

@@ -4,11 +4,21 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "reports/evidence/bisection.hpp"
 #include "reports/evidence/likelihood_terms.hpp"
 
 namespace fleetproof {
 namespace {
+
+// The edge of a set of real numbers between a number inside and a number outside: the first double outside, so that an
+// interval with these ends holds the whole set. Requires: `is_inside` changes once between the two.
+template <class IsInside>
+double edge_between(double inside, double outside, const IsInside& is_inside) {
+  for (;;) {
+    const double middle = inside + (outside - inside) / 2.0;
+    if (middle == inside || middle == outside) return outside;
+    (is_inside(middle) ? inside : outside) = middle;
+  }
+}
 
 // ln M at the observed rate, where the deviance is 0.
 double log_mixture_at_rate(double k, double n, const BetaPrior& prior) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/page/page.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -44,5 +45,8 @@ struct FoundFile {
   std::string trouble;
 };
 FoundFile findings_beside(const std::string& archive_path, std::uint64_t plan_hash, std::uint64_t stored_runs);
+
+// The findings of the campaign, or how to find them.
+Section findings_section(const FoundFile& file, const std::string& archive_path);
 
 }  // namespace fleetproof

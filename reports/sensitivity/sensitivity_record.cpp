@@ -7,7 +7,7 @@
 
 #include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/beside.hpp"
 
 namespace fleetproof {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/base/outside_text.hpp"
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {
@@ -74,11 +74,12 @@ Table sensitivity_table(const SensitivityRecord& record) {
   return table;
 }
 
-Section sensitivity_section(const ReportInput& input) {
+Section sensitivity_section(const SensitivityFile& file, const std::string& archive_path,
+                            const std::string& program_sha256) {
   Section section{"Which planted faults these worlds detect", {}, {}};
-  const auto& [record, trouble] = input.sensitivity;
+  const auto& [record, trouble] = file;
   if (!record) {
-    const auto name = std::filesystem::path(sensitivity_path(input.archive_path)).filename();
+    const auto name = std::filesystem::path(sensitivity_path(archive_path)).filename();
     section.remarks.push_back(
         {trouble.empty()
              ? fmt::format("Not measured. Agents with known faults can be tried in these worlds (fleetproof "
@@ -91,7 +92,7 @@ Section sensitivity_section(const ReportInput& input) {
   section.table = sensitivity_table(*record);
   section.remarks.push_back({fmt::format("A campaign in these worlds {}.", sensitivity_sentence(*record)), ""});
   section.remarks.push_back({measured_text(*record), ""});
-  if (record->program_sha256 != input.campaign.engine.program_sha256) {
+  if (record->program_sha256 != program_sha256) {
     section.remarks.push_back(
         {fmt::format("It was measured by another build: fleetproof {}.", printable(record->engine_version, 40)), ""});
   }

@@ -42,7 +42,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"laws/progress_law.cpp ProgressLaw", "one number for each end point that the law judges"},
     {"reports/evidence/tally.hpp Tally", "plain figures: one number for each kind of run that is counted"},
     {"reports/evidence/evidence.hpp Evidence", "plain figures of one campaign, counted in one pass"},
-    {"reports/web/film.hpp Film", "plain data: everything that a replay page shows"},
+    {"reports/replay_page/film.hpp Film", "plain data: everything that a replay page shows"},
     {"tests/agents/fake_warehouse.hpp FakeWarehouse", "stands in for the whole C table of a controller"},
     {"tests/agents/fake_agv.hpp FakeAgv", "plain data: all that the fake says of one AGV"},
 };

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/audit_section.hpp"
-#include "reports/report.hpp"
+#include "reports/sections/audit_section.hpp"
+#include "reports/sections/report_input.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 #include "storage/checksum.hpp"

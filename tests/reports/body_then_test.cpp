@@ -1,9 +1,9 @@
 // What a reason says of the other of the pair when it sent its answer: it stands in the way, and says yes.
-#include "reports/web/body_then.hpp"
+#include "reports/replay_page/body_then.hpp"
 
 #include <gmock/gmock.h>
 
-#include "reports/web/drive_reasons.hpp"
+#include "reports/replay_page/drive_reasons.hpp"
 
 namespace fleetproof::web::body_then_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/html/chart.hpp"
+#include "reports/campaign_page/chart.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
 // The guaranteed envelope on the page, against the gate's formula written out here.
-#include "reports/html/envelope_map.hpp"
+#include "reports/campaign_page/envelope_map.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "reports/html/quality_maps.hpp"
+#include "reports/campaign_page/quality_maps.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
 namespace fleetproof::html::envelope_map_test {

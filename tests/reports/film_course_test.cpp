@@ -1,5 +1,5 @@
 // What the course of events has of the notes of agents.
-#include "reports/web/film_course.hpp"
+#include "reports/replay_page/film_course.hpp"
 
 #include <gmock/gmock.h>
 

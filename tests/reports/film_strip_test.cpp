@@ -1,4 +1,4 @@
-#include "reports/html/film_strip.hpp"
+#include "reports/markup/film_strip.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

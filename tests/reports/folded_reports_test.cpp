@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "reports/campaign_page/html_report.hpp"
 #include "reports/comparison/release_runs.hpp"
 #include "reports/evidence/quiet_run.hpp"
-#include "reports/export/validity.hpp"
-#include "reports/html/html_report.hpp"
-#include "reports/report.hpp"
+#include "reports/formats/report_formats.hpp"
+#include "reports/formats/validity.hpp"
+#include "reports/sections/report_input.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/checksum.hpp"
 #include "tests/storage/sample_records.hpp"

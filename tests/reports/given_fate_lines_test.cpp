@@ -1,5 +1,5 @@
 // What the head of a page says of a message whose fate the scenario gives.
-#include "reports/web/given_fate_lines.hpp"
+#include "reports/replay_page/given_fate_lines.hpp"
 
 #include <gtest/gtest.h>
 

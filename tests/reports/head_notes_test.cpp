@@ -1,4 +1,4 @@
-#include "reports/head_notes.hpp"
+#include "reports/sections/head_notes.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "reports/html/campaign_figures.hpp"
-#include "reports/html/markup.hpp"
+#include "reports/campaign_page/campaign_figures.hpp"
+#include "reports/markup/markup.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
 namespace fleetproof::html::html_figures_test {

@@ -1,4 +1,4 @@
-#include "reports/html/html_report.hpp"
+#include "reports/campaign_page/html_report.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <pugixml.hpp>
 #include <set>
 
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/archive_writer.hpp"
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/storage/sample_records.hpp"

@@ -1,4 +1,4 @@
-#include "reports/web/message_numbers.hpp"
+#include "reports/replay_page/message_numbers.hpp"
 
 #include <gmock/gmock.h>
 

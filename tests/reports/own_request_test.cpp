@@ -1,12 +1,12 @@
 // What an AGV was asking when it went, and whether that had been answered.
-#include "reports/web/own_request.hpp"
+#include "reports/replay_page/own_request.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fmt/format.h>
 
-#include "reports/web/drive_reasons.hpp"
-#include "reports/web/replay_page.hpp"
+#include "reports/replay_page/drive_reasons.hpp"
+#include "reports/replay_page/replay_page.hpp"
 
 namespace fleetproof::web::own_request_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/plan_conditions.hpp"
+#include "reports/sections/plan_conditions.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "reports/web/replay_page.hpp"
+#include "reports/replay_page/replay_page.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -7,7 +7,7 @@
 #include <pugixml.hpp>
 #include <set>
 
-#include "reports/web/film_budget.hpp"
+#include "reports/replay_page/film_budget.hpp"
 
 namespace fleetproof::web::replay_page_test {
 namespace {

@@ -1,4 +1,5 @@
-#include "reports/report.hpp"
+#include "reports/formats/report_formats.hpp"
+#include "reports/sections/report_input.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +8,7 @@
 #include <regex>
 #include <sstream>
 
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/archive_writer.hpp"
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/storage/sample_records.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/report.hpp"
+#include "reports/sections/report_input.hpp"
 #include "tests/support/at_seconds.hpp"
 
 namespace fleetproof::samples {

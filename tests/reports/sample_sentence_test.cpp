@@ -1,5 +1,5 @@
 // What was sampled, held and exempted, as reports say it.
-#include "reports/sample_sentence.hpp"
+#include "reports/sections/sample_sentence.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

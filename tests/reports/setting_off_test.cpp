@@ -1,9 +1,9 @@
 // When an AGV decided on what it does: told by the word of its agent, and by what it asked on its way.
-#include "reports/web/setting_off.hpp"
+#include "reports/replay_page/setting_off.hpp"
 
 #include <gmock/gmock.h>
 
-#include "reports/web/drive_reasons.hpp"
+#include "reports/replay_page/drive_reasons.hpp"
 
 namespace fleetproof::web::setting_off_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/export/validity.hpp"
+#include "reports/formats/validity.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,8 +1,8 @@
-#include "reports/weak_points.hpp"
+#include "reports/sections/weak_points.hpp"
 
 #include <gmock/gmock.h>
 
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
 namespace fleetproof::weak_points_test {

@@ -1,4 +1,4 @@
-#include "reports/wording.hpp"
+#include "reports/page/wording.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 
 #include "core/base/error.hpp"
 #include "reports/evidence/quiet_run.hpp"
-#include "reports/json_report.hpp"
-#include "reports/report.hpp"
+#include "reports/formats/json_report.hpp"
+#include "reports/sections/report_input.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 #include "tests/storage/refusal.hpp"

@@ -1,0 +1,54 @@
+#include "reports/replay_page/film_talk.hpp"
+
+#include <algorithm>
+
+#include "reports/replay_page/message_numbers.hpp"
+
+namespace fleetproof::web {
+
+FilmTalk::FilmTalk(const Film& film) : sent_by_(film.bodies.size()), restarts_(film.bodies.size()) {
+  for (const Happening& h : film.happenings) {
+    const bool is_new_agent = h.is_fault ? h.what.ends_with(" over") && h.details == "restart"
+                                         : h.details.find("restarts the agent") != h.details.npos;
+    if (is_new_agent) restarts_[h.body].push_back({h.at_us, h.order});
+  }
+  for (const Message& message : film.messages) {
+    sent_by_[message.sender].push_back(&message);
+    has_messages_to_one_ = has_messages_to_one_ || message.receiver.has_value();
+    has_numbered_answers_ = has_numbered_answers_ || !numbers_answered(message.content).list.empty();
+    for (const Arrival& arrival : message.arrivals) {
+      std::vector<Delivery>& link = links_[{message.sender, arrival.receiver}];
+      const Moment arrives{message.sent_us + arrival.after_us, arrival.order};
+      const bool is_copy = !link.empty() && link.back().message == &message;
+      if (!is_copy) {
+        link.push_back({&message, arrival.fate, {message.sent_us, message.order}, arrives, {}});
+      } else if (link.back().is_lost() || arrival.fate != Fate::Received) {
+        link.back().fate = arrival.fate;
+        link.back().arrives = arrives;
+      } else {
+        link.back().again = std::max(link.back().arrives, arrives);
+        link.back().arrives = std::min(link.back().arrives, arrives);
+      }
+    }
+  }
+}
+
+std::optional<std::int64_t> FilmTalk::restarted_us(std::size_t body, Moment before) const {
+  const auto& restarts = restarts_[body];
+  const auto after = std::ranges::lower_bound(restarts, before);
+  return after == restarts.begin() ? std::nullopt : std::optional((after - 1)->at_us);
+}
+
+const std::vector<Delivery>& FilmTalk::between(std::size_t sender, std::size_t receiver) const {
+  static const std::vector<Delivery> kNone;
+  const auto found = links_.find({sender, receiver});
+  return found == links_.end() ? kNone : found->second;
+}
+
+std::span<const Delivery> sent_within(const std::vector<Delivery>& list, std::int64_t from_us, Moment until) {
+  const auto from = std::ranges::lower_bound(list, Moment{from_us, 0}, {}, &Delivery::sent);
+  const auto to = std::ranges::lower_bound(list, until, {}, &Delivery::sent);
+  return from < to ? std::span<const Delivery>(from, to) : std::span<const Delivery>{};
+}
+
+}  // namespace fleetproof::web

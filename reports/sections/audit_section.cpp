@@ -1,0 +1,76 @@
+#include "reports/sections/audit_section.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "reports/page/wording.hpp"
+
+namespace fleetproof {
+namespace {
+
+// "2.1 % of the audited runs (3 of 143)".
+std::string share_text(const AgentAudit& audit) {
+  return fmt::format("{:.1f} % of the audited runs ({} of {})",
+                     100.0 * static_cast<double>(audit.differing) / static_cast<double>(audit.audited), audit.differing,
+                     audit.audited);
+}
+
+std::string recordings_text(const AgentAudit& audit) {
+  if (audit.failed_runs == 0) return "None of its runs failed.";
+  return fmt::format("{} of {} can be replayed from a recording of what the agent did.", audit.recordings,
+                     count_text(audit.failed_runs, "failed run"));
+}
+
+Headline headline_of(const ReportInput& input, const AgentAudit& audit) {
+  const std::string agent = printable(audit.agent, 40);
+  if (audit.engine_at_fault()) {
+    Headline headline{"engine error",
+                      fmt::format("runs of the reference agent {} came out differently in {}: nothing here is evidence "
+                                  "until that error is corrected.",
+                                  agent, share_text(audit)),
+                      {}};
+    headline.details.push_back({fmt::format("The first of them is run {}:", *audit.first_differing),
+                                replay_line(input, *audit.first_differing)});
+    return headline;
+  }
+  return {"not deterministic",
+          fmt::format("agent {}: this software is not deterministic in {}, first in run {}. Its rates are those of the "
+                      "runs as they "
+                      "were; the same run may end in another way. {}",
+                      agent, share_text(audit), *audit.first_differing, recordings_text(audit)),
+          {}};
+}
+
+std::string remark_of(const AgentAudit& audit) {
+  const std::string agent = printable(audit.agent, 40);
+  if (audit.audited == 0) return fmt::format("Agent {}: no run was audited.", agent);
+  if (audit.differing == 0)
+    return audit.audited == 1
+               ? fmt::format("Agent {}: 1 run was audited, and it came out the same.", agent)
+               : fmt::format("Agent {}: {} runs were audited, and every one came out the same.", agent, audit.audited);
+  if (audit.engine_at_fault()) return fmt::format("Agent {}: an error of the engine in {}.", agent, share_text(audit));
+  return fmt::format("Agent {}: not deterministic in {}. {}", agent, share_text(audit), recordings_text(audit));
+}
+
+}  // namespace
+
+std::vector<Headline> audit_headlines(const ReportInput& input) {
+  std::vector<Headline> list;
+  for (const AgentAudit& audit : input.audits.agents()) {
+    if (audit.differing > 0) list.push_back(headline_of(input, audit));
+  }
+  return list;
+}
+
+Section audit_section(const ReportInput& input) {
+  Section section{"Can the runs be repeated?", {}, {}};
+  std::string what =
+      "An audit simulates a run once more: in another process, with other addresses, other bytes in fresh memory, and "
+      "in another order of runs.";
+  section.remarks.emplace_back().text = std::move(what);
+  for (const AgentAudit& audit : input.audits.agents()) section.remarks.push_back({remark_of(audit), ""});
+  return section;
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "reports/page/page.hpp"
+#include "reports/sections/report_input.hpp"
+
+namespace fleetproof {
+
+// One headline for each agent whose runs came out differently when they were simulated once more.
+std::vector<Headline> audit_headlines(const ReportInput& input);
+
+// What the audits say about each agent.
+Section audit_section(const ReportInput& input);
+
+}  // namespace fleetproof

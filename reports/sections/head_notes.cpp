@@ -1,0 +1,64 @@
+#include "reports/sections/head_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/page/wording.hpp"
+#include "reports/sections/coverage_section.hpp"
+#include "reports/sensitivity/sensitivity_section.hpp"
+
+namespace fleetproof {
+namespace {
+
+bool has_gate_on_progress(const Evidence& evidence, const std::string& agent) {
+  return std::ranges::any_of(evidence.gates(), [&](const GateRecord& gate) {
+    return gate.agent == agent && gate.decides &&
+           (gate.end_point == EndPoint::Deadlock || gate.end_point == EndPoint::Livelock ||
+            gate.end_point == EndPoint::Starvation);
+  });
+}
+
+}  // namespace
+
+std::vector<Remark> stall_notes(const ReportInput& input) {
+  std::vector<Remark> notes;
+  for (const BreakdownRow& row : input.breakdown.rows()) {
+    const bool of_all = row.key.layout.empty() && row.key.fleet_size == 0;
+    if (!of_all || !row.key.in_contract || row.stalled == 0) continue;
+    if (!is_under_test(input.evidence.gates(), row.key.agent)) continue;
+    std::string text = fmt::format(
+        "{} stalled in {} of {} worlds of the contract region: AGVs waited for each other (deadlock), moved without a "
+        "result (livelock), or one was left without progress (starvation), and no contact explains it.",
+        printable(row.key.agent, 40), row.stalled, row.violations.units);
+    if (!has_gate_on_progress(input.evidence, row.key.agent)) text += " No gate judges that.";
+    notes.emplace_back().text = std::move(text);
+  }
+  return notes;
+}
+
+std::vector<Remark> soundness_notes(const ReportInput& input) {
+  std::uint64_t audited = 0;
+  bool in_doubt = input.evidence.engine_errors() > 0;
+  for (const AgentAudit& audit : input.audits.agents()) {
+    audited += audit.audited;
+    in_doubt = in_doubt || audit.differing > 0;
+  }
+  std::vector<Remark> notes;
+  if (in_doubt) return notes;
+  std::string text = "No run ended in an error of the simulator. ";
+  text += audited == 0 ? "No run was simulated once more to compare."
+                       : fmt::format("{} simulated once more in another process, and came out the same.",
+                                     audited == 1 ? "1 run was" : fmt::format("{} runs were", audited));
+  notes.emplace_back().text = std::move(text);
+  return notes;
+}
+
+std::vector<Remark> sensitivity_notes(const ReportInput& input) {
+  const auto& [record, trouble] = input.sensitivity;
+  if (!record) return trouble.empty() ? std::vector<Remark>{} : std::vector<Remark>{{printable(trouble, 400), ""}};
+  return {
+      {fmt::format("Tried with planted faults, a campaign in these worlds {}.", sensitivity_sentence(*record)), ""}};
+}
+
+}  // namespace fleetproof

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "reports/page/page.hpp"
+#include "reports/sections/report_input.hpp"
+
+namespace fleetproof {
+
+// Sentences of the head that belong to no gate.
+
+// The agents under test that stalled within the contract region: deadlock, livelock or starvation that no contact and
+// no foreign body explains.
+std::vector<Remark> stall_notes(const ReportInput& input);
+
+// That nothing casts doubt on the simulator: errors of its own, and audits. Empty if something does: then a headline
+// says so.
+std::vector<Remark> soundness_notes(const ReportInput& input);
+
+// Which planted faults these worlds detect, if that was measured, or why what was measured tells nothing.
+std::vector<Remark> sensitivity_notes(const ReportInput& input);
+
+}  // namespace fleetproof

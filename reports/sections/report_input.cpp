@@ -1,0 +1,52 @@
+#include "reports/sections/report_input.hpp"
+
+#include <utility>
+
+#include "reports/page/wording.hpp"
+
+namespace fleetproof {
+
+std::string replay_line(const ReportInput& input, std::uint64_t run_index) {
+  return replay_command(input.archive_path, run_index);
+}
+
+ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path, const AlsoCount& also) {
+  ReportInput input{std::move(archive_path),
+                    archive.campaign(),
+                    Evidence(archive.campaign(), archive.cells(), archive.gates()),
+                    Breakdown(archive.cells()),
+                    AuditTally(archive.campaign(), archive.cells()),
+                    {},
+                    {},
+                    0,
+                    4};
+  const auto count = [&](const RunRecord& run) {
+    ++input.stored_runs;
+    input.audits.add_run(run);
+    if (run.run_index != input.evidence.runs()) return;
+    input.evidence.add(run);
+    input.breakdown.add(run);
+    input.failures.add(run, input.evidence.cells()[run.cell].agent);
+    if (also) also(run, input.evidence);
+  };
+  VisitFolded folded;
+  folded.met = [&](std::uint32_t cell, const auto& met) { input.evidence.add_met(cell, met); };
+  if (input.evidence.quiet_counts() && !also) {
+    folded.quiet = [&](const QuietReplicates& quiet) {
+      input.stored_runs += quiet.replicates * quiet.by_cell.size();
+      input.evidence.add(quiet);
+      input.breakdown.add(quiet);
+    };
+  }
+  archive.for_each_run(count, folded);
+  archive.for_each_audit([&](const AuditRecord& audit, bool same) {
+    if (audit.run_index < input.evidence.runs()) input.audits.add_audit(audit.run_index, same);
+  });
+  for (const std::string& agent : archive.campaign().plugin_agents)
+    input.audits.add_recordings(agent, archive.recording_count(agent));
+  input.gates = input.evidence.judge_all();
+  input.exit_code = input.audits.engine_at_fault() ? 3 : exit_code(input.evidence, input.gates);
+  return input;
+}
+
+}  // namespace fleetproof
