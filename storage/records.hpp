@@ -78,6 +78,13 @@ struct CampaignRecord {
   friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;
 };
 
+// All that is fixed before the first run.
+struct StoredPlan {
+  CampaignRecord campaign;
+  std::vector<CellRecord> cells;  // by index
+  std::vector<GateRecord> gates;
+};
+
 // run_index = replicate x cells + cell, so that every prefix of a campaign is balanced over its cells.
 struct RunRecord {
   std::uint64_t run_index = 0;

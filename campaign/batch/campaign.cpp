@@ -10,18 +10,11 @@
 #include "campaign/batch/audit_desk.hpp"
 #include "campaign/batch/run_ledger.hpp"
 #include "campaign/batch/same_campaign.hpp"
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/batch/verdict_watch.hpp"
-#include "campaign/plan/default_gates.hpp"
 #include "campaign/plan/first_worlds.hpp"
-#include "campaign/plan/plan_text.hpp"
-#include "campaign/run/engine_identity.hpp"
 #include "campaign/workers/run_host.hpp"
-#include "core/base/outside_text.hpp"
-#include "core/base/random.hpp"
-#include "generators/formats/purpose_words.hpp"
-#include "generators/scenario_file/exempt_pairs.hpp"
-#include "reports/evidence/evidence.hpp"
 #include "reports/evidence/quiet_run.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
@@ -49,64 +42,22 @@ bool must_stop(const RunOptions& options) {
   return interrupted || (options.deadline && std::chrono::steady_clock::now() >= *options.deadline);
 }
 
-std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs) {
-  std::vector<std::string> names;
-  for (const AgentFactor& agent : plan.agents) {
-    if (programs.is_plugin(agent.program)) names.push_back(agent.name);
-  }
-  return names;
-}
-
-std::vector<GateRecord> resolved_gates(const CampaignPlan& plan, const AgentPrograms& programs) {
-  std::vector<bool> is_plugin;
-  for (const AgentFactor& agent : plan.agents) is_plugin.push_back(programs.is_plugin(agent.program));
-  const std::vector<std::string> judged = agents_under_test(plan, is_plugin);
-  CampaignRecord record;
-  record.replicates = plan.replicates;
-  std::vector<GateRecord> gates = Evidence(record, plan.cells(), plan.gates).gates();  // with their tables
-  for (GateRecord& gate : gates) gate.decides = std::ranges::find(judged, gate.agent) != judged.end();
-  return gates;
-}
-
-CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs) {
-  CampaignRecord record;
-  record.name = plan.name;
-  record.kind = name_of(plan.kind);
-  record.seed = plan.seed;
-  record.replicates = plan.replicates;
-  record.plan_json = plan_text(plan);
-  record.plan_hash = name_hash(record.plan_json);
-  record.required_probes = plan.probes_to_meet();
-  if (plan.is_drawn()) record.sampling = name_of(plan.sampling);
-  for (const Stream stream : plan.held_streams) record.held_streams.emplace_back(name_of(stream));
-  record.held_replicate = plan.held_replicate;
-  record.exempt_purposes = purposes_text(plan.law.exempt_purposes);
-  record.exempt_radius_m = plan.law.exempt_radius_m;
-  for (const ExemptPair& pair : plan.law.exempt_pairs) record.exempt_pairs.push_back(text_of(pair));
-  record.plugin_agents = plugin_agents(plan, programs);
-  record.keep = plan.keep;
-  record.engine = engine_identity();
-  for (const std::string& plugin : programs.plugin_identities()) record.engine.libraries += ", plug-in " + plugin;
-  return record;
-}
-
 namespace {
 
 // One session of a campaign: takes over what the file holds, hands out the other runs, stores those that finish, has a
 // share of them audited, and publishes the gap-free prefix. It counts, stops and reports on the caller's thread.
 class Session {
  public:
-  Session(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path, const RunOptions& options,
-          const CampaignListener& listener)
+  Session(const CampaignPlan& plan, const AgentPrograms& programs, const StoredPlan& stored, const std::string& path,
+          const RunOptions& options, const CampaignListener& listener)
       : options_(options),
         listener_(listener),
         stretch_(plan.cells_per_world()),
         audit_book_(plan, programs),
         runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
         audits_(plan, programs, options.audit_program, options.workers),
-        verdict_(campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs)),
-        archive_(path, campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs),
-                 options.overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
+        verdict_(stored),
+        archive_(path, stored, options.overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
     result_.progress.planned = plan.run_count();
     for (std::size_t agent = 0; agent < audit_book_.agent_count(); ++agent)
       runs_.record(agent, audit_book_.needs_recordings(agent));
@@ -261,17 +212,17 @@ class Session {
 namespace {
 
 // Nothing is left to do in a folded file: the campaign was complete.
-std::optional<CampaignResult> folded_before(const CampaignPlan& plan, const AgentPrograms& programs,
-                                            const std::string& path, const RunOptions& options) {
+std::optional<CampaignResult> folded_before(const StoredPlan& plan, const std::string& path,
+                                            const RunOptions& options) {
   std::error_code ignored;
   namespace fs = std::filesystem;
   if (options.overwrite || !fs::exists(path, ignored) || fs::exists(path + ".partial", ignored)) return std::nullopt;
   const ArchiveReader archive(path);
-  if (!archive.is_folded() || archive.campaign().replicates != plan.replicates) return std::nullopt;
-  CampaignRecord now = campaign_record(plan, programs);
+  if (!archive.is_folded() || archive.campaign().replicates != plan.campaign.replicates) return std::nullopt;
+  CampaignRecord now = plan.campaign;
   require_same_campaign(path, archive.campaign(), now, options.allow_drift);
   CampaignResult result;
-  result.stored = result.progress.done = result.progress.planned = plan.run_count();
+  result.stored = result.progress.done = result.progress.planned = plan.campaign.replicates * plan.cells.size();
   return result;
 }
 
@@ -280,13 +231,14 @@ std::optional<CampaignResult> folded_before(const CampaignPlan& plan, const Agen
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener) {
   for (const AgentFactor& agent : plan.agents) (void)programs.program(agent.program, "factors.agents");
-  if (auto result = folded_before(plan, programs, path, options)) {
+  const StoredPlan stored = stored_plan(plan, programs);
+  if (auto result = folded_before(stored, path, options)) {
     listener.started();
     return *std::move(result);
   }
   // What cannot be built is said before anything is written.
   for (const std::string& sentence : build_first_worlds(plan)) listener.warned(sentence);
-  return Session(plan, programs, path, options, listener).run(plan.keep);
+  return Session(plan, programs, stored, path, options, listener).run(plan.keep);
 }
 
 }  // namespace fleetproof

@@ -72,13 +72,4 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
 // Whether a signal or the deadline ends a session.
 bool must_stop(const RunOptions& options);
 
-// The agents of the plan that come from shared objects.
-std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
-
-// The gates of the plan as the archive stores them: each with its table of stopping decisions, and whether it decides
-// the verdict.
-std::vector<GateRecord> resolved_gates(const CampaignPlan& plan, const AgentPrograms& programs);
-
-CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);
-
 }  // namespace fleetproof

@@ -2,10 +2,6 @@
 
 namespace fleetproof {
 
-VerdictWatch::VerdictWatch(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                           const std::vector<GateRecord>& gates)
-    : evidence_(campaign, cells, gates) {}
-
 void VerdictWatch::add(const RunRecord& run) {
   if (decided_length_) return;
   RunRecord& kept = ahead_.emplace(run.run_index, run).first->second;

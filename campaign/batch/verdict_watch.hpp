@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <vector>
 
 #include "reports/evidence/evidence.hpp"
 #include "storage/records.hpp"
@@ -14,8 +13,7 @@ namespace fleetproof {
 // their index, whatever the order in which they finish: otherwise short runs would be over-represented. Threads: one.
 class VerdictWatch {
  public:
-  VerdictWatch(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-               const std::vector<GateRecord>& gates);
+  explicit VerdictWatch(const StoredPlan& plan) : evidence_(plan) {}
 
   void add(const RunRecord& run);
   // How many runs the campaign needed to be demonstrated or violated, in whole replicates. Empty until then.

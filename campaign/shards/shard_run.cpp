@@ -9,6 +9,7 @@
 
 #include "campaign/batch/audit_desk.hpp"
 #include "campaign/batch/same_campaign.hpp"
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/plan/first_worlds.hpp"
 #include "campaign/shards/canary.hpp"
@@ -28,8 +29,8 @@ constexpr std::uint64_t kLiveWindow = 4096;
 // One session of a shard. It counts, publishes and reports on the caller's thread.
 class ShardSession {
  public:
-  ShardSession(const CampaignPlan& plan, const AgentPrograms& programs, const ShardFolder& folder, Shard shard,
-               const RunOptions& options, const ShardListener& listener)
+  ShardSession(const CampaignPlan& plan, const AgentPrograms& programs, const StoredPlan& stored,
+               const ShardFolder& folder, Shard shard, const RunOptions& options, const ShardListener& listener)
       : options_(options),
         listener_(listener),
         stretch_(plan.cells_per_world()),
@@ -37,8 +38,7 @@ class ShardSession {
         owned_(grid_.of(shard)),
         runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
         audits_(plan, programs, options.audit_program, options.workers),
-        desk_(folder, grid_,
-              common_label({campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs)})) {
+        desk_(folder, grid_, common_label(stored)) {
     // Which failed runs may be simulated again is known when all shards are put together.
     for (std::size_t agent = 0; agent < plan.agents.size(); ++agent)
       runs_.record(agent, plan.audit.share > 0.0 && programs.is_plugin(plan.agents[agent].program));
@@ -164,11 +164,11 @@ class ShardSession {
 }  // namespace
 
 ChunkLabel common_label(const StoredPlan& plan) {
-  CampaignRecord without_engine = plan.campaign;
-  without_engine.engine = {};
+  StoredPlan without_engine = plan;
+  without_engine.campaign.engine = {};
   const EngineIdentity& engine = plan.campaign.engine;
   ChunkLabel label;
-  label.plan = plan_checksum(without_engine, plan.cells, plan.gates);
+  label.plan = plan_checksum(without_engine);
   label.campaign = plan.campaign.name;
   label.program = fmt::format("fleetproof {} sha256 {} ({})", engine.version, engine.program_sha256, engine.libraries);
   return label;
@@ -194,11 +194,11 @@ ShardResult run_shard(const CampaignPlan& plan, const AgentPrograms& programs, c
   // What cannot be built is said before anything is written.
   for (const std::string& sentence : build_first_worlds(plan)) listener.campaign.warned(sentence);
   folder.make();
-  const StoredPlan ours{campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs)};
+  const StoredPlan ours = stored_plan(plan, programs);
   publish_plan(folder, ours);
   require_same_plan(folder.plan_file(), read_plan(folder).campaign, ours.campaign);
   check_canary(folder, canary_text(plan, programs, options.workers));
-  return ShardSession(plan, programs, folder, shard, options, listener).run();
+  return ShardSession(plan, programs, ours, folder, shard, options, listener).run();
 }
 
 }  // namespace fleetproof

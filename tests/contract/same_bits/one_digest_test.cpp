@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "campaign/batch/campaign.hpp"
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/run/run_one.hpp"
 #include "campaign/run/sha256.hpp"
 #include "campaign/workers/run_host.hpp"
@@ -66,7 +67,7 @@ class OneDigest : public test::ProgramTest {
         plugins == Plugins::OnThreads ? programs.load(object) : programs.know(object);
       const RunOne on_threads(plan_, programs);
       RunHost in_workers(plan_, programs, {.workers = workers});
-      ArchiveWriter archive(path(file), campaign_record(plan_, programs), plan_.cells(), plan_.gates);
+      ArchiveWriter archive(path(file), stored_plan(plan_, programs));
       StartingLine line(static_cast<int>(std::min<std::uint64_t>(window, static_cast<std::uint64_t>(workers))));
       TaskPool pool(workers, 0, plan_.run_count(), window, [&](std::uint64_t index) {
         line.wait();
