@@ -370,7 +370,8 @@ void ArchiveReader::for_each_run(const VisitRun& visit, const VisitFolded& visit
 }
 
 std::uint64_t ArchiveReader::content_digest() const {
-  return impl_->guarded([&] { return content_digest_of(impl_->stored_checksum, impl_->read_all([](const RunRecord&) {})); });
+  return impl_->guarded(
+      [&] { return content_digest_of(impl_->stored_checksum, impl_->read_all([](const RunRecord&) {})); });
 }
 
 std::uint64_t ArchiveReader::results_digest() const {

@@ -154,8 +154,7 @@ TEST(ArchiveReader, a_changed_plan_is_noticed) {
 TEST(ArchiveWriter, refuses_names_that_are_taken_or_cannot_be) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& path) {
-    return sentence_of<InputError>(
-        [&] { ArchiveWriter writer(path, samples::plan()); });
+    return sentence_of<InputError>([&] { ArchiveWriter writer(path, samples::plan()); });
   };
   write_archive(folder / "a.fp");
   const auto before = samples::bytes_of(folder / "a.fp");
@@ -339,8 +338,7 @@ TEST(ArchiveWriter, a_foreign_file_with_a_name_that_is_needed_on_the_way_stays) 
 TEST(ArchiveWriter, the_rest_of_a_killed_merge_gives_way) {
   const TemporaryFolder folder;
   const auto merge = [&] {
-    return ArchiveWriter(folder / "a.fp", samples::plan(), Existing::Refuse, {},
-                         LiveName::Merging);
+    return ArchiveWriter(folder / "a.fp", samples::plan(), Existing::Refuse, {}, LiveName::Merging);
   };
   samples::write_bytes(folder / "a.fp.merging", "mine");
   EXPECT_THAT(sentence_of<InputError>(merge), HasSubstr("a.fp.merging"));

@@ -84,9 +84,10 @@ TEST_F(FoldedFile, AChangeIsNoticed) {
 }
 
 TEST_F(FoldedFile, CannotGoOn) {
-  EXPECT_THAT(
-      test::sentence_of<InputError>([&] { ArchiveWriter(path_, {campaign_, samples::cells(), {}}, Existing::Resume); }),
-      HasSubstr("its runs without a failure are folded (keep = \"failing\"), so this campaign cannot go on"));
+  EXPECT_THAT(test::sentence_of<InputError>([&] {
+                ArchiveWriter(path_, {campaign_, samples::cells(), {}}, Existing::Resume);
+              }),
+              HasSubstr("its runs without a failure are folded (keep = \"failing\"), so this campaign cannot go on"));
   EXPECT_TRUE(samples::bytes_of(path_) == whole_);
   EXPECT_FALSE(std::filesystem::exists(path_ + ".partial"));
 }

@@ -100,8 +100,7 @@ TEST(ArchiveWriter, a_disk_too_small_for_a_second_copy_costs_no_run) {
   std::size_t stored = 0;
   Resumption resumption;
   resumption.visit = [&](const RunRecord&) { ++stored; };
-  ArchiveWriter(path, samples::plan(), Existing::Resume, resumption)
-      .publish(600);
+  ArchiveWriter(path, samples::plan(), Existing::Resume, resumption).publish(600);
   EXPECT_EQ(stored, 600u);
   EXPECT_TRUE(samples::bytes_of(path) == samples::bytes_of(folder / "whole.fp"));
 }

@@ -69,13 +69,12 @@ class OneDigest : public test::ProgramTest {
       RunHost in_workers(plan_, programs, {.workers = workers});
       ArchiveWriter archive(path(file), stored_plan(plan_, programs));
       StartingLine line(static_cast<int>(std::min<std::uint64_t>(window, static_cast<std::uint64_t>(workers))));
-      TaskPool pool(workers, 0, plan_.run_count(), window, [&](std::uint64_t index) {
-        line.wait();
-        return plugins == Plugins::OnThreads ? on_threads(index) : in_workers(index);
-      });
-      while (!pool.finished()) {
-        if (const auto record = pool.next(std::chrono::milliseconds(100))) archive.add(*record);
-      }
+      TaskPool<RunRecord> pool({.workers = workers, .end = plan_.run_count(), .window = window},
+                               [&](std::uint64_t index) {
+                                 line.wait();
+                                 return plugins == Plugins::OnThreads ? on_threads(index) : in_workers(index);
+                               });
+      pool.take_all([&](std::uint64_t, const RunRecord& record) { archive.add(record); });
       archive.publish(plan_.run_count());
       return pool.threads_seen();
     });
