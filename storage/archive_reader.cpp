@@ -3,19 +3,19 @@
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Exception.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 
+#include <array>
 #include <bit>
 
 #include "core/base/error.hpp"
 #include "storage/checksum.hpp"
 #include "storage/opened_file.hpp"
 #include "storage/plan_rows.hpp"
-#include "storage/query.hpp"
 #include "storage/rows.hpp"
-#include "storage/run_parts.hpp"
 #include "storage/schema.hpp"
-#include "storage/snapshot.hpp"
 #include "storage/sqlite_errors.hpp"
+#include "storage/statement.hpp"
 #include "storage/table_pages.hpp"
 
 namespace fleetproof {
@@ -26,6 +26,53 @@ std::uint64_t run_of(const Row& part) { return std::bit_cast<std::uint64_t>(part
 std::optional<std::uint64_t> maybe(const Query& row, const char* name) {
   const int column = row.column_of(name);
   return row.is_null(column) ? std::nullopt : std::optional(std::bit_cast<std::uint64_t>(row.number(column)));
+}
+
+// All statements see one state of the file, even while a campaign writes it. A snapshot inside a snapshot is the same
+// state.
+class Snapshot {
+ public:
+  explicit Snapshot(SQLite::Database& db) : db_(db), outermost_(sqlite3_get_autocommit(db.getHandle()) != 0) {
+    if (outermost_) db_.exec("BEGIN");
+  }
+  ~Snapshot() {
+    if (outermost_) db_.tryExec("ROLLBACK");
+  }
+  Snapshot(const Snapshot&) = delete;
+  Snapshot& operator=(const Snapshot&) = delete;
+
+ private:
+  SQLite::Database& db_;
+  bool outermost_;
+};
+
+// A table that holds parts of runs, by run and ordinal.
+struct PartTable {
+  const char* name;
+  std::string (*values)(std::int32_t schema);  // its columns, to be read from a file of this schema
+  // Parts of the run that the outcome held before are overwritten: their memory is used again.
+  void (*take)(const Row& row, Outcome& outcome, std::size_t ordinal);
+  void (*cut)(Outcome& outcome, std::size_t count);  // leaves out what another run has
+};
+
+template <class Part>
+Part& part_at(std::vector<Part>& parts, std::size_t ordinal) {
+  return ordinal < parts.size() ? parts[ordinal] : parts.emplace_back();
+}
+
+const std::array<PartTable, 3>& part_tables() {
+  static const std::array<PartTable, 3> tables{{
+      {"violations", violation_values,
+       [](const Row& row, Outcome& o, std::size_t i) { part_at(o.violations, i) = read_violation(row); },
+       [](Outcome& o, std::size_t count) { o.violations.resize(count); }},
+      {"incidents", [](std::int32_t) { return std::string(kIncidentColumns); },
+       [](const Row& row, Outcome& o, std::size_t i) { part_at(o.incidents, i) = read_incident(row); },
+       [](Outcome& o, std::size_t count) { o.incidents.resize(count); }},
+      {"probes", [](std::int32_t) { return std::string(kProbeColumns); },
+       [](const Row& row, Outcome& o, std::size_t i) { read_probe(row, part_at(o.probes, i)); },
+       [](Outcome& o, std::size_t count) { o.probes.resize(count); }},
+  }};
+  return tables;
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include "core/base/error.hpp"
 #include "core/base/machine_error.hpp"
 #include "storage/opened_file.hpp"
-#include "storage/query.hpp"
 #include "storage/schema.hpp"
+#include "storage/statement.hpp"
 
 namespace fleetproof {
 namespace {

@@ -7,10 +7,9 @@
 #include <optional>
 
 #include "campaign/batch/audit_book.hpp"
-#include "campaign/batch/run_ledger.hpp"
 #include "campaign/batch/same_campaign.hpp"
+#include "campaign/batch/stop_rules.hpp"
 #include "campaign/batch/stored_plan.hpp"
-#include "campaign/batch/verdict_watch.hpp"
 #include "campaign/plan/first_worlds.hpp"
 #include "reports/evidence/quiet_run.hpp"
 #include "storage/archive_reader.hpp"

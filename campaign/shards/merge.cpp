@@ -6,8 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "campaign/batch/run_ledger.hpp"
-#include "campaign/batch/verdict_watch.hpp"
+#include "campaign/batch/stop_rules.hpp"
 #include "campaign/run/engine_identity.hpp"
 #include "campaign/shards/canary.hpp"
 #include "campaign/shards/shard_run.hpp"

@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/outcome/probe_names.hpp"
 #include "reports/evidence/gate_table.hpp"
-#include "storage/gate_cells.hpp"
+#include "storage/records.hpp"
 
 namespace fleetproof {
 namespace {
