@@ -3,19 +3,19 @@
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Exception.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 
+#include <array>
 #include <bit>
 
 #include "core/base/error.hpp"
 #include "storage/checksum.hpp"
 #include "storage/opened_file.hpp"
 #include "storage/plan_rows.hpp"
-#include "storage/query.hpp"
 #include "storage/rows.hpp"
-#include "storage/run_parts.hpp"
 #include "storage/schema.hpp"
-#include "storage/snapshot.hpp"
 #include "storage/sqlite_errors.hpp"
+#include "storage/statement.hpp"
 #include "storage/table_pages.hpp"
 
 namespace fleetproof {
@@ -28,16 +28,61 @@ std::optional<std::uint64_t> maybe(const Query& row, const char* name) {
   return row.is_null(column) ? std::nullopt : std::optional(std::bit_cast<std::uint64_t>(row.number(column)));
 }
 
+// All statements see one state of the file, even while a campaign writes it. A snapshot inside a snapshot is the same
+// state.
+class Snapshot {
+ public:
+  explicit Snapshot(SQLite::Database& db) : db_(db), outermost_(sqlite3_get_autocommit(db.getHandle()) != 0) {
+    if (outermost_) db_.exec("BEGIN");
+  }
+  ~Snapshot() {
+    if (outermost_) db_.tryExec("ROLLBACK");
+  }
+  Snapshot(const Snapshot&) = delete;
+  Snapshot& operator=(const Snapshot&) = delete;
+
+ private:
+  SQLite::Database& db_;
+  bool outermost_;
+};
+
+// A table that holds parts of runs, by run and ordinal.
+struct PartTable {
+  const char* name;
+  std::string (*values)(std::int32_t schema);  // its columns, to be read from a file of this schema
+  // Parts of the run that the outcome held before are overwritten: their memory is used again.
+  void (*take)(const Row& row, Outcome& outcome, std::size_t ordinal);
+  void (*cut)(Outcome& outcome, std::size_t count);  // leaves out what another run has
+};
+
+template <class Part>
+Part& part_at(std::vector<Part>& parts, std::size_t ordinal) {
+  return ordinal < parts.size() ? parts[ordinal] : parts.emplace_back();
+}
+
+const std::array<PartTable, 3>& part_tables() {
+  static const std::array<PartTable, 3> tables{{
+      {"violations", violation_values,
+       [](const Row& row, Outcome& o, std::size_t i) { part_at(o.violations, i) = read_violation(row); },
+       [](Outcome& o, std::size_t count) { o.violations.resize(count); }},
+      {"incidents", [](std::int32_t) { return std::string(kIncidentColumns); },
+       [](const Row& row, Outcome& o, std::size_t i) { part_at(o.incidents, i) = read_incident(row); },
+       [](Outcome& o, std::size_t count) { o.incidents.resize(count); }},
+      {"probes", [](std::int32_t) { return std::string(kProbeColumns); },
+       [](const Row& row, Outcome& o, std::size_t i) { read_probe(row, part_at(o.probes, i)); },
+       [](Outcome& o, std::size_t count) { o.probes.resize(count); }},
+  }};
+  return tables;
+}
+
 }  // namespace
 
 struct ArchiveReader::Impl {
   std::string path;
   Checksums checksums = Checksums::Verify;
   mutable std::unique_ptr<SQLite::Database> db;
-  CampaignRecord campaign;
-  std::vector<CellRecord> cells;
-  std::vector<GateRecord> gates;
-  std::uint64_t plan = 0;
+  StoredPlan plan;
+  std::uint64_t stored_checksum = 0;  // of the plan
   std::int32_t schema = kSchemaVersion;
   bool published = false;
   std::optional<std::uint64_t> sealed_count, seal;  // absent in a live file
@@ -88,18 +133,18 @@ void ArchiveReader::Impl::read_plan() {
   Query row(*db, fmt::format("SELECT {}, run_count, {}, {} AS seal FROM campaign", campaign_values(schema), fold_values,
                              schema < kFirstSealed ? "rows_digest" : "seal"));
   if (!row.step()) damaged("it holds no plan");
-  campaign = read_campaign(row);
-  if (campaign.chunk_runs == 0) damaged("its chunks have no runs");
-  plan = read_plan_checksum(row);
+  plan.campaign = read_campaign(row);
+  if (plan.campaign.chunk_runs == 0) damaged("its chunks have no runs");
+  stored_checksum = read_plan_checksum(row);
   sealed_count = maybe(row, "run_count");
   if (const auto all_rows = maybe(row, "all_rows")) fold = {0, *all_rows, maybe(row, "repeated").value_or(0), 0, 0};
   seal = maybe(row, "seal");
   if (published && !(sealed_count && seal)) damaged("it was published, but has no seal");
   Query cell_rows(*db, fmt::format("SELECT {} FROM cells ORDER BY cell", cell_values(schema)));
-  while (cell_rows.step()) cells.push_back(read_cell(cell_rows));
+  while (cell_rows.step()) plan.cells.push_back(read_cell(cell_rows));
   Query gate_rows(*db, fmt::format("SELECT {} FROM gates ORDER BY gate", gate_values(schema)));
-  while (gate_rows.step()) gates.push_back(read_gate(gate_rows));
-  if (checksums == Checksums::Verify && plan_checksum(campaign, cells, gates, schema) != plan)
+  while (gate_rows.step()) plan.gates.push_back(read_gate(gate_rows));
+  if (checksums == Checksums::Verify && plan_checksum(plan, schema) != stored_checksum)
     damaged("its plan (campaign, cells, gates) does not match its checksum");
 }
 
@@ -123,11 +168,11 @@ void ArchiveReader::Impl::take_part(const PartTable& table, const Row& row, Stor
 void ArchiveReader::Impl::verify(const StoredRun& stored) const {
   const auto& run = stored.run;
   // Every reader of a run looks up its cell. The cell must therefore exist, even if checksums are ignored.
-  if (run.cell >= cells.size()) damaged(fmt::format("run {} belongs to no cell of the plan", run.run_index));
+  if (run.cell >= plan.cells.size()) damaged(fmt::format("run {} belongs to no cell of the plan", run.run_index));
   if (checksums == Checksums::Ignore) return;
   const bool sound = row_checksum(run, schema) == stored.checksum &&
                      stored.outcome_class == name_of(run.outcome.outcome_class()) &&
-                     run.run_index == run.replicate * cells.size() + run.cell;
+                     run.run_index == run.replicate * plan.cells.size() + run.cell;
   if (!sound) damaged(fmt::format("run {} does not match its checksum", run.run_index));
 }
 
@@ -148,7 +193,7 @@ void ArchiveReader::Impl::add_rest(SealedContent& content) const {
 
 void ArchiveReader::Impl::require_content(std::uint64_t count, std::uint64_t content) const {
   if (count != *sealed_count) damaged(fmt::format("it was published with {} runs and holds {}", *sealed_count, count));
-  if (schema >= kFirstSealed) content = seal_of(schema_text(*db), plan, count, content);
+  if (schema >= kFirstSealed) content = seal_of(schema_text(*db), stored_checksum, count, content);
   if (content != seal) damaged("its tables, views, plan or runs are not those that were published");
 }
 
@@ -231,7 +276,7 @@ std::uint64_t ArchiveReader::Impl::read_all(const VisitRun& visit, const VisitFo
 
 std::uint64_t ArchiveReader::Impl::read_rows(const VisitRun& visit) const {
   Rows rows(*this);
-  SealedContent content(campaign.chunk_runs);
+  SealedContent content(plan.campaign.chunk_runs);
   std::uint64_t count = 0;
   for (; const StoredRun* stored = rows.next(); ++count) {
     content.add_run(count, stored->checksum);
@@ -244,15 +289,15 @@ std::uint64_t ArchiveReader::Impl::read_rows(const VisitRun& visit) const {
 std::uint64_t ArchiveReader::Impl::read_folded_file(const VisitRun& visit, const VisitFolded& visit_folded) const {
   if (!sealed_count) damaged("it is folded, but has no seal");
   Rows rows(*this);
-  FoldedRows folded(*db, cells, visit_folded.met);
+  FoldedRows folded(*db, plan.cells, visit_folded.met);
   const StoredRun* kept = rows.next();
   std::uint64_t index = 0;
   while (index < *sealed_count) {
-    if (visit_folded.quiet && index % cells.size() == 0) {
+    if (visit_folded.quiet && index % plan.cells.size() == 0) {
       const QuietReplicates quiet = folded.skip_quiet(index);
       if (quiet.replicates > 0) {
         visit_folded.quiet(quiet);
-        index += quiet.replicates * cells.size();
+        index += quiet.replicates * plan.cells.size();
         continue;
       }
     }
@@ -268,7 +313,7 @@ std::uint64_t ArchiveReader::Impl::read_folded_file(const VisitRun& visit, const
     ++index;
   }
   if (kept != nullptr) damaged(fmt::format("run {} is beside the folded runs", kept->run.run_index));
-  SealedContent content(campaign.chunk_runs);
+  SealedContent content(plan.campaign.chunk_runs);
   for (const ChunkRecord& chunk : stored_chunks()) content.add_chunk(chunk);
   add_rest(content);
   const FoldedContent found{content.digest(), fold->rows, fold->repeated_traces, rows.digest().value(),
@@ -286,9 +331,7 @@ ArchiveReader::ArchiveReader(const std::string& path, Checksums checksums) : imp
 ArchiveReader::~ArchiveReader() = default;
 
 std::int32_t ArchiveReader::schema() const { return impl_->schema; }
-const CampaignRecord& ArchiveReader::campaign() const { return impl_->campaign; }
-const std::vector<CellRecord>& ArchiveReader::cells() const { return impl_->cells; }
-const std::vector<GateRecord>& ArchiveReader::gates() const { return impl_->gates; }
+const StoredPlan& ArchiveReader::plan() const { return impl_->plan; }
 
 std::uint64_t ArchiveReader::run_count() const {
   if (impl_->sealed_count) return *impl_->sealed_count;
@@ -306,7 +349,7 @@ std::optional<KnownRun> ArchiveReader::folded_run(std::uint64_t run_index) const
   if (!is_folded()) return std::nullopt;
   return impl_->guarded([&] {
     try {
-      return find_folded(*impl_->db, impl_->cells, run_index);
+      return find_folded(*impl_->db, impl_->plan.cells, run_index);
     } catch (const BrokenFold& e) {
       impl_->damaged(e.what());
     }
@@ -374,13 +417,14 @@ void ArchiveReader::for_each_run(const VisitRun& visit, const VisitFolded& visit
 }
 
 std::uint64_t ArchiveReader::content_digest() const {
-  return impl_->guarded([&] { return content_digest_of(impl_->plan, impl_->read_all([](const RunRecord&) {})); });
+  return impl_->guarded(
+      [&] { return content_digest_of(impl_->stored_checksum, impl_->read_all([](const RunRecord&) {})); });
 }
 
 std::uint64_t ArchiveReader::results_digest() const {
-  CampaignRecord without_engine = impl_->campaign;
-  without_engine.engine = {};
-  const std::uint64_t plan = plan_checksum(without_engine, impl_->cells, impl_->gates);
+  StoredPlan without_engine = impl_->plan;
+  without_engine.campaign.engine = {};
+  const std::uint64_t plan = plan_checksum(without_engine);
   return impl_->guarded([&] { return content_digest_of(plan, impl_->read_all([](const RunRecord&) {})); });
 }
 

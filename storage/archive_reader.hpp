@@ -34,9 +34,10 @@ class ArchiveReader {
   ArchiveReader& operator=(const ArchiveReader&) = delete;
 
   std::int32_t schema() const;  // of the file; an older one is read as if it had today's columns
-  const CampaignRecord& campaign() const;
-  const std::vector<CellRecord>& cells() const;
-  const std::vector<GateRecord>& gates() const;
+  const StoredPlan& plan() const;
+  const CampaignRecord& campaign() const { return plan().campaign; }
+  const std::vector<CellRecord>& cells() const { return plan().cells; }
+  const std::vector<GateRecord>& gates() const { return plan().gates; }
   std::uint64_t run_count() const;
   // Whether runs in which nothing went wrong have no rows of their own.
   bool is_folded() const;

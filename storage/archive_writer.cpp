@@ -14,13 +14,13 @@
 #include "storage/canonical_file.hpp"
 #include "storage/checksum.hpp"
 #include "storage/durable_file.hpp"
-#include "storage/insert.hpp"
 #include "storage/live_file.hpp"
 #include "storage/plan_rows.hpp"
 #include "storage/row_store.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
 #include "storage/sqlite_errors.hpp"
+#include "storage/statement.hpp"
 #include "storage/target_file.hpp"
 #include "storage/write_lock.hpp"
 
@@ -46,13 +46,10 @@ struct ArchiveWriter::Impl {
   std::chrono::steady_clock::time_point last_commit = std::chrono::steady_clock::now();
 
   std::string unfinished() const { return path + ".unfinished"; }
-  void create(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
-              const std::vector<GateRecord>& gates, std::unique_ptr<ArchiveReader> earlier = nullptr);
-  void go_on(CampaignRecord campaign, const std::vector<CellRecord>& cell_records, const std::vector<GateRecord>& gates,
-             const Resumption& resumption);
+  void create(const StoredPlan& plan, std::unique_ptr<ArchiveReader> earlier = nullptr);
+  void go_on(StoredPlan plan, const Resumption& resumption);
   void open(const std::string& file);
-  void insert_plan(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
-                   const std::vector<GateRecord>& gates);
+  void insert_plan(const StoredPlan& plan);
   void begin();
   void store(const RunRecord& run);
   void take_over(const ArchiveReader& earlier);
@@ -71,25 +68,23 @@ void ArchiveWriter::Impl::open(const std::string& file) {
   db->exec("PRAGMA cache_size=-8000");  // the rows of one commit stay in memory until then
 }
 
-void ArchiveWriter::Impl::insert_plan(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
-                                      const std::vector<GateRecord>& gates) {
+void ArchiveWriter::Impl::insert_plan(const StoredPlan& plan) {
   auto insert_campaign = insert_into(*db, "campaign", kCampaignColumns);
-  bind_campaign(insert_campaign, campaign, plan_checksum(campaign, cell_records, gates));
+  bind_campaign(insert_campaign, plan.campaign, plan_checksum(plan));
   insert_campaign.run();
   auto insert_cell = insert_into(*db, "cells", cell_columns());
-  for (const auto& cell : cell_records) {
+  for (const auto& cell : plan.cells) {
     bind_cell(insert_cell, cell);
     insert_cell.run();
   }
   auto insert_gate = insert_into(*db, "gates", gate_columns());
-  for (const auto& gate : gates) {
+  for (const auto& gate : plan.gates) {
     bind_gate(insert_gate, gate);
     insert_gate.run();
   }
 }
 
-void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vector<CellRecord>& cell_records,
-                                 const std::vector<GateRecord>& gates, std::unique_ptr<ArchiveReader> earlier) {
+void ArchiveWriter::Impl::create(const StoredPlan& plan, std::unique_ptr<ArchiveReader> earlier) {
   const std::string begun = new_live_name(path);
   const bool in_place_of_earlier = earlier != nullptr;
   remove_live_file(begun);
@@ -101,7 +96,7 @@ void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vect
     // Without a log until it is whole: closing a file that has one can fail silently.
     db->exec("BEGIN");
     db->exec(live_schema_ddl());
-    insert_plan(campaign, cell_records, gates);
+    insert_plan(plan);
     db->exec("COMMIT");
     if (earlier) {
       rows = std::make_unique<RowStore>(*db);
@@ -125,18 +120,17 @@ void ArchiveWriter::Impl::create(const CampaignRecord& campaign, const std::vect
   }
 }
 
-void ArchiveWriter::Impl::go_on(CampaignRecord campaign, const std::vector<CellRecord>& cell_records,
-                                const std::vector<GateRecord>& gates, const Resumption& resumption) {
+void ArchiveWriter::Impl::go_on(StoredPlan plan, const Resumption& resumption) {
   auto stored = std::make_unique<ArchiveReader>(live_path);
   if (stored->is_folded())
     throw InputError(path,
                      "its runs without a failure are folded (keep = \"failing\"), so this campaign cannot go on; "
                      "give another name with --db, or --overwrite to begin again");
-  resumption.check(stored->campaign(), campaign);
+  resumption.check(stored->campaign(), plan.campaign);
   stored->for_each_run(resumption.visit);
   stored->for_each_audit(resumption.visit_audit);
   if (stored->schema() < kSchemaVersion) {
-    create(campaign, cell_records, gates, std::move(stored));
+    create(plan, std::move(stored));
     return;
   }
   stored.reset();
@@ -145,7 +139,7 @@ void ArchiveWriter::Impl::go_on(CampaignRecord campaign, const std::vector<CellR
     db->exec("BEGIN");
     // The plan may have grown by replicates, and a live file is not sealed.
     db->exec("DELETE FROM campaign; DELETE FROM cells; DELETE FROM gates");
-    insert_plan(campaign, cell_records, gates);
+    insert_plan(plan);
     db->exec("COMMIT");
     rows = std::make_unique<RowStore>(*db);
   } catch (const SQLite::Exception&) {
@@ -214,16 +208,15 @@ void ArchiveWriter::Impl::or_drop(Action action) {
   }
 }
 
-ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& campaign,
-                             const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates,
-                             Existing existing, const Resumption& resumption, LiveName live_name)
+ArchiveWriter::ArchiveWriter(const std::string& path, const StoredPlan& plan, Existing existing,
+                             const Resumption& resumption, LiveName live_name)
     : impl_(std::make_unique<Impl>()) {
   require_place(path);
   impl_->path = absolute_name(path);
   impl_->live_path = impl_->path + (live_name == LiveName::Merging ? ".merging" : kPartial);
   impl_->live_name = live_name;
   impl_->existing = existing;
-  impl_->cells = cells.size();
+  impl_->cells = plan.cells.size();
   impl_->lock.emplace(impl_->path);
   require_free_name(impl_->path, existing);
   require_free_live_name(impl_->path + kPartial, existing);
@@ -234,7 +227,7 @@ ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& camp
       existing == Existing::Resume ? bring_back_live_file(impl_->path, impl_->live_path) : LiveFile::None;
   if (live != LiveFile::None) {
     try {
-      impl_->go_on(campaign, cells, gates, resumption);
+      impl_->go_on(plan, resumption);
     } catch (...) {
       impl_->db.reset();
       if (live == LiveFile::Copied) remove_live_file(impl_->live_path);
@@ -244,7 +237,7 @@ ArchiveWriter::ArchiveWriter(const std::string& path, const CampaignRecord& camp
   }
   if (existing == Existing::Resume) impl_->existing = Existing::Refuse;  // there is nothing to go on with
   if (existing == Existing::Replace || live_name == LiveName::Merging) remove_live_file(impl_->live_path);
-  impl_->create(campaign, cells, gates);
+  impl_->create(plan);
 }
 
 ArchiveWriter::~ArchiveWriter() {

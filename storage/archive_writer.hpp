@@ -40,8 +40,7 @@ class ArchiveWriter {
   // in the way if it is not a results file of this program; so is, in any case, a foreign file with the name of one
   // that is made on the way. Throws MachineError if the disk fails, EngineError if a
   // stored run is damaged. Throws what the check of the resumption throws; then all files are as they were.
-  ArchiveWriter(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                const std::vector<GateRecord>& gates, Existing existing = Existing::Refuse,
+  ArchiveWriter(const std::string& path, const StoredPlan& plan, Existing existing = Existing::Refuse,
                 const Resumption& resumption = {}, LiveName live = LiveName::Partial);
   ~ArchiveWriter();
   ArchiveWriter(const ArchiveWriter&) = delete;

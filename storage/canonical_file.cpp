@@ -12,12 +12,12 @@
 #include <optional>
 
 #include "storage/checksum.hpp"
-#include "storage/insert.hpp"
 #include "storage/opened_file.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
 #include "storage/sealed_content.hpp"
 #include "storage/sqlite_errors.hpp"
+#include "storage/statement.hpp"
 
 namespace fleetproof {
 namespace {

@@ -71,8 +71,8 @@ std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema) {
   return bytes.hash();
 }
 
-std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                            const std::vector<GateRecord>& gates, std::int32_t schema) {
+std::uint64_t plan_checksum(const StoredPlan& plan, std::int32_t schema) {
+  const auto& [campaign, cells, gates] = plan;
   Bytes bytes;
   bytes << campaign.name << campaign.kind << campaign.seed << campaign.replicates << campaign.plan_json
         << campaign.plan_hash;

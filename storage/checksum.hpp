@@ -16,8 +16,7 @@ namespace fleetproof {
 std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema = kSchemaVersion);
 
 // XXH3 over everything that is fixed before the first run: campaign, cells, gates.
-std::uint64_t plan_checksum(const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
-                            const std::vector<GateRecord>& gates, std::int32_t schema = kSchemaVersion);
+std::uint64_t plan_checksum(const StoredPlan& plan, std::int32_t schema = kSchemaVersion);
 
 // Two runs of a cell with the same trace have the same key.
 constexpr std::uint64_t trace_key(std::uint32_t cell, std::uint64_t trace_digest) {

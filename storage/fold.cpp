@@ -13,9 +13,9 @@
 #include "storage/archive_reader.hpp"
 #include "storage/checksum.hpp"
 #include "storage/folded_cell.hpp"
-#include "storage/insert.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
+#include "storage/statement.hpp"
 
 namespace fleetproof {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "storage/checksum.hpp"
-#include "storage/query.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
+#include "storage/statement.hpp"
 
 namespace fleetproof {
 namespace {

@@ -6,8 +6,8 @@
 #include <charconv>
 
 #include "core/base/error.hpp"
-#include "storage/query.hpp"
 #include "storage/row_fields.hpp"
+#include "storage/statement.hpp"
 
 namespace fleetproof {
 namespace {

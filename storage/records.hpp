@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/base/words.hpp"
 #include "core/outcome/outcome.hpp"
 #include "storage/factors.hpp"
@@ -29,6 +31,34 @@ struct CellRecord {
   bool is_worst_case() const { return lowest.is_worst_case() && highest.is_worst_case(); }
   friend bool operator==(const CellRecord&, const CellRecord&) = default;
 };
+
+// Whether every part of the filter that is given is that of the cell. A value is not that of a cell with bounds.
+inline bool admits(const CellFilter& filter, const CellRecord& cell) {
+  if (!filter.layout.empty() && filter.layout != cell.layout) return false;
+  if (filter.fleet_size && *filter.fleet_size != cell.fleet_size) return false;
+  return std::ranges::all_of(kFactors, [&](const FactorInfo& factor) {
+    const auto& named = filter.factors[factor.id];
+    return !named || (cell.lowest[factor.id] == *named && cell.highest[factor.id] == *named);
+  });
+}
+
+// Whether all of the cell lies in the region.
+inline bool lies_in(Region region, const CellRecord& cell) {
+  switch (region) {
+    case Region::Contract:
+      return cell.in_contract();
+    case Region::WorstCase:
+      return cell.is_worst_case();
+    case Region::All:
+      return true;
+  }
+  invariant_violated("a region is known");
+}
+
+// Whether the runs of the cell count for the gate.
+inline bool covers(const GateRecord& gate, const CellRecord& cell) {
+  return cell.agent == gate.agent && lies_in(gate.region, cell) && admits(gate.where, cell);
+}
 
 struct EngineIdentity {
   std::string version, program_sha256, compiler, flags, libraries;
@@ -76,6 +106,13 @@ struct CampaignRecord {
   std::uint64_t chunk_runs = kChunkRuns;
   Keep keep = Keep::All;
   friend bool operator==(const CampaignRecord&, const CampaignRecord&) = default;
+};
+
+// All that is fixed before the first run.
+struct StoredPlan {
+  CampaignRecord campaign;
+  std::vector<CellRecord> cells;  // by index
+  std::vector<GateRecord> gates;
 };
 
 // run_index = replicate x cells + cell, so that every prefix of a campaign is balanced over its cells.

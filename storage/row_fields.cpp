@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
-#include "storage/insert.hpp"
 #include "storage/row_source.hpp"
+#include "storage/statement.hpp"
 
 namespace fleetproof {
 namespace {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "storage/checksum.hpp"
-#include "storage/insert.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
+#include "storage/statement.hpp"
 
 namespace fleetproof {
 namespace {

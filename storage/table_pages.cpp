@@ -10,8 +10,8 @@
 
 #include "core/base/error.hpp"
 #include "storage/opened_file.hpp"
-#include "storage/query.hpp"
 #include "storage/schema.hpp"
+#include "storage/statement.hpp"
 
 namespace fleetproof {
 namespace {

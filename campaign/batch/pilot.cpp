@@ -1,7 +1,6 @@
 #include "campaign/batch/pilot.hpp"
 
 #include <algorithm>
-#include <mutex>
 #include <numeric>
 
 #include "campaign/batch/audit_share.hpp"
@@ -22,13 +21,12 @@ std::uint64_t spread_step(std::uint64_t cells) {
   return step;
 }
 
-// The time that runs take, by cell. Threads: any number.
+// The time that runs take, by cell.
 class Costs {
  public:
   explicit Costs(std::uint64_t cells) : cells_(cells) {}
 
   void add(std::uint64_t cell, double run_s) {
-    const std::lock_guard lock(mutex_);
     cells_[cell].mean_s += run_s;  // the sum, until means()
     ++cells_[cell].runs;
   }
@@ -48,7 +46,6 @@ class Costs {
   }
 
  private:
-  std::mutex mutex_;
   std::vector<CellCost> cells_;
 };
 
@@ -86,22 +83,24 @@ Pilot run_pilot(const CampaignPlan& plan, const AgentPrograms& programs, int wor
   const std::uint64_t cells = plan.cell_count(), step = spread_step(cells);
   Costs costs(cells);
   RunHost runs(plan, programs, {.workers = workers});
+  const auto cell_at = [&](std::uint64_t place) { return place % cells * step % cells; };
   const auto timed_run = [&](std::uint64_t place) {
-    const std::uint64_t cell = place % cells * step % cells;
     const auto begin = Clock::now();
-    auto record = runs(place - place % cells + cell);
-    costs.add(cell, seconds_since(begin));
-    return record;
+    (void)runs(place - place % cells + cell_at(place));
+    return std::optional(seconds_since(begin));
   };
   Pilot pilot;
   const auto begin = Clock::now();
   {
-    constexpr std::uint64_t kRecordsAhead = 1024;
-    TaskPool pool(workers, 0, std::min(plan.run_count(), length.runs), kRecordsAhead, timed_run);
-    while (!pool.finished()) {
-      if (pool.next(std::chrono::milliseconds(10))) ++pilot.runs;
-      if (Clock::now() - begin >= length.time) pool.stop();
-    }
+    TaskPool<double> pool({.workers = workers, .end = std::min(plan.run_count(), length.runs)}, timed_run);
+    pool.take_all(
+        [&](std::uint64_t place, double run_s) {
+          costs.add(cell_at(place), run_s);
+          ++pilot.runs;
+        },
+        [&] {
+          if (Clock::now() - begin >= length.time) pool.stop();
+        });
   }
   pilot.elapsed_s = seconds_since(begin);
   pilot.workers = workers;

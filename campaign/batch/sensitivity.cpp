@@ -1,7 +1,6 @@
 #include "campaign/batch/sensitivity.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/run/run_one.hpp"
@@ -34,14 +33,13 @@ AgentTally tally_of(const CampaignPlan& plan, const AgentPrograms& programs, con
   tally.agent = plan.agents.front().name;
   const std::vector<CellRecord> cells = plan.cells();
   const RunOne run_one(plan, programs);
-  TaskPool pool(options.workers, 0, std::min(options.runs, plan.run_count()), kRunsAhead,
-                [&](std::uint64_t index) { return std::optional(run_one(index)); });
-  while (!pool.finished()) {
-    const std::optional<RunRecord> record = pool.next(std::chrono::milliseconds(10));
-    if (!record) continue;
-    if (until_violation && record->outcome.violation) pool.stop();
-    tally.count(*record, cells);
-  }
+  TaskPool<RunRecord> pool(
+      {.workers = options.workers, .end = std::min(options.runs, plan.run_count()), .window = kRunsAhead},
+      [&](std::uint64_t index) { return run_one(index); });
+  pool.take_all([&](std::uint64_t, const RunRecord& record) {
+    if (until_violation && record.outcome.violation) pool.stop();
+    tally.count(record, cells);
+  });
   return tally;
 }
 

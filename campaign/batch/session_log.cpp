@@ -1,6 +1,7 @@
 #include "campaign/batch/session_log.hpp"
 
 #include <fmt/format.h>
+#include <gnu/libc-version.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -8,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
-#include "campaign/batch/machine_facts.hpp"
 #include "campaign/run/engine_identity.hpp"
 #include "core/base/error.hpp"
 #include "storage/line_log.hpp"
@@ -21,6 +22,39 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char *kFresh = "fresh", *kFixed = "fixed";
 constexpr std::string_view kFirstWords = "{\"started_utc\":";
+
+// What could make this machine compute differently from another one, for session logs.
+struct MachineFacts {
+  std::string cpu;           // the model, as the kernel names it; empty: it does not
+  std::string instructions;  // those that the C library chooses its functions by: "avx2 fma"
+  std::string c_library;     // "glibc 2.36"
+};
+
+// The value of the first line "KEY : VALUE".
+std::string cpu_line(const std::string& key) {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const auto colon = line.find(": ");
+    if (line.starts_with(key) && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return {};
+}
+
+std::string known_instructions() {
+  constexpr std::array kChosenBy = {"avx2", "avx512f", "fma", "fma4"};
+  std::string known;
+  std::istringstream words(cpu_line("flags"));
+  for (std::string word; words >> word;) {
+    for (const char* wanted : kChosenBy) {
+      if (word == wanted) known += (known.empty() ? "" : " ") + word;
+    }
+  }
+  return known;
+}
+
+MachineFacts machine_facts() {
+  return {cpu_line("model name"), known_instructions(), std::string("glibc ") + gnu_get_libc_version()};
+}
 
 std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 

@@ -23,43 +23,36 @@ namespace {
 // This counter restates that order where it can be seen.
 std::atomic<std::uint64_t> handed_over{0};
 
-// Finished runs that nobody has taken. On a busy machine the caller may fall behind the workers: they then wait, and
-// memory stays flat. Enough for the 50 ms of a commit at 10 000 runs a second.
+// Results that nobody has taken. On a busy machine the caller may fall behind the workers: they then wait, and memory
+// stays flat. Enough for the 50 ms of a commit at 10 000 runs a second.
 constexpr std::size_t kMostUntaken = 512;
+
+constexpr std::chrono::milliseconds kPatience{10};
 
 }  // namespace
 
-struct TaskPool::Impl {
-  const int workers;
-  std::uint64_t end;
-  const std::uint64_t window, stretch;
-  const Simulate simulate;
+struct AnyTaskPool::Impl {
+  const TaskRange range;
+  const Task task;
 
   mutable std::mutex mutex;
   std::condition_variable room, results;
+  std::uint64_t end;                             // of the tasks to do: a stop brings it nearer
   std::uint64_t next_index;                      // the next stretch begins here
-  std::map<std::uint64_t, std::uint64_t> open;   // by number of a stretch that was begun: its next run to hand out
+  std::map<std::uint64_t, std::uint64_t> open;   // by number of a stretch that was begun: its next task to hand out
   std::map<std::thread::id, std::uint64_t> own;  // the stretch that a thread began last
   std::map<std::uint64_t, std::chrono::steady_clock::time_point> under_way;  // handed out when, not yet finished
-  const std::set<std::uint64_t> done_before;
-  std::deque<RunRecord> done;
+  std::deque<std::pair<std::uint64_t, std::any>> done;
   std::set<std::thread::id> threads;
   std::exception_ptr failure;
   std::size_t tasks = 0;  // in the pool's queue or running
   bool stopping = false, crew_gone = false;
   std::thread crew;
 
-  Impl(int worker_count, std::uint64_t begin, std::uint64_t end_index, std::uint64_t window_size, Simulate function,
-       std::set<std::uint64_t> finished, std::uint64_t stretch_length)
-      : workers(worker_count),
-        end(end_index),
-        window(window_size),
-        stretch(stretch_length),
-        simulate(std::move(function)),
-        next_index(begin),
-        done_before(std::move(finished)) {
-    next_index = not_done(next_index);
-    ensure(workers >= 1 && window >= 1 && stretch >= 1, "a pool has at least one worker and room for one run");
+  Impl(TaskRange tasks_to_do, Task function)
+      : range(std::move(tasks_to_do)), task(std::move(function)), end(range.end), next_index(not_done(range.begin)) {
+    ensure(range.workers >= 1 && range.window >= 1 && range.stretch >= 1,
+           "a pool has at least one worker and room for one task");
     crew = std::thread([this] { feed(); });
   }
 
@@ -73,12 +66,12 @@ struct TaskPool::Impl {
     }
   };
 
-  // The feeder occupies one slot of the arena but never simulates, so exactly `workers` threads do, however many cores
+  // The feeder occupies one slot of the arena but does no task, so exactly `workers` threads do, however many cores
   // there are.
   void feed() {
     const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(workers) + 1);
-    tbb::task_arena arena(workers + 1, 1);
+                                    static_cast<std::size_t>(range.workers) + 1);
+    tbb::task_arena arena(range.workers + 1, 1);
     tbb::task_group group;
     arena.initialize();
     while (wait_for_room()) {
@@ -93,7 +86,7 @@ struct TaskPool::Impl {
   }
 
   std::uint64_t not_done(std::uint64_t index) const {
-    while (done_before.contains(index)) ++index;
+    while (range.done.contains(index)) ++index;
     return index;
   }
   bool more_to_do() const { return !stopping && (next_index < end || !open.empty()); }
@@ -106,10 +99,10 @@ struct TaskPool::Impl {
     return index;
   }
 
-  // The stretch from which this thread takes its next run: its own, else a new one. If there is no room or none left,
+  // The stretch from which this thread takes its next task: its own, else a new one. If there is no room or none left,
   // it helps with the oldest. `open.end()`: it must wait.
   std::map<std::uint64_t, std::uint64_t>::iterator choose() {
-    const std::uint64_t within = oldest() + window;
+    const std::uint64_t within = oldest() + range.window;
     const auto mine = own.find(std::this_thread::get_id());
     auto chosen = mine == own.end() ? open.end() : open.find(mine->second);
     if (chosen != open.end() && chosen->second < within) return chosen;
@@ -118,25 +111,25 @@ struct TaskPool::Impl {
   }
 
   std::map<std::uint64_t, std::uint64_t>::iterator begin_stretch() {
-    const std::uint64_t number = next_index / stretch;
+    const std::uint64_t number = next_index / range.stretch;
     const auto begun = open.emplace(number, next_index).first;
     own[std::this_thread::get_id()] = number;
-    next_index = not_done(std::min(end, (number + 1) * stretch));
+    next_index = not_done(std::min(end, (number + 1) * range.stretch));
     return begun;
   }
 
   std::uint64_t hand_out(std::map<std::uint64_t, std::uint64_t>::iterator from) {
     const std::uint64_t index = from->second;
     from->second = not_done(index + 1);
-    if (from->second >= std::min(end, (from->first + 1) * stretch)) open.erase(from);
+    if (from->second >= std::min(end, (from->first + 1) * range.stretch)) open.erase(from);
     return index;
   }
 
   bool wait_for_room() {
     std::unique_lock lock(mutex);
     room.wait(lock, [&] {
-      const bool slot_free = tasks < 4 * static_cast<std::size_t>(workers);
-      return !more_to_do() || (slot_free && done.size() < std::min<std::size_t>(window, kMostUntaken));
+      const bool slot_free = tasks < 4 * static_cast<std::size_t>(range.workers);
+      return !more_to_do() || (slot_free && done.size() < std::min<std::size_t>(range.window, kMostUntaken));
     });
     if (!more_to_do()) return false;
     ++tasks;
@@ -162,16 +155,16 @@ struct TaskPool::Impl {
       under_way.emplace(index, std::chrono::steady_clock::now());
       threads.insert(std::this_thread::get_id());
     }
-    std::optional<RunRecord> record;
+    std::any result;
     std::exception_ptr error;
     try {
-      record = simulate(index);
+      result = task(index);
     } catch (...) {
       error = std::current_exception();
     }
     const std::lock_guard lock(mutex);
     under_way.erase(index);
-    if (record) done.push_back(std::move(*record));
+    if (result.has_value()) done.emplace_back(index, std::move(result));
     if (error && !failure) failure = error;
     if (error) stopping = true;
     task_ends();
@@ -184,56 +177,55 @@ struct TaskPool::Impl {
   }
 };
 
-TaskPool::TaskPool(int workers, std::uint64_t begin, std::uint64_t end, std::uint64_t window, Simulate simulate,
-                   std::set<std::uint64_t> done, std::uint64_t stretch)
-    : impl_(std::make_unique<Impl>(workers, begin, end, window, std::move(simulate), std::move(done), stretch)) {}
+AnyTaskPool::AnyTaskPool(TaskRange range, Task task)
+    : impl_(std::make_unique<Impl>(std::move(range), std::move(task))) {}
 
-TaskPool::~TaskPool() {
+AnyTaskPool::~AnyTaskPool() {
   stop();
   impl_->crew.join();
 }
 
-void TaskPool::stop() {
+void AnyTaskPool::stop() {
   const std::lock_guard lock(impl_->mutex);
   impl_->stopping = true;
   impl_->room.notify_all();
 }
 
-void TaskPool::stop_after_stretch(std::uint64_t length) {
+void AnyTaskPool::stop_after_stretch(std::uint64_t length) {
   const std::lock_guard lock(impl_->mutex);
   const std::uint64_t stretches = (impl_->next_index + length - 1) / length;
   impl_->end = std::min(impl_->end, stretches * length);
   impl_->room.notify_all();
 }
 
-std::optional<RunRecord> TaskPool::next(std::chrono::milliseconds patience) {
+void AnyTaskPool::take_all(const Take& take, const std::function<void()>& meanwhile) {
   std::unique_lock lock(impl_->mutex);
-  impl_->results.wait_for(lock, patience, [&] { return !impl_->done.empty() || impl_->crew_gone; });
-  if (impl_->done.empty()) {
-    if (impl_->crew_gone && impl_->failure) std::rethrow_exception(impl_->failure);
-    return std::nullopt;
+  while (!impl_->crew_gone || !impl_->done.empty()) {
+    impl_->results.wait_for(lock, kPatience, [&] { return !impl_->done.empty() || impl_->crew_gone; });
+    std::optional<std::pair<std::uint64_t, std::any>> next;
+    if (!impl_->done.empty()) {
+      next = std::move(impl_->done.front());
+      impl_->done.pop_front();
+      impl_->room.notify_all();
+    }
+    lock.unlock();
+    if (next) take(next->first, next->second);
+    meanwhile();
+    lock.lock();
   }
-  RunRecord record = std::move(impl_->done.front());
-  impl_->done.pop_front();
-  impl_->room.notify_all();
-  return record;
+  if (impl_->failure) std::rethrow_exception(impl_->failure);
 }
 
-bool TaskPool::finished() const {
-  const std::lock_guard lock(impl_->mutex);
-  return impl_->crew_gone && impl_->done.empty() && !impl_->failure;
-}
-
-std::vector<RunUnderWay> TaskPool::under_way() const {
+std::vector<TaskUnderWay> AnyTaskPool::under_way() const {
   const auto now = std::chrono::steady_clock::now();
   const std::lock_guard lock(impl_->mutex);
-  std::vector<RunUnderWay> runs;
+  std::vector<TaskUnderWay> tasks;
   for (const auto& [index, since] : impl_->under_way)
-    runs.push_back({index, std::chrono::duration<double>(now - since).count()});
-  return runs;
+    tasks.push_back({index, std::chrono::duration<double>(now - since).count()});
+  return tasks;
 }
 
-int TaskPool::threads_seen() const {
+int AnyTaskPool::threads_seen() const {
   const std::lock_guard lock(impl_->mutex);
   return static_cast<int>(impl_->threads.size());
 }

@@ -1,55 +1,86 @@
 #pragma once
 
+#include <any>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
-
-#include "storage/records.hpp"
 
 namespace fleetproof {
 
-// A run that was handed out and has not finished.
-struct RunUnderWay {
-  std::uint64_t run_index = 0;
+// A task that was handed out and has not finished.
+struct TaskUnderWay {
+  std::uint64_t index = 0;
   double since_s = 0.0;  // for so long
 };
 
-// Independent runs on a TBB task pool: an index goes in, a record comes out. The caller's thread never works in the
-// pool. It takes the results in the order in which they finish. Requires: `simulate` is a pure function of the index.
-// Several threads call it at once.
-class TaskPool {
+// Which tasks a pool does, and how.
+struct TaskRange {
+  int workers = 1;                   // threads that are started
+  std::uint64_t begin = 0, end = 0;  // the tasks [begin, end)
+  // So many tasks lie at most between the oldest unfinished task and the newest task that was handed out.
+  std::uint64_t window = 1024;
+  std::set<std::uint64_t> done{};  // these are not handed out
+  // Tasks of one stretch of this length, from task 0 on, have much in common: a thread stays with its stretch, unless
+  // another one has nothing else to do.
+  std::uint64_t stretch = 1;
+};
+
+// What is the same for results of every type. Use TaskPool.
+class AnyTaskPool {
  public:
-  // None: the run was abandoned.
-  using Simulate = std::function<std::optional<RunRecord>(std::uint64_t run_index)>;
+  AnyTaskPool(const AnyTaskPool&) = delete;
+  AnyTaskPool& operator=(const AnyTaskPool&) = delete;
 
-  // Starts `workers` threads on the runs [begin, end). At most `window` runs lie between the oldest unfinished run and
-  // the newest run that was handed out. The runs in `done` are not handed out. Runs of one stretch of this length, from
-  // run 0 on, have much in common: a thread stays with its stretch, unless another one has nothing else to do.
-  // Workers wait while 512 results are not taken.
-  TaskPool(int workers, std::uint64_t begin, std::uint64_t end, std::uint64_t window, Simulate simulate,
-           std::set<std::uint64_t> done = {}, std::uint64_t stretch = 1);
-  // Hands out no more runs and waits for the runs under way.
-  ~TaskPool();
-  TaskPool(const TaskPool&) = delete;
-  TaskPool& operator=(const TaskPool&) = delete;
-
-  // The next finished run; none if no run finished within `patience`. Rethrows an exception of a run.
-  std::optional<RunRecord> next(std::chrono::milliseconds patience);
-  // Whether all runs that were handed out have been taken, and no more will come.
-  bool finished() const;
-  void stop();  // hands out no more runs
-  // The same, after the runs that belong to the last stretch which was begun: stretches of this length, from run 0 on.
+  void stop();  // hands out no more tasks
+  // The same, after the tasks that belong to the last stretch which was begun: stretches of this length, from task 0
+  // on.
   void stop_after_stretch(std::uint64_t length);
-  std::vector<RunUnderWay> under_way() const;  // in order of run index
-  int threads_seen() const;                    // the number of different threads that have simulated so far
+  std::vector<TaskUnderWay> under_way() const;  // in order of index
+  int threads_seen() const;                     // the number of different threads that have done a task so far
+
+ protected:
+  using Task = std::function<std::any(std::uint64_t index)>;  // empty: there is no result
+  using Take = std::function<void(std::uint64_t index, std::any& result)>;
+
+  AnyTaskPool(TaskRange range, Task task);
+  ~AnyTaskPool();
+  void take_all(const Take& take, const std::function<void()>& meanwhile);
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+};
+
+// Independent tasks on the threads of TBB: an index goes in, a result comes out. The caller's thread never works in
+// the pool. Requires: the result is a pure function of the index. Several threads call it at once. Workers wait while
+// 512 results are not taken. The destructor hands out no more tasks and waits for those under way.
+template <class Result>
+class TaskPool : public AnyTaskPool {
+ public:
+  // None: the task was abandoned, or has no result.
+  using Function = std::function<std::optional<Result>(std::uint64_t index)>;
+
+  // Starts the threads.
+  TaskPool(TaskRange range, Function function)
+      : AnyTaskPool(std::move(range), [function = std::move(function)](std::uint64_t index) {
+          std::optional<Result> result = function(index);
+          return result ? std::make_any<Result>(*std::move(result)) : std::any();
+        }) {}
+
+  // Takes the results, in the order in which they finish, until all tasks that are handed out have finished. Calls
+  // `meanwhile` after each result, and every 10 ms without one; it may stop the pool. Rethrows an exception of a task.
+  void take_all(
+      const std::function<void(std::uint64_t index, Result result)>& take,
+      const std::function<void()>& meanwhile = [] {}) {
+    AnyTaskPool::take_all(
+        [&](std::uint64_t index, std::any& result) { take(index, std::move(*std::any_cast<Result>(&result))); },
+        meanwhile);
+  }
 };
 
 }  // namespace fleetproof

@@ -16,8 +16,6 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint64_t kRecordsAhead = 1024;  // finished, but not yet compared: memory stays bounded
-
 bool is_engine_at_fault(ReplayVerdict verdict) {
   return verdict == ReplayVerdict::ScenarioDiffers || verdict == ReplayVerdict::Diverged;
 }
@@ -58,22 +56,21 @@ Verification verify_runs(const std::string& path, const CampaignPlan& plan, cons
   RunHost runs(plan, programs, {.workers = workers});  // before the file is opened: worker processes must not hold it
   const ArchiveReader archive(path);
   Verification verification;
-  TaskPool pool(workers, 0, sample.size(), kRecordsAhead, [&](std::uint64_t place) { return runs(sample[place]); });
-  while (!pool.finished()) {
-    auto record = pool.next(std::chrono::milliseconds(100));
-    if (!record) continue;
-    const std::uint64_t index = record->run_index;
-    ReplayResult result = replay(archive, plan, index, programs, [&](std::uint64_t) { return *std::move(record); });
+  TaskPool<RunRecord> pool({.workers = workers, .end = sample.size()},
+                           [&](std::uint64_t place) { return runs(sample[place]); });
+  pool.take_all([&](std::uint64_t place, RunRecord record) {
+    const std::uint64_t index = sample[place];
+    ReplayResult result = replay(archive, plan, index, programs, [&](std::uint64_t) { return std::move(record); });
     if (result.verdict == ReplayVerdict::NotDeterministic) {
       if (auto recorded = replay_recording(archive, plan, index)) result = *std::move(recorded);
     }
     if (result.verdict == ReplayVerdict::Reproduced) {
       ++verification.agreeing;
-      continue;
+      return;
     }
     verification.differing.push_back({index, plan.agent_of_cell(index).name, result.verdict, result.explanation,
                                       is_engine_at_fault(result.verdict)});
-  }
+  });
   std::ranges::sort(verification.differing, {}, &Disagreement::run_index);
   return verification;
 }

@@ -5,8 +5,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "campaign/batch/campaign.hpp"
 #include "campaign/batch/pilot.hpp"
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/streams.hpp"
@@ -243,7 +243,7 @@ int plan(const PlanWords& words) {
     const auto time_s = static_cast<double>(budget->count());
     forecast.budget = {forecast.pilot.replicates_within(time_s), time_s};
   }
-  const Evidence evidence(campaign_record(forecast.plan, programs), forecast.plan.cells(), forecast.plan.gates);
+  const Evidence evidence(stored_plan(forecast.plan, programs));
   for (std::size_t gate = 0; gate < forecast.plan.gates.size(); ++gate)
     forecast.gates.push_back(evidence.cells_of(gate));
   forecast.rules = evidence.gates();

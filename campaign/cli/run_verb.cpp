@@ -7,6 +7,7 @@
 
 #include "campaign/batch/campaign.hpp"
 #include "campaign/batch/session_log.hpp"
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/archive_name.hpp"
 #include "campaign/cli/attempt_log.hpp"

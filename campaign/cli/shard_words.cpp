@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "campaign/batch/session_log.hpp"
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"

@@ -1,6 +1,5 @@
 #include "campaign/findings/survey.hpp"
 
-#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -37,34 +36,26 @@ AgentHosts::AgentHosts(const CampaignPlan& plan, const AgentPrograms& programs, 
   }
 }
 
-// Each task writes to its own place.
 Survey survey(const CampaignPlan& plan, std::span<const SurveyedRun> runs, AgentHosts& hosts,
               const std::function<bool(std::size_t done)>& go_on) {
-  std::vector<std::optional<FailureNeeds>> needs(runs.size());
-  std::vector<bool> is_done(runs.size());
+  using Needs = std::optional<FailureNeeds>;  // none: the run does not fail again
+  std::map<std::uint64_t, Needs> needs;
   const ScenarioSource scenarios(plan);
   {
-    std::size_t done = 0;
-    TaskPool pool(hosts.workers(), 0, runs.size(), runs.size() + 1, [&](std::uint64_t i) {
-      needs[i] = needs_of(hosts.of(runs[i].agent), scenarios.scenario(runs[i].run));
-      RunRecord finished;
-      finished.run_index = i;
-      return std::optional(std::move(finished));
-    });
-    while (!pool.finished()) {
-      if (const auto finished = pool.next(std::chrono::milliseconds(50))) {
-        ++done;
-        is_done[finished->run_index] = true;
-      }
-      if (!go_on(done)) pool.stop();
-    }
+    TaskPool<Needs> pool(
+        {.workers = hosts.workers(), .end = runs.size(), .window = runs.size() + 1}, [&](std::uint64_t i) {
+          return std::make_optional(needs_of(hosts.of(runs[i].agent), scenarios.scenario(runs[i].run)));
+        });
+    pool.take_all([&](std::uint64_t i, Needs found) { needs.emplace(i, std::move(found)); },
+                  [&] {
+                    if (!go_on(needs.size())) pool.stop();
+                  });
   }
   Survey result;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (!is_done[i]) continue;
-    ++result.looked_at;
-    if (needs[i]) {
-      result.failures.push_back({runs[i].run, runs[i].agent, *std::move(needs[i])});
+  result.looked_at = needs.size();
+  for (auto& [i, found] : needs) {
+    if (found) {
+      result.failures.push_back({runs[i].run, runs[i].agent, *std::move(found)});
     } else {
       result.not_again.push_back(runs[i].run);
     }

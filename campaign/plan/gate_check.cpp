@@ -8,7 +8,7 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
-#include "storage/gate_cells.hpp"
+#include "storage/records.hpp"
 
 namespace fleetproof {
 namespace {

@@ -38,16 +38,12 @@ std::string digest_of_runs(const CampaignPlan& plan, const AgentPrograms& progra
   RunHost host(plan, programs, {.workers = workers});
   std::vector<std::pair<std::uint64_t, std::uint64_t>> checksums;  // run index, checksum
   bool steady = true;
-  TaskPool pool(workers, 0, times * runs, times * runs, [&](std::uint64_t place) {
-    const std::uint64_t number = place % runs;
-    return host(number * (plan.run_count() / runs));
+  TaskPool<RunRecord> pool({.workers = workers, .end = times * runs},
+                           [&](std::uint64_t place) { return host(place % runs * (plan.run_count() / runs)); });
+  pool.take_all([&](std::uint64_t, const RunRecord& record) {
+    checksums.emplace_back(record.run_index, row_checksum(record));
+    steady = steady && !record.outcome.hang;  // measured time ended it
   });
-  while (!pool.finished()) {
-    const auto record = pool.next(std::chrono::milliseconds(100));
-    if (!record) continue;
-    checksums.emplace_back(record->run_index, row_checksum(*record));
-    steady = steady && !record->outcome.hang;  // measured time ended it
-  }
   std::ranges::sort(checksums);
   RowsDigest digest;
   for (std::size_t i = 0; i < checksums.size(); i += times) {

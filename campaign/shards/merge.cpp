@@ -6,8 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "campaign/batch/run_ledger.hpp"
-#include "campaign/batch/verdict_watch.hpp"
+#include "campaign/batch/stop_rules.hpp"
 #include "campaign/run/engine_identity.hpp"
 #include "campaign/shards/canary.hpp"
 #include "campaign/shards/shard_run.hpp"
@@ -147,13 +146,12 @@ std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& pat
   const bool may_end_early = options.until_verdict || options.fail_fast > 0;
   const auto missing = chunks.missing();
   if (!missing.empty() && !may_end_early) throw_missing(chunks);
-  auto [campaign, cells, gates] = chunks.plan();
-  campaign.keep = options.keep.value_or(campaign.keep);
-  VerdictWatch verdict(campaign, cells, gates);
+  StoredPlan plan = chunks.plan();
+  plan.campaign.keep = options.keep.value_or(plan.campaign.keep);
+  VerdictWatch verdict(plan);
   RunLedger ledger;
   std::optional<std::uint64_t> stop;
-  ArchiveWriter archive(path, campaign, cells, gates, options.overwrite ? Existing::Replace : Existing::Refuse, {},
-                        LiveName::Merging);
+  ArchiveWriter archive(path, plan, options.overwrite ? Existing::Replace : Existing::Refuse, {}, LiveName::Merging);
   try {
     for (std::uint64_t chunk = 0; chunk < chunks.grid().count() && !stop; ++chunk) {
       if (std::ranges::binary_search(missing, chunk)) throw_missing(chunks);
@@ -170,7 +168,7 @@ std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& pat
       if (const auto decided = verdict.decided_length(); decided) stop = std::min(stop.value_or(*decided), *decided);
     }
     const std::uint64_t stored = stop.value_or(chunks.grid().runs());
-    const bool folds = campaign.keep == Keep::Failing && stored == chunks.grid().runs();
+    const bool folds = plan.campaign.keep == Keep::Failing && stored == chunks.grid().runs();
     archive.publish(stored, folds ? MayFold(is_quiet) : MayFold());
     return stored;
   } catch (...) {

@@ -9,7 +9,6 @@
 
 #include "campaign/shards/chunk_grid.hpp"
 #include "campaign/shards/shard_folder.hpp"
-#include "campaign/shards/stored_plan.hpp"
 #include "storage/chunk_file.hpp"
 #include "storage/records.hpp"
 

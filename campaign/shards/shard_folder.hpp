@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "campaign/shards/shard.hpp"
+#include "storage/records.hpp"
 
 namespace fleetproof {
 
@@ -42,5 +43,13 @@ class ShardFolder {
  private:
   std::string path_;
 };
+
+// The campaign of a folder of shards, as its plan.db holds it: a results file without runs. SQLite locks the files
+// that it opens, which a network disk may not be able to; so both work on copies in the local folder for temporary
+// files ($TMPDIR).
+// Throws InputError if there is no plan, EngineError if it is damaged, MachineError if the disk fails.
+StoredPlan read_plan(const ShardFolder& folder);
+// Writes the plan, unless there is one. Its bytes are the same on every machine. Throws MachineError if the disk fails.
+void publish_plan(const ShardFolder& folder, const StoredPlan& plan);
 
 }  // namespace fleetproof

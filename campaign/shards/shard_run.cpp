@@ -3,17 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-#include <thread>
+#include <chrono>
 #include <vector>
 
-#include "campaign/batch/audit_desk.hpp"
 #include "campaign/batch/same_campaign.hpp"
-#include "campaign/batch/task_pool.hpp"
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/plan/first_worlds.hpp"
 #include "campaign/shards/canary.hpp"
 #include "campaign/shards/chunk_desk.hpp"
-#include "campaign/workers/run_host.hpp"
 #include "core/base/error.hpp"
 #include "storage/checksum.hpp"
 #include "storage/chunk_file.hpp"
@@ -25,150 +22,76 @@ namespace {
 // so there are less of them than a process may have.
 constexpr std::uint64_t kLiveWindow = 4096;
 
-// One session of a shard. It counts, publishes and reports on the caller's thread.
-class ShardSession {
+// Publishes the runs of a session in chunks. A stop lets the chunks that were begun come to their end.
+class ShardPolicy final : public SessionPolicy {
  public:
-  ShardSession(const CampaignPlan& plan, const AgentPrograms& programs, const ShardFolder& folder, Shard shard,
-               const RunOptions& options, const ShardListener& listener)
-      : options_(options),
-        listener_(listener),
-        stretch_(plan.cells_per_world()),
+  ShardPolicy(Session& session, const CampaignPlan& plan, const StoredPlan& stored, const ShardFolder& folder,
+              Shard shard)
+      : session_(session),
         grid_(plan.run_count()),
         owned_(grid_.of(shard)),
-        runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
-        audits_(plan, programs, options.audit_program, options.workers),
-        desk_(folder, grid_,
-              common_label({campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs)})) {
-    // Which failed runs may be simulated again is known when all shards are put together.
-    for (std::size_t agent = 0; agent < plan.agents.size(); ++agent)
-      runs_.record(agent, plan.audit.share > 0.0 && programs.is_plugin(plan.agents[agent].program));
+        desk_(folder, grid_, common_label(stored)) {
+    Progress& progress = session_.progress();
     for (std::uint64_t chunk = owned_.begin; chunk < owned_.end; ++chunk) {
-      result_.runs.progress.planned += grid_.run_count(chunk);
+      progress.planned += grid_.run_count(chunk);
       if (!is_chunk_there(folder.chunk_file(chunk))) {
         to_do_.push_back(chunk);
         runs_to_do_ += grid_.run_count(chunk);
       }
     }
-    result_.owned = owned_.count();
     found_ = owned_.count() - to_do_.size();
-    result_.runs.progress.done = result_.runs.progress.planned - runs_to_do_;
+    progress.done = progress.planned - runs_to_do_;
   }
 
-  ShardResult run() {
-    listener_.campaign.started();
-    listener_.planned(owned_, found_);
-    audits_.start();
-    simulate();
-    finish_audits();
-    result_.runs.add(runs_.take_losses());
-    result_.published = found_ + desk_.published();
-    result_.runs.stored = result_.runs.progress.done - desk_.open_runs();
-    return std::move(result_);
+  const ChunkRange& owned() const { return owned_; }
+  std::uint64_t published() const { return found_ + desk_.published(); }
+  std::uint64_t open_runs() const { return desk_.open_runs(); }
+  TaskRange runs_to_do() const { return {.end = runs_to_do_, .window = std::max(kLiveWindow, grid_.chunk_runs())}; }
+
+  // Only the last chunk of a campaign is shorter, and it is the last one to do.
+  std::uint64_t run_at(std::uint64_t place) const override {
+    return grid_.first_run(to_do_[place / grid_.chunk_runs()]) + place % grid_.chunk_runs();
+  }
+
+  std::uint64_t piece() const override { return grid_.chunk_runs(); }
+
+  void keep(const RunRecord& run, bool audited) override { desk_.add(run, audited); }
+
+  void keep(const AuditFinding& finding) override { desk_.add(finding.audit); }
+
+  void tick() override {
+    if (!session_.audits().failure().empty()) desk_.audits_end();
+    desk_.publish();
+    const auto now = Clock::now();
+    if (!desk_.waits_for_audits()) last_without_waiting_ = now;
+    if (now - last_without_waiting_ >= std::chrono::seconds(1)) session_.audits().hurry();
+  }
+
+  void publish_rest() {
+    desk_.audits_end();
+    desk_.publish();
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  // Only the last chunk of a campaign is shorter, and it is the last one to do.
-  std::uint64_t run_at(std::uint64_t place) const {
-    return grid_.first_run(to_do_[place / grid_.chunk_runs()]) + place % grid_.chunk_runs();
-  }
-
-  void simulate() {
-    TaskPool pool(
-        options_.workers, 0, runs_to_do_, std::max(kLiveWindow, grid_.chunk_runs()),
-        [this](std::uint64_t place) { return runs_(run_at(place)); }, {}, stretch_);
-    while (!pool.finished()) {
-      if (audits_.is_far_behind()) {  // with a large share the audits set the pace
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      } else if (const auto record = pool.next(std::chrono::milliseconds(100))) {
-        take(*record);
-      }
-      if (must_stop(options_)) pool.stop_after_stretch(grid_.chunk_runs());
-      tick_if_due([&] { return runs_under_way(pool); });
-    }
-    result_.runs.threads = pool.threads_seen();
-    result_.runs.progress.elapsed_s = elapsed_s();
-  }
-
-  void finish_audits() {
-    audits_.no_more_runs();
-    while (!audits_.idle()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      tick_if_due([] { return std::vector<RunUnderWay>(); });
-    }
-    keep_findings();
-    desk_.audits_end();
-    desk_.publish();
-    result_.runs.audit_failure = audits_.failure();
-  }
-
-  double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - started_).count(); }
-
-  std::vector<RunUnderWay> runs_under_way(const TaskPool& pool) const {
-    auto runs = pool.under_way();
-    for (RunUnderWay& run : runs) run.run_index = run_at(run.run_index);
-    return runs;
-  }
-
-  void take(const RunRecord& record) {
-    Progress& progress = result_.runs.progress;
-    ++progress.simulated;
-    ++progress.done;
-    progress.violating += record.outcome.violation ? 1 : 0;
-    progress.engine_errors += record.outcome.engine_error ? 1 : 0;
-    desk_.add(record, audits_.offer(record, runs_.slowest_cpu_ns()));
-    listener_.campaign.run_finished(record);
-  }
-
-  void tick_if_due(const std::function<std::vector<RunUnderWay>()>& under_way) {
-    const auto now = Clock::now();
-    if (now - last_tick_ < std::chrono::milliseconds(100)) return;
-    last_tick_ = now;
-    result_.runs.add(runs_.take_losses());
-    keep_findings();
-    if (!audits_.failure().empty()) desk_.audits_end();
-    desk_.publish();
-    if (!desk_.waits_for_audits()) last_without_waiting_ = now;
-    if (now - last_without_waiting_ >= std::chrono::seconds(1)) audits_.hurry();
-    Progress& progress = result_.runs.progress;
-    progress.elapsed_s = elapsed_s();
-    progress.audits_open = audits_.open_count();
-    listener_.campaign.tick(progress);
-    if (listener_.campaign.wants_status()) listener_.campaign.status(progress, under_way());
-  }
-
-  void keep_findings() {
-    for (const AuditFinding& finding : audits_.take_findings()) {
-      desk_.add(finding.audit);
-      ++result_.runs.progress.audited;
-      if (!finding.same) ++result_.runs.audits_differing;
-    }
-  }
-
-  const RunOptions& options_;
-  const ShardListener& listener_;
-  ShardResult result_;
-  const std::uint64_t stretch_;  // of runs in one world
+  Session& session_;
   ChunkGrid grid_;
   ChunkRange owned_;
   std::vector<std::uint64_t> to_do_;  // chunks, in their order
   std::uint64_t runs_to_do_ = 0, found_ = 0;
-  RunHost runs_;  // before files are opened: worker processes must not hold them
-  AuditDesk audits_;
   ChunkDesk desk_;
-  const Clock::time_point started_ = Clock::now();
-  Clock::time_point last_tick_ = started_, last_without_waiting_ = started_;
+  Clock::time_point last_without_waiting_ = Clock::now();
 };
 
 }  // namespace
 
 ChunkLabel common_label(const StoredPlan& plan) {
-  CampaignRecord without_engine = plan.campaign;
-  without_engine.engine = {};
+  StoredPlan without_engine = plan;
+  without_engine.campaign.engine = {};
   const EngineIdentity& engine = plan.campaign.engine;
   ChunkLabel label;
-  label.plan = plan_checksum(without_engine, plan.cells, plan.gates);
+  label.plan = plan_checksum(without_engine);
   label.campaign = plan.campaign.name;
   label.program = fmt::format("fleetproof {} sha256 {} ({})", engine.version, engine.program_sha256, engine.libraries);
   return label;
@@ -194,11 +117,24 @@ ShardResult run_shard(const CampaignPlan& plan, const AgentPrograms& programs, c
   // What cannot be built is said before anything is written.
   for (const std::string& sentence : build_first_worlds(plan)) listener.campaign.warned(sentence);
   folder.make();
-  const StoredPlan ours{campaign_record(plan, programs), plan.cells(), resolved_gates(plan, programs)};
+  const StoredPlan ours = stored_plan(plan, programs);
   publish_plan(folder, ours);
   require_same_plan(folder.plan_file(), read_plan(folder).campaign, ours.campaign);
   check_canary(folder, canary_text(plan, programs, options.workers));
-  return ShardSession(plan, programs, folder, shard, options, listener).run();
+  Session session(plan, programs, options, listener.campaign);
+  // Which failed runs may be simulated again is known when all shards are put together.
+  for (std::size_t agent = 0; agent < plan.agents.size(); ++agent)
+    session.runs().record(agent, plan.audit.share > 0.0 && programs.is_plugin(plan.agents[agent].program));
+  ShardPolicy policy(session, plan, ours, folder, shard);
+  listener.campaign.started();
+  listener.planned(policy.owned(), policy.published());
+  ShardResult result;
+  result.runs = session.run(policy, policy.runs_to_do());
+  policy.publish_rest();
+  result.runs.stored = result.runs.progress.done - policy.open_runs();
+  result.owned = policy.owned().count();
+  result.published = policy.published();
+  return result;
 }
 
 }  // namespace fleetproof

@@ -65,30 +65,28 @@ std::optional<Trials::Found> Trials::first_failing(const Candidates& candidates)
   if (limits_.trials) end = std::min<std::size_t>(end, *limits_.trials - count_);
   std::optional<Found> found;
   const std::size_t begin = pass_known(candidates, end, found);
-  std::atomic<std::size_t> best = end;
-  std::mutex mutex;
+  std::atomic<std::size_t> best = end;  // the lowest rank that has failed
   std::atomic<bool> late = false;
   if (!found && begin < end) {
-    TaskPool pool(host_.workers(), begin, end, 64, [&](std::uint64_t rank) -> std::optional<RunRecord> {
-      RunRecord done;
-      done.run_index = rank;
-      if (rank > best || late) return done;
+    const auto trial = [&](std::uint64_t rank) -> std::optional<FailingCase> {
+      if (rank > best || late) return std::nullopt;
       auto scenario = candidates.make(rank);
-      if (!scenario) return done;
+      if (!scenario) return std::nullopt;
       auto failing = attempt(*std::move(scenario));
-      if (!failing) return done;
-      const std::lock_guard lock(mutex);
-      if (rank < best || !found) {
-        best = rank;
-        found = Found{rank, *std::move(failing)};
+      std::size_t lowest = best;
+      while (failing && rank < lowest && !best.compare_exchange_weak(lowest, rank)) {
       }
-      return done;
-    });
-    while (!pool.finished()) {
-      pool.next(std::chrono::milliseconds(50));
-      if (best < end) pool.stop();
-      if (limits_.deadline && std::chrono::steady_clock::now() >= *limits_.deadline) late = true;
-    }
+      return failing;
+    };
+    TaskPool<FailingCase> pool({.workers = host_.workers(), .begin = begin, .end = end, .window = 64}, trial);
+    pool.take_all(
+        [&](std::uint64_t rank, FailingCase failing) {
+          if (!found || rank < found->rank) found = Found{rank, std::move(failing)};
+        },
+        [&] {
+          if (best < end) pool.stop();
+          if (limits_.deadline && std::chrono::steady_clock::now() >= *limits_.deadline) late = true;
+        });
   }
   count_ += found ? found->rank + 1 : end;
   if (!found && end < candidates.count) ended_ = true;  // the others were not tried

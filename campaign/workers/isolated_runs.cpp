@@ -44,17 +44,14 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
   RunOrder order{run_index, {}, record_calls, {}, false};
   RunAnswer answer = answer_of(order);
   record.scenario_digest = answer.scenario_digest;
-  record.outcome = std::move(answer.outcome);
+  record.outcome = std::move(answer.run.outcome);
   record.recording = std::move(answer.recording);
   return record;
 }
 
 CaseRun IsolatedRuns::of_case(const Scenario& scenario, Fates fates) {
   RunOrder order{0, {}, false, cases_.write(scenario), fates == Fates::Kept};
-  RunAnswer answer = answer_of(order);
-  return {std::move(answer.outcome), std::move(answer.states),    std::move(answer.doing),
-          std::move(answer.words),   std::move(answer.all_words), std::move(answer.first_said),
-          std::move(answer.fates),   std::move(answer.notes),     std::move(answer.itinerary)};
+  return answer_of(order).run;
 }
 
 std::optional<std::vector<KnownEnd>> IsolatedRuns::ends_in(const Scenario& scenario) {
@@ -104,10 +101,10 @@ RunAnswer IsolatedRuns::unexplained(const RunOrder& order, const CauseOfDeath& c
   RunAnswer answer;
   answer.explained = false;
   answer.scenario_digest = scenario_digest(scenario);
-  answer.outcome.crash = !cause.hang;
-  answer.outcome.hang = cause.hang;
-  answer.outcome.message = cause.message + "; what happened after it is not known";
-  answer.outcome.agv_count = static_cast<std::uint32_t>(scenario.agvs.size());
+  answer.run.outcome.crash = !cause.hang;
+  answer.run.outcome.hang = cause.hang;
+  answer.run.outcome.message = cause.message + "; what happened after it is not known";
+  answer.run.outcome.agv_count = static_cast<std::uint32_t>(scenario.agvs.size());
   return answer;
 }
 

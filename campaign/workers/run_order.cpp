@@ -83,17 +83,17 @@ std::string encode(const RunAnswer& answer) {
   sink.text(answer.message);
   sink.u64(answer.cpu_ns);
   sink.u64(answer.scenario_digest);
-  sink.text(encode(answer.outcome));
+  sink.text(encode(answer.run.outcome));
   sink.text(answer.recording);
-  put(sink, answer.states);
-  put(sink, answer.doing);
-  put(sink, answer.words);
-  put(sink, answer.all_words);
-  put(sink, answer.first_said);
-  put(sink, answer.notes);
-  put(sink, answer.itinerary);
-  sink.u32(static_cast<std::uint32_t>(answer.fates.size()));
-  for (const MessageFate& message : answer.fates) put(sink, message);
+  put(sink, answer.run.states);
+  put(sink, answer.run.doing);
+  put(sink, answer.run.words);
+  put(sink, answer.run.all_words);
+  put(sink, answer.run.first_said);
+  put(sink, answer.run.notes);
+  put(sink, answer.run.itinerary);
+  sink.u32(static_cast<std::uint32_t>(answer.run.fates.size()));
+  for (const MessageFate& message : answer.run.fates) put(sink, message);
   return sink.take();
 }
 
@@ -104,17 +104,17 @@ RunAnswer decode_answer(std::string_view bytes) {
   answer.message = source.text();
   answer.cpu_ns = source.u64();
   answer.scenario_digest = source.u64();
-  answer.outcome = decode_outcome(source.text());
+  answer.run.outcome = decode_outcome(source.text());
   answer.recording = source.text();
-  answer.states = take_texts(source);
-  answer.doing = take_texts(source);
-  answer.words = take_texts(source);
-  answer.all_words = take_texts(source);
-  answer.first_said = take_declared(source);
-  answer.notes = take_notes(source);
-  answer.itinerary = take_itinerary(source);
-  answer.fates.resize(source.count(kShortestFateBytes));
-  for (MessageFate& message : answer.fates) take(source, message);
+  answer.run.states = take_texts(source);
+  answer.run.doing = take_texts(source);
+  answer.run.words = take_texts(source);
+  answer.run.all_words = take_texts(source);
+  answer.run.first_said = take_declared(source);
+  answer.run.notes = take_notes(source);
+  answer.run.itinerary = take_itinerary(source);
+  answer.run.fates.resize(source.count(kShortestFateBytes));
+  for (MessageFate& message : answer.run.fates) take(source, message);
   source.end();
   return answer;
 }

@@ -5,12 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "campaign/run/case_notes.hpp"
-#include "campaign/run/itinerary.hpp"
-#include "campaign/run/message_fates.hpp"
+#include "campaign/run/case_run.hpp"
 #include "campaign/workers/case_text.hpp"
 #include "core/engine/run_watch.hpp"
-#include "core/outcome/outcome.hpp"
 
 namespace fleetproof {
 
@@ -32,13 +29,8 @@ struct RunAnswer {
   std::string message;
   std::uint64_t cpu_ns = 0;  // used by the worker process for this run
   std::uint64_t scenario_digest = 0;
-  Outcome outcome;
   std::string recording;  // of a failed run, if the order asks for it; empty: there is none, or it is too long
-  std::vector<std::string> states, doing, words, all_words;  // of a scenario: see CaseRun
-  std::vector<Declared> first_said;                          // likewise
-  CaseNotes notes;                                           // likewise
-  std::vector<MessageFate> fates;                            // likewise
-  Itinerary itinerary;                                       // likewise
+  CaseRun run;            // of a run of the plan: the outcome alone
 };
 std::string encode(const RunAnswer& answer);
 RunAnswer decode_answer(std::string_view bytes);  // throws EngineError on bytes that `encode` did not write

@@ -70,23 +70,14 @@ RunAnswer answer_to(const RunOrder& order, const Stage& stage, WorkerSlot& slot)
   if (order.scenario.is_empty()) {
     RunRecord record = stage.run_one(order.run_index, nullptr, watch);
     answer.scenario_digest = record.scenario_digest;
-    answer.outcome = std::move(record.outcome);
+    answer.run.outcome = std::move(record.outcome);
   } else {
     const AgentFactor& agent = stage.plan.agents.front();
-    CaseRun run = run_case(stage.cases.read(order.scenario), stage.programs.find(agent.program, "agent"),
-                           stage.plan.config_of(agent), stage.plan.laws_left_out,
-                           order.fates ? Fates::Kept : Fates::Ignored, watch);
-    answer.outcome = std::move(run.outcome);
-    answer.states = std::move(run.states);
-    answer.doing = std::move(run.doing);
-    answer.words = std::move(run.words);
-    answer.all_words = std::move(run.all_words);
-    answer.first_said = std::move(run.first_said);
-    answer.fates = std::move(run.fates);
-    answer.notes = std::move(run.notes);
-    answer.itinerary = std::move(run.itinerary);
+    answer.run = run_case(stage.cases.read(order.scenario), stage.programs.find(agent.program, "agent"),
+                          stage.plan.config_of(agent), stage.plan.laws_left_out,
+                          order.fates ? Fates::Kept : Fates::Ignored, watch);
   }
-  if (order.record && answer.outcome.is_failure()) answer.recording = tape.take();
+  if (order.record && answer.run.outcome.is_failure()) answer.recording = tape.take();
   answer.cpu_ns = cpu_ns() - begin_ns;
   return answer;
 }

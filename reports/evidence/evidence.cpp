@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/outcome/probe_names.hpp"
 #include "reports/evidence/gate_table.hpp"
-#include "storage/gate_cells.hpp"
+#include "storage/records.hpp"
 
 namespace fleetproof {
 namespace {
@@ -29,14 +29,14 @@ std::vector<Pool> condition_pools(const std::vector<CellRecord>& cells) {
 
 }  // namespace
 
-Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells, std::vector<GateRecord> gates)
-    : counts_only_(campaign.kind == "search"),
-      planned_(campaign.replicates),
-      sampling_(campaign.sampling),
-      held_streams_(campaign.held_streams),
-      held_replicate_(campaign.held_replicate),
-      cells_(std::move(cells)),
-      gates_(std::move(gates)),
+Evidence::Evidence(const StoredPlan& plan)
+    : counts_only_(plan.campaign.kind == "search"),
+      planned_(plan.campaign.replicates),
+      sampling_(plan.campaign.sampling),
+      held_streams_(plan.campaign.held_streams),
+      held_replicate_(plan.campaign.held_replicate),
+      cells_(plan.cells),
+      gates_(plan.gates),
       tallies_(cells_.size()),
       pending_tallies_(cells_.size()),
       pools_of_cell_(cells_.size()) {
@@ -55,7 +55,7 @@ Evidence::Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells
     pools_.emplace_back(std::move(pool));
   }
   for (auto& pool : condition_pools(cells_)) pools_.emplace_back(std::move(pool));
-  required_probes_ = campaign.required_probes;
+  required_probes_ = plan.campaign.required_probes;
   coverage_.resize(pools_.size());
   pending_coverage_.resize(pools_.size());
   worst_of_pool_.resize(pools_.size(), WorstRuns(1));

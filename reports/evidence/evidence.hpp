@@ -47,7 +47,7 @@ class Evidence {
  public:
   static constexpr std::size_t kWorstRuns = 10;
 
-  Evidence(const CampaignRecord& campaign, std::vector<CellRecord> cells, std::vector<GateRecord> gates);
+  explicit Evidence(const StoredPlan& plan);
 
   // Adds the next run. Requires: its run_index == runs().
   void add(const RunRecord& run);

@@ -13,7 +13,7 @@ std::string replay_line(const ReportInput& input, std::uint64_t run_index) {
 ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path, const AlsoCount& also) {
   ReportInput input{std::move(archive_path),
                     archive.campaign(),
-                    Evidence(archive.campaign(), archive.cells(), archive.gates()),
+                    Evidence(archive.plan()),
                     Breakdown(archive.cells()),
                     AuditTally(archive.campaign(), archive.cells()),
                     {},

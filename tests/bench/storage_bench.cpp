@@ -54,7 +54,7 @@ void store(benchmark::State& state, std::vector<RunRecord> (*make_runs)(const Ca
   const std::uint64_t cells = plan.cell_count();
   std::vector<RunRecord> runs = make_runs(plan);
   const samples::TemporaryFolder folder;
-  ArchiveWriter writer(folder / "a.fp", samples::campaign(), plan.cells(), plan.gates);
+  ArchiveWriter writer(folder / "a.fp", {samples::campaign(), plan.cells(), plan.gates});
   std::uint64_t index = 0;
   for (auto _ : state) {
     RunRecord& run = runs[index % runs.size()];

@@ -7,7 +7,7 @@
 #include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
-#include "storage/gate_cells.hpp"
+#include "storage/records.hpp"
 
 namespace fleetproof::gate_cells_test {
 namespace {

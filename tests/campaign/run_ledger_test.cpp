@@ -1,4 +1,4 @@
-#include "campaign/batch/run_ledger.hpp"
+#include "campaign/batch/stop_rules.hpp"
 
 #include <gtest/gtest.h>
 

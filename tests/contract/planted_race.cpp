@@ -36,14 +36,9 @@ const fp_agent_type kRacyAgent = {sizeof(fp_agent_type),
 int main() {
   using namespace fleetproof;
   const Scenario scenario = test::row_scenario(3, {0, 2});
-  TaskPool pool(2, 0, 100, 1000, [&](std::uint64_t index) {
-    RunRecord record;
-    record.run_index = index;
-    record.outcome = simulate(scenario, kRacyAgent, {});
-    return record;
-  });
+  TaskPool<Outcome> pool({.workers = 2, .end = 100}, [&](std::uint64_t) { return simulate(scenario, kRacyAgent, {}); });
   std::uint64_t runs = 0;
-  while (!pool.finished()) runs += pool.next(std::chrono::milliseconds(50)) ? 1 : 0;
+  pool.take_all([&](std::uint64_t, const Outcome&) { ++runs; });
   std::printf("%llu runs, %llu events counted\n", static_cast<unsigned long long>(runs),
               static_cast<unsigned long long>(shared_events));
   return 0;

@@ -82,7 +82,7 @@ TEST(AuditSection, AnErrorOfTheEngineIsTheExitCodeOfTheReport) {
     const samples::TemporaryFolder folder;
     const std::string path = folder / "night.fp";
     const Campaign campaign;
-    ArchiveWriter writer(path, campaign.record, campaign.cells, {});
+    ArchiveWriter writer(path, {campaign.record, campaign.cells, {}});
     for (std::uint64_t i = 0; i < 20; ++i) {
       const RunRecord run = samples::clean_run(i, 2);
       writer.add(run);

@@ -69,7 +69,7 @@ TEST(Evidence, an_incomplete_replicate_is_not_counted_but_its_failures_are_remem
 
 TEST(Evidence, runs_come_in_order_without_gaps) {
   const auto cells = grid({"sound"}, {0.0}, {0.0, 2.0});
-  Evidence evidence(campaign_of("claim", 2), cells, {});
+  Evidence evidence({campaign_of("claim", 2), cells, {}});
   evidence.add(samples::clean_run(0, 2));
   EXPECT_THROW(evidence.add(samples::clean_run(2, 2)), InvariantViolation);
   EXPECT_THROW(evidence.add(samples::clean_run(0, 2)), InvariantViolation);

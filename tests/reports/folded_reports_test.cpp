@@ -51,7 +51,7 @@ class FoldedReports : public testing::TestWithParam<Case> {
     for (GateRecord& gate : gates) gate.min_transports_per_agv_hour = 2.0;
     if (!GetParam().throughput)
       std::erase_if(gates, [](const GateRecord& gate) { return gate.end_point == EndPoint::Throughput; });
-    ArchiveWriter writer(folder_ / name, campaign_, cells(), gates);
+    ArchiveWriter writer(folder_ / name, {campaign_, cells(), gates});
     samples::DrawnRuns drawn(GetParam().trouble);
     runs_.clear();
     for (std::uint64_t i = 0; i < GetParam().replicates * cells().size(); ++i) {

@@ -65,7 +65,7 @@ TEST(CampaignFigures, follow_the_bound_as_it_falls) {
   auto gate = samples::gate_of("sound", GateKind::Rate, Region::Contract, 0.1);
   gate.method = GateMethod::AnyTime;
   const auto cells = samples::grid({"sound"}, {0.4}, {1.0, 2.0});
-  Evidence evidence(samples::campaign_of("claim", 100), cells, {gate});
+  Evidence evidence({samples::campaign_of("claim", 100), cells, {gate}});
   CampaignFigures figures;
   for (std::uint64_t i = 0; i < 200; ++i) {
     const auto run = samples::clean_run(i, 2);
@@ -88,7 +88,7 @@ TEST(CampaignFigures, follow_a_bound_from_where_it_is_finite) {
   gate.method = GateMethod::AnyTime;
   gate.unit = GateUnit::AgvHour;
   const auto curve_of = [&](std::uint64_t unknown, std::uint64_t replicates) {
-    Evidence evidence(samples::campaign_of("claim", replicates), samples::grid({"sound"}, {0.4}, {2.0}), {gate});
+    Evidence evidence({samples::campaign_of("claim", replicates), samples::grid({"sound"}, {0.4}, {2.0}), {gate}});
     CampaignFigures figures;
     for (std::uint64_t i = 0; i < replicates; ++i) {
       auto run = samples::clean_run(i, 1);
@@ -113,7 +113,7 @@ TEST(CampaignFigures, follow_a_bound_from_where_it_is_finite) {
 
 TEST(CampaignFigures, number_what_was_new) {
   const auto cells = samples::grid({"sound", "odd"}, {0.4}, {2.0});
-  Evidence evidence(samples::campaign_of("claim", 20), cells, {});
+  Evidence evidence({samples::campaign_of("claim", 20), cells, {}});
   CampaignFigures figures;
   for (std::uint64_t i = 0; i < 40; ++i) {
     auto run = samples::clean_run(i, 2);
@@ -131,7 +131,7 @@ TEST(CampaignFigures, number_what_was_new) {
 // The chart and the table of what the runs met count the same names.
 TEST(CampaignFigures, count_the_situations_of_the_table) {
   const auto cells = samples::grid({"sound"}, {0.4}, {2.0});
-  Evidence evidence(samples::campaign_of("claim", 3), cells, {});
+  Evidence evidence({samples::campaign_of("claim", 3), cells, {}});
   CampaignFigures figures;
   for (std::uint64_t i = 0; i < 3; ++i) {
     auto run = samples::clean_run(i, 1);

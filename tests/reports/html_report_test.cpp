@@ -29,7 +29,7 @@ class Archive {
  public:
   Archive(const CampaignRecord& campaign, const std::vector<CellRecord>& cells, const std::vector<GateRecord>& gates,
           std::uint64_t runs, const samples::Change& change = {}) {
-    ArchiveWriter writer(path(), campaign, cells, gates);
+    ArchiveWriter writer(path(), {campaign, cells, gates});
     for (std::uint64_t i = 0; i < runs; ++i) {
       auto run = samples::clean_run(i, cells.size());
       run.factors = cells[run.cell].lowest;

@@ -333,8 +333,8 @@ TEST(Report, clearances_round_towards_the_unsafe_side) {
 TEST(Report, reads_an_archive_up_to_its_first_gap) {
   const samples::TemporaryFolder folder;
   const auto cells = grid({"sound"}, {0.4}, {1.0, 2.0});
-  ArchiveWriter writer(folder / "night.fp", campaign_of("claim", 10), cells,
-                       {gate_of("sound", GateKind::None, Region::Contract, 1e-3)});
+  ArchiveWriter writer(folder / "night.fp",
+                       {campaign_of("claim", 10), cells, {gate_of("sound", GateKind::None, Region::Contract, 1e-3)}});
   for (const std::uint64_t i : {0u, 1u, 2u, 3u, 5u}) writer.add(samples::clean_run(i, 2));
   writer.publish(20);
   const auto input = read_report_input(ArchiveReader(folder / "night.fp"), "typed.fp");

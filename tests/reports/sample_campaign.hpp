@@ -83,7 +83,7 @@ inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellReco
                              const std::vector<GateRecord>& gates, const Change& change = {},
                              std::uint64_t extra_runs = 0, std::uint64_t missing_runs = 0) {
   ReportInput input{
-      "night.fp", campaign, Evidence(campaign, cells, gates), Breakdown(cells), AuditTally(campaign, cells), {}, {},
+      "night.fp", campaign, Evidence({campaign, cells, gates}), Breakdown(cells), AuditTally(campaign, cells), {}, {},
       0,          4};
   for (std::uint64_t i = 0; i < campaign.replicates * cells.size() + extra_runs - missing_runs; ++i) {
     auto run = clean_run(i, cells.size());

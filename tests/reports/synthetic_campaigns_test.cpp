@@ -188,7 +188,7 @@ TEST(SyntheticCampaigns, EvidenceDecidesByTheSameTable) {
     const Worlds worlds(c, 0.04);
     CampaignRecord campaign = samples::campaign_of("claim", kWorlds);
     campaign.required_probes.clear();
-    Evidence evidence(campaign, samples::grid({"sound"}, {0.4}, {2.0}), {gate(GateMethod::AnyTime)});
+    Evidence evidence({campaign, samples::grid({"sound"}, {0.4}, {2.0}), {gate(GateMethod::AnyTime)}});
     std::uint64_t failing = 0;
     for (std::uint64_t n = 1; n <= 120; ++n) {
       RunRecord run = samples::clean_run(n - 1, 1);

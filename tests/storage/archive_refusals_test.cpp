@@ -20,7 +20,7 @@ using test::tamper;
 using testing::HasSubstr;
 
 void write_archive(const std::string& path, std::uint64_t runs = 60) {
-  ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates());
+  ArchiveWriter writer(path, samples::plan());
   for (const auto& run : samples::runs(runs)) writer.add(run);
   writer.publish(runs);
 }
@@ -49,7 +49,7 @@ TEST(ArchiveReader, refuses_what_is_not_a_results_file) {
 
 TEST(ArchiveReader, names_the_live_file_of_an_interrupted_campaign) {
   const TemporaryFolder folder;
-  { ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates()); }
+  { ArchiveWriter writer(folder / "a.fp", samples::plan()); }
   EXPECT_THAT(sentence_of<InputError>([&] { ArchiveReader reader(folder / "a.fp"); }), HasSubstr("a.fp.partial"));
 }
 
@@ -154,14 +154,13 @@ TEST(ArchiveReader, a_changed_plan_is_noticed) {
 TEST(ArchiveWriter, refuses_names_that_are_taken_or_cannot_be) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& path) {
-    return sentence_of<InputError>(
-        [&] { ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates()); });
+    return sentence_of<InputError>([&] { ArchiveWriter writer(path, samples::plan()); });
   };
   write_archive(folder / "a.fp");
   const auto before = samples::bytes_of(folder / "a.fp");
   EXPECT_THAT(refusal(folder / "a.fp"), HasSubstr("exists already"));
   EXPECT_TRUE(samples::bytes_of(folder / "a.fp") == before);
-  { ArchiveWriter writer(folder / "b.fp", samples::campaign(), samples::cells(), samples::gates()); }
+  { ArchiveWriter writer(folder / "b.fp", samples::plan()); }
   EXPECT_THAT(refusal(folder / "b.fp"), HasSubstr("interrupted"));
   EXPECT_THAT(refusal(folder / "."), HasSubstr("folder"));
   EXPECT_THAT(refusal(folder / "no/such/a.fp"), HasSubstr("there is no folder"));
@@ -170,7 +169,7 @@ TEST(ArchiveWriter, refuses_names_that_are_taken_or_cannot_be) {
 
 // A writer as a campaign would open it.
 void open_writer(const std::string& path, Existing existing = Existing::Refuse) {
-  ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates(), existing);
+  ArchiveWriter writer(path, samples::plan(), existing);
 }
 
 TEST(ArchiveWriter, a_place_that_cannot_be_written_is_for_the_user_to_mend) {
@@ -226,7 +225,7 @@ TEST(ArchiveWriter, a_second_writer_is_refused_while_the_first_is_alive) {
   const TemporaryFolder folder;
   const auto path = folder / "a.fp";
   {
-    ArchiveWriter first(path, samples::campaign(), samples::cells(), samples::gates());
+    ArchiveWriter first(path, samples::plan());
     for (const auto& run : samples::runs(6)) first.add(run);
     first.commit();
     for (const auto existing : {Existing::Refuse, Existing::Replace}) {
@@ -264,7 +263,7 @@ TEST(ArchiveWriter, replaces_a_results_file_only_when_the_new_one_is_published) 
   ASSERT_TRUE(std::filesystem::exists(path + ".partial"));
   samples::write_bytes(path + ".partial-wal", "left over");
   {
-    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates(), Existing::Replace);
+    ArchiveWriter writer(path, samples::plan(), Existing::Replace);
     for (const auto& run : samples::runs(12)) writer.add(run);
     writer.commit();
     EXPECT_TRUE(samples::bytes_of(path) == before);
@@ -282,7 +281,7 @@ TEST(ArchiveWriter, replaces_a_damaged_campaign_file_and_makes_one_where_none_is
   samples::write_bytes(folder / "a.fp", samples::bytes_of(folder / "a.fp").substr(0, 5000));
   for (const auto* name : {"a.fp", "b.fp"}) {
     {
-      ArchiveWriter writer(folder / name, samples::campaign(), samples::cells(), samples::gates(), Existing::Replace);
+      ArchiveWriter writer(folder / name, samples::plan(), Existing::Replace);
       writer.publish(0);
     }
     EXPECT_EQ(ArchiveReader(folder / name).run_count(), 0u);
@@ -330,7 +329,7 @@ TEST(ArchiveWriter, a_foreign_file_with_a_name_that_is_needed_on_the_way_stays) 
     // What a killed program left gives way, also before SQLite wrote its first page.
     for (const std::string& rest : {std::string(), std::string(8192, '\0')}) {
       samples::write_bytes((folder / "a.fp") + ending, rest);
-      ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+      ArchiveWriter writer(folder / "a.fp", samples::plan());
       writer.discard();
     }
   }
@@ -339,8 +338,7 @@ TEST(ArchiveWriter, a_foreign_file_with_a_name_that_is_needed_on_the_way_stays) 
 TEST(ArchiveWriter, the_rest_of_a_killed_merge_gives_way) {
   const TemporaryFolder folder;
   const auto merge = [&] {
-    return ArchiveWriter(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates(), Existing::Refuse, {},
-                         LiveName::Merging);
+    return ArchiveWriter(folder / "a.fp", samples::plan(), Existing::Refuse, {}, LiveName::Merging);
   };
   samples::write_bytes(folder / "a.fp.merging", "mine");
   EXPECT_THAT(sentence_of<InputError>(merge), HasSubstr("a.fp.merging"));
@@ -357,7 +355,7 @@ TEST(ArchiveWriter, a_file_that_appears_while_the_campaign_runs_is_not_overwritt
   const TemporaryFolder folder;
   for (const auto existing : {Existing::Refuse, Existing::Replace}) {
     const auto path = folder / (existing == Existing::Refuse ? "a.fp" : "b.fp");
-    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates(), existing);
+    ArchiveWriter writer(path, samples::plan(), existing);
     samples::write_bytes(path, "mine");
     EXPECT_THAT(sentence_of<InputError>([&] { writer.publish(0); }), HasSubstr("appeared while the campaign ran"));
     EXPECT_EQ(samples::bytes_of(path), "mine");
@@ -366,7 +364,7 @@ TEST(ArchiveWriter, a_file_that_appears_while_the_campaign_runs_is_not_overwritt
 
 TEST(ArchiveWriter, an_empty_file_that_appears_while_the_campaign_runs_gives_way) {
   const TemporaryFolder folder;
-  ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+  ArchiveWriter writer(folder / "a.fp", samples::plan());
   samples::write_bytes(folder / "a.fp", "");
   writer.publish(0);
   EXPECT_FALSE(samples::bytes_of(folder / "a.fp").empty());

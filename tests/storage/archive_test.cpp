@@ -20,7 +20,7 @@ using samples::TemporaryFolder;
 
 void write_archive(const std::string& path, const std::vector<RunRecord>& runs, std::uint64_t stop_index,
                    std::size_t commit_every = 0) {
-  ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates());
+  ArchiveWriter writer(path, samples::plan());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     writer.add(runs[i]);
     if (commit_every != 0 && i % commit_every == 0) writer.commit();
@@ -101,7 +101,7 @@ TEST(Archive, one_changed_value_changes_bytes_and_content_digest) {
 TEST(Archive, the_content_digest_is_that_of_the_live_file_and_covers_the_plan) {
   const TemporaryFolder folder;
   const auto digest_with = [&](const std::string& name, const CampaignRecord& campaign) {
-    ArchiveWriter writer(folder / name, campaign, samples::cells(), samples::gates());
+    ArchiveWriter writer(folder / name, {campaign, samples::cells(), samples::gates()});
     for (const auto& run : samples::runs(12)) writer.add(run);
     writer.commit();
     const auto live = ArchiveReader(folder / (name + ".partial")).content_digest();
@@ -118,7 +118,7 @@ TEST(Archive, the_digest_of_results_leaves_out_the_engine_and_nothing_else) {
   const TemporaryFolder folder;
   auto runs = samples::runs(12);
   const auto digests = [&](const std::string& name, const CampaignRecord& campaign) {
-    ArchiveWriter writer(folder / name, campaign, samples::cells(), samples::gates());
+    ArchiveWriter writer(folder / name, {campaign, samples::cells(), samples::gates()});
     for (const auto& run : runs) writer.add(run);
     writer.publish(12);
     const ArchiveReader archive(folder / name);
@@ -148,7 +148,7 @@ TEST(Archive, only_the_campaign_file_is_left_in_the_folder) {
 TEST(Archive, without_publishing_the_rows_stay_in_the_live_file) {
   const TemporaryFolder folder;
   {
-    ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+    ArchiveWriter writer(folder / "a.fp", samples::plan());
     for (const auto& run : samples::runs(5)) writer.add(run);
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "a.fp"));
@@ -161,7 +161,7 @@ TEST(Archive, a_killed_writer_loses_nothing_that_was_committed) {
   const auto child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+    ArchiveWriter writer(folder / "a.fp", samples::plan());
     for (std::size_t i = 0; i < 12; ++i) writer.add(runs[i]);
     writer.commit();
     for (std::size_t i = 12; i < 20; ++i) writer.add(runs[i]);
@@ -180,7 +180,7 @@ TEST(Archive, a_killed_writer_loses_nothing_that_was_committed) {
 TEST(Archive, what_was_added_two_seconds_ago_is_committed) {
   const TemporaryFolder folder;
   const auto runs = samples::runs(4);
-  ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+  ArchiveWriter writer(folder / "a.fp", samples::plan());
   const auto begin = std::chrono::steady_clock::now();
   for (std::size_t i = 0; i < 3; ++i) writer.add(runs[i]);
   const std::uint64_t at_once = ArchiveReader(folder / "a.fp.partial").run_count();
@@ -194,7 +194,7 @@ TEST(Archive, what_was_added_two_seconds_ago_is_committed) {
 
 TEST(Archive, the_same_run_twice_is_stored_once_but_never_with_two_outcomes) {
   const TemporaryFolder folder;
-  ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+  ArchiveWriter writer(folder / "a.fp", samples::plan());
   auto runs = samples::runs(3);
   for (const auto& run : runs) writer.add(run);
   EXPECT_NO_THROW(writer.add(runs[1]));
@@ -206,7 +206,7 @@ TEST(Archive, the_same_run_twice_is_stored_once_but_never_with_two_outcomes) {
 
 TEST(Archive, a_run_index_that_does_not_belong_to_cell_and_replicate_is_our_bug) {
   const TemporaryFolder folder;
-  ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+  ArchiveWriter writer(folder / "a.fp", samples::plan());
   auto run = samples::runs(1)[0];
   run.run_index = 5;
   EXPECT_THROW(writer.add(run), InvariantViolation);

@@ -39,7 +39,7 @@ class Damage : public testing::TestWithParam<bool> {
   }
 
   void write(const std::string& name, std::uint64_t runs, std::uint64_t seed, bool published = true) {
-    ArchiveWriter writer(folder_ / name, samples::campaign(), samples::cells(), samples::gates());
+    ArchiveWriter writer(folder_ / name, samples::plan());
     for (auto& run : samples::runs(runs, seed)) {
       run.outcome.counters = {.events = run.outcome.counters.events % 1000};  // figures that a report can add up
       run.outcome.simulated_ns = 600'000'000'000;

@@ -40,8 +40,7 @@ class DiskFaults : public testing::TestWithParam<Fault> {
       EXPECT_EQ(run.outcome, runs_.at(run.run_index).outcome);
       stored.at(run.run_index) = true;
     };
-    ArchiveWriter writer(folder_ / name, samples::campaign(), samples::cells(), samples::gates(), Existing::Resume,
-                         resumption);
+    ArchiveWriter writer(folder_ / name, samples::plan(), Existing::Resume, resumption);
     for (std::uint64_t i = 0; i < length; ++i) {
       if (!stored[i]) writer.add(runs_[i]);
       if (i % 16 == 15) writer.commit();
@@ -121,7 +120,7 @@ TEST_P(DiskFaults, OfANewCampaign) {
 
 TEST_P(DiskFaults, OfACampaignThatWasKilled) {
   try_every_call([&](const std::string& name) {
-    ArchiveWriter writer(folder_ / name, samples::campaign(), samples::cells(), samples::gates());
+    ArchiveWriter writer(folder_ / name, samples::plan());
     for (std::uint64_t i = 0; i < 40; ++i) writer.add(runs_[i]);
   });
 }

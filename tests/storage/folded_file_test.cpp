@@ -19,7 +19,7 @@ class FoldedFile : public testing::Test {
  protected:
   // Every fifth run may not be folded.
   FoldedFile() {
-    ArchiveWriter writer(path_, campaign_, samples::cells(), {});
+    ArchiveWriter writer(path_, {campaign_, samples::cells(), {}});
     const auto all = samples::runs(kReplicates * samples::cells().size());
     for (std::size_t i = all.size(); i-- > 0;) writer.add(plain(all[i]));
     writer.publish(all.size(), [](const RunRecord& run) { return run.run_index % 5 != 0; });
@@ -84,9 +84,10 @@ TEST_F(FoldedFile, AChangeIsNoticed) {
 }
 
 TEST_F(FoldedFile, CannotGoOn) {
-  EXPECT_THAT(
-      test::sentence_of<InputError>([&] { ArchiveWriter(path_, campaign_, samples::cells(), {}, Existing::Resume); }),
-      HasSubstr("its runs without a failure are folded (keep = \"failing\"), so this campaign cannot go on"));
+  EXPECT_THAT(test::sentence_of<InputError>([&] {
+                ArchiveWriter(path_, {campaign_, samples::cells(), {}}, Existing::Resume);
+              }),
+              HasSubstr("its runs without a failure are folded (keep = \"failing\"), so this campaign cannot go on"));
   EXPECT_TRUE(samples::bytes_of(path_) == whole_);
   EXPECT_FALSE(std::filesystem::exists(path_ + ".partial"));
 }

@@ -44,7 +44,7 @@ TEST(ArchiveWriter, a_disk_that_fills_up_is_an_engine_error_and_keeps_what_was_c
   const auto runs = samples::runs(3000);
   std::string sentence;
   {
-    ArchiveWriter writer(folder / "a.fp", samples::campaign(), samples::cells(), samples::gates());
+    ArchiveWriter writer(folder / "a.fp", samples::plan());
     for (std::size_t i = 0; i < 100; ++i) writer.add(runs[i]);
     writer.commit();
     const SmallDisk disk(400'000);
@@ -66,7 +66,7 @@ TEST(ArchiveWriter, after_an_error_half_a_run_is_never_committed) {
   auto runs = samples::runs(3);
   runs[2].outcome.probes = {{ProbeSource::World, "crossing", 1}};
   {
-    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates());
+    ArchiveWriter writer(path, samples::plan());
     writer.add(runs[0]);
     writer.commit();
     tamper(path + ".partial", "CREATE TRIGGER t BEFORE INSERT ON probes BEGIN SELECT RAISE(ABORT, 'no'); END");
@@ -82,13 +82,13 @@ TEST(ArchiveWriter, a_disk_too_small_for_a_second_copy_costs_no_run) {
   const auto path = folder / "a.fp";
   const auto runs = samples::runs(600);
   {
-    ArchiveWriter writer(folder / "whole.fp", samples::campaign(), samples::cells(), samples::gates());
+    ArchiveWriter writer(folder / "whole.fp", samples::plan());
     for (const auto& run : runs) writer.add(run);
     writer.publish(600);
   }
   std::string sentence;
   {
-    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates());
+    ArchiveWriter writer(path, samples::plan());
     for (const auto& run : runs) writer.add(run);
     writer.commit();
     const SmallDisk disk(100'000);
@@ -100,8 +100,7 @@ TEST(ArchiveWriter, a_disk_too_small_for_a_second_copy_costs_no_run) {
   std::size_t stored = 0;
   Resumption resumption;
   resumption.visit = [&](const RunRecord&) { ++stored; };
-  ArchiveWriter(path, samples::campaign(), samples::cells(), samples::gates(), Existing::Resume, resumption)
-      .publish(600);
+  ArchiveWriter(path, samples::plan(), Existing::Resume, resumption).publish(600);
   EXPECT_EQ(stored, 600u);
   EXPECT_TRUE(samples::bytes_of(path) == samples::bytes_of(folder / "whole.fp"));
 }

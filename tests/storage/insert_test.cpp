@@ -1,4 +1,4 @@
-#include "storage/insert.hpp"
+#include "storage/statement.hpp"
 
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Exception.h>

@@ -55,7 +55,7 @@ void go_on(const std::string& path, std::uint64_t& taken_over) {
   }
   Resumption resumption;
   resumption.visit = [&](const RunRecord&) { ++taken_over; };
-  ArchiveWriter(path, campaign, cells, gates, Existing::Resume, resumption).publish(kRuns);
+  ArchiveWriter(path, {campaign, cells, gates}, Existing::Resume, resumption).publish(kRuns);
 }
 
 class OlderSchemas : public testing::TestWithParam<int> {

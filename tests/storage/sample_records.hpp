@@ -71,6 +71,8 @@ inline std::vector<GateRecord> gates() {
   return {none, rate};
 }
 
+inline StoredPlan plan() { return {campaign(), cells(), gates()}; }
+
 // Every field filled at random, with whole words of 64 bits.
 inline Outcome random_outcome(std::mt19937_64& random) {
   Outcome o;

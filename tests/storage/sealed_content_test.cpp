@@ -23,7 +23,7 @@ class SealedFile : public testing::Test {
 
   // Run 3 and, if `steady`, each run is audited and came out the same. If not, run 9 came out differently.
   void make(const std::string& path, std::uint64_t count, bool steady) {
-    ArchiveWriter writer(path, campaign_, samples::cells(), {});
+    ArchiveWriter writer(path, {campaign_, samples::cells(), {}});
     for (RunRecord run : samples::runs(count)) {
       if (run.run_index % 5 == 0) run.recording = "what agents did in run " + std::to_string(run.run_index);
       writer.add(run);
@@ -66,7 +66,7 @@ TEST_F(SealedFile, RecordingsOfAnAgentThatIsTheSameInEveryAuditAreLeftOut) {
   make(path_, kRuns, true);
   EXPECT_EQ(ArchiveReader(path_).recording_count("sound"), 0U);
   const std::string without = folder_ / "without.fp";
-  ArchiveWriter writer(without, campaign_, samples::cells(), {});
+  ArchiveWriter writer(without, {campaign_, samples::cells(), {}});
   for (const RunRecord& run : samples::runs(kRuns)) {
     writer.add(run);
     writer.add(AuditRecord{run.run_index, row_checksum(run)});
@@ -112,7 +112,7 @@ TEST_F(SealedFile, ASessionThatGoesOnSeesTheAuditsOfTheOneBefore) {
   std::vector<std::pair<std::uint64_t, bool>> seen;
   Resumption resumption;
   resumption.visit_audit = [&](const AuditRecord& audit, bool same) { seen.emplace_back(audit.run_index, same); };
-  ArchiveWriter writer(path_, campaign_, samples::cells(), {}, Existing::Resume, resumption);
+  ArchiveWriter writer(path_, {campaign_, samples::cells(), {}}, Existing::Resume, resumption);
   EXPECT_THAT(seen, ElementsAre(Pair(3, true), Pair(9, false)));
   const std::string before = samples::bytes_of(path_);
   writer.publish(kRuns);

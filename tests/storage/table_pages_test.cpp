@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "storage/query.hpp"
+#include "storage/statement.hpp"
 #include "tests/storage/refusal.hpp"
 #include "tests/storage/sample_records.hpp"
 

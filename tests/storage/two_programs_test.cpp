@@ -71,7 +71,7 @@ int race(const std::string& path, const Pipe& start, const Pipe& opened, const P
   start.wait();
   const auto begin = std::chrono::steady_clock::now();
   try {
-    ArchiveWriter writer(path, samples::campaign(), samples::cells(), samples::gates(), Existing::Resume);
+    ArchiveWriter writer(path, samples::plan(), Existing::Resume);
     opened.send();
     finish.wait();
     for (const auto& run : samples::runs(6)) writer.add(run);
@@ -128,7 +128,7 @@ TEST(TwoPrograms, ReadersOfAWriterAtWorkSeeAWholeStateAndNoError) {
   const pid_t writer = ::fork();
   if (writer == 0) {
     try {
-      ArchiveWriter archive(path, samples::campaign(), samples::cells(), samples::gates());
+      ArchiveWriter archive(path, samples::plan());
       opened.send();
       std::uint64_t index = 0;
       for (RunRecord run;; ++index) {

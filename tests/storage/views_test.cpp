@@ -32,7 +32,7 @@ class Views : public testing::Test {
  protected:
   Views() {
     RunRecord run;
-    ArchiveWriter writer(path_, samples::campaign(), samples::cells(), samples::gates());
+    ArchiveWriter writer(path_, samples::plan());
     for (std::uint32_t i = 0; i < 12; ++i) {
       run.run_index = i;
       run.cell = i % 6;
@@ -109,7 +109,7 @@ TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
   campaign.sampling = "uniform";
   const std::vector<CellRecord> cells{{0, "sound", "ring", 5, {0.0, 1.0, 0.5, 0.001}, {0.8, 2.0, 2.5, 0.016}},
                                       {1, "sound", "ring", 5, {0.0, 0.0, 0.0}, {0.4, 2.0, 0.0}}};
-  ArchiveWriter writer(path, campaign, cells, samples::gates());
+  ArchiveWriter writer(path, {campaign, cells, samples::gates()});
   RunRecord run;
   run.factors = {0.125, 1.5, 0.75};
   writer.add(run);

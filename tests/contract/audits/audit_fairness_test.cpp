@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "campaign/batch/campaign.hpp"
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/run/run_one.hpp"
 #include "storage/archive_reader.hpp"
@@ -23,7 +24,7 @@ class AuditFairness : public test::AuditedCampaign {
     plan.replicates = replicates;
     const AgentPrograms programs;
     const RunOne run_one(plan, programs);
-    ArchiveWriter archive(path("c.db"), campaign_record(plan, programs), plan.cells(), plan.gates);
+    ArchiveWriter archive(path("c.db"), stored_plan(plan, programs));
     for (std::uint64_t index = 0; index < plan.run_count(); ++index) {
       RunRecord record = run_one(index);
       record.outcome.digest ^= 1;

@@ -102,10 +102,9 @@ TEST_F(SlowRun, OnAThreadStallsNoOther) {
   programs.load(FLEETPROOF_FAILING_AGENT);
   const RunOne run_one(campaign_.plan, programs);
   FinishOrder order(campaign_.slow_run, path("gate"));
-  TaskPool pool(2, 0, kRuns, kRuns, [&](std::uint64_t index) { return run_one(index); });
-  while (!pool.finished()) {
-    if (const auto record = pool.next(std::chrono::milliseconds(100))) order.finished(record->run_index);
-  }
+  TaskPool<RunRecord> pool({.workers = 2, .end = kRuns, .window = kRuns},
+                           [&](std::uint64_t index) { return run_one(index); });
+  pool.take_all([&](std::uint64_t index, const RunRecord&) { order.finished(index); });
   EXPECT_EQ(order.after(), 0) << "runs that waited for the slow one";
   EXPECT_TRUE(std::filesystem::exists(path("gate")));
 }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "campaign/batch/campaign.hpp"
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/run/run_one.hpp"
 #include "campaign/run/sha256.hpp"
 #include "campaign/workers/run_host.hpp"
@@ -66,15 +67,14 @@ class OneDigest : public test::ProgramTest {
         plugins == Plugins::OnThreads ? programs.load(object) : programs.know(object);
       const RunOne on_threads(plan_, programs);
       RunHost in_workers(plan_, programs, {.workers = workers});
-      ArchiveWriter archive(path(file), campaign_record(plan_, programs), plan_.cells(), plan_.gates);
+      ArchiveWriter archive(path(file), stored_plan(plan_, programs));
       StartingLine line(static_cast<int>(std::min<std::uint64_t>(window, static_cast<std::uint64_t>(workers))));
-      TaskPool pool(workers, 0, plan_.run_count(), window, [&](std::uint64_t index) {
-        line.wait();
-        return plugins == Plugins::OnThreads ? on_threads(index) : in_workers(index);
-      });
-      while (!pool.finished()) {
-        if (const auto record = pool.next(std::chrono::milliseconds(100))) archive.add(*record);
-      }
+      TaskPool<RunRecord> pool({.workers = workers, .end = plan_.run_count(), .window = window},
+                               [&](std::uint64_t index) {
+                                 line.wait();
+                                 return plugins == Plugins::OnThreads ? on_threads(index) : in_workers(index);
+                               });
+      pool.take_all([&](std::uint64_t, const RunRecord& record) { archive.add(record); });
       archive.publish(plan_.run_count());
       return pool.threads_seen();
     });

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/batch/verification.hpp"
 #include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
@@ -27,7 +28,7 @@ class Verify : public test::ProgramTest {
     const AgentPrograms programs;
     CampaignRecord record = campaign_record(plan_, programs);
     record.engine.program_sha256 = program_sha256;
-    ArchiveWriter writer(path("v.db"), record, plan_.cells(), plan_.gates, Existing::Replace);
+    ArchiveWriter writer(path("v.db"), {record, plan_.cells(), plan_.gates}, Existing::Replace);
     const RunOne run_one(plan_, programs);
     for (std::uint64_t index = 0; index < plan_.run_count(); ++index) {
       RunRecord run = run_one(index);

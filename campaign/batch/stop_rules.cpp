@@ -1,4 +1,4 @@
-#include "campaign/batch/run_ledger.hpp"
+#include "campaign/batch/stop_rules.hpp"
 
 #include "core/base/error.hpp"
 
@@ -23,6 +23,19 @@ std::optional<std::uint64_t> RunLedger::length_with_failures(std::uint64_t count
   ensure(count >= 1, "a stopping rule waits for one failure at least");
   if (failures_.size() < count) return std::nullopt;
   return failures_[count - 1] + 1;
+}
+
+void VerdictWatch::add(const RunRecord& run) {
+  if (decided_length_) return;
+  RunRecord& kept = ahead_.emplace(run.run_index, run).first->second;
+  kept.recording.clear();
+  for (auto next = ahead_.begin(); next != ahead_.end() && next->first == evidence_.runs() && !decided_length_;
+       next = ahead_.erase(next)) {
+    evidence_.add(next->second);
+    const bool replicate_ends = evidence_.runs() % evidence_.cells().size() == 0;
+    if (replicate_ends && overall_verdict(evidence_, evidence_.judge_all()) != Verdict::NotDemonstrated)
+      decided_length_ = evidence_.runs();
+  }
 }
 
 }  // namespace fleetproof

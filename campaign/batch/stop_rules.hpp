@@ -6,7 +6,12 @@
 #include <set>
 #include <vector>
 
+#include "reports/evidence/evidence.hpp"
+#include "storage/records.hpp"
+
 namespace fleetproof {
+
+// Where results end a campaign: `--fail-fast` and `--until-verdict`.
 
 // Which runs are finished, and the gap-free prefix of run indices among them. Statistics and stopping rules look at the
 // prefix only: short runs finish first and would be over-represented.
@@ -26,6 +31,22 @@ class RunLedger {
   std::uint64_t length_ = 0;
   std::map<std::uint64_t, bool> ahead_;  // run index -> failed
   std::vector<std::uint64_t> failures_;  // of the prefix, in order
+};
+
+// Says when a campaign has its verdict, with the code that the report judges with. Runs are judged in the order of
+// their index, whatever the order in which they finish: otherwise short runs would be over-represented. Threads: one.
+class VerdictWatch {
+ public:
+  explicit VerdictWatch(const StoredPlan& plan) : evidence_(plan) {}
+
+  void add(const RunRecord& run);
+  // How many runs the campaign needed to be demonstrated or violated, in whole replicates. Empty until then.
+  std::optional<std::uint64_t> decided_length() const { return decided_length_; }
+
+ private:
+  Evidence evidence_;
+  std::map<std::uint64_t, RunRecord> ahead_;  // of runs whose predecessors are not finished
+  std::optional<std::uint64_t> decided_length_;
 };
 
 }  // namespace fleetproof
