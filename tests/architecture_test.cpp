@@ -1,13 +1,16 @@
 // The include picture, the homes of heavy headers, and what the model may not call, read from the sources. Sizes and
-// formatting: architecture/style_test.cpp.
+// formatting: architecture/style_test.cpp. The picture for readers is in ARCHITECTURE.md; the tests compare both.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/architecture/source_tree.hpp"
@@ -84,6 +87,18 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
       with(with(rooms["campaign/findings"], reports), {"campaign/findings", "campaign/shards", "campaign/watch"});
   return rooms;
 }();
+
+// Folders of sources inside a room, each with the reason why they are no rooms of their own.
+const std::map<std::string, std::string> kInsideARoom = {
+    {"campaign/cli/evidence", "one verb of campaign/cli"},
+    {"core/agents/faulty", "the faulty agents of core/agents"},
+    {"core/sdk/fleetproof", "the header of core/sdk, under the name by which agents include it"},
+    {"reports/attempts", "a part of the report"},
+    {"reports/comparison", "a part of the report"},
+    {"reports/export", "a part of the report"},
+    {"reports/findings", "a part of the report"},
+    {"reports/sensitivity", "a part of the report"},
+};
 
 // The innermost room that a file stands in; empty for a file that stands in none, as in the folder of a room with rooms
 // of its own.
@@ -192,6 +207,135 @@ std::vector<std::string> names_used_twice() {
   return found;
 }
 
+// ---- folders that the picture does not know
+
+std::string top_of(const std::string& path) { return path.substr(0, path.find('/')); }
+
+std::vector<std::string> unknown_folder(const Source& source) {
+  const std::string folder = fs::path(source.path).parent_path().generic_string();
+  if (top_of(folder) == "tests" || kMayInclude.contains(folder) || kInsideARoom.contains(folder)) return {};
+  return {source.path + " stands in a folder that kMayInclude does not know"};
+}
+
+bool holds_sources(const fs::path& folder) {
+  return std::any_of(fs::recursive_directory_iterator(folder), {}, [](const fs::directory_entry& entry) {
+    const std::string ending = entry.path().extension().string();
+    return ending == ".cpp" || ending == ".hpp" || ending == ".h" || ending == ".c";
+  });
+}
+
+// Of the folders at the top level of the tree; what tools leave there is no part of the tree.
+std::vector<std::string> unknown_top_folders(const fs::path& root) {
+  std::set<std::string> known = {"tests", "build"};
+  for (const auto& [room, below] : kMayInclude) known.insert(top_of(room));
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(root)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && !name.starts_with('.') && !known.contains(name) && holds_sources(entry.path()))
+      found.push_back(name);
+  }
+  return found;
+}
+
+// ---- the picture in ARCHITECTURE.md
+
+// 1 for a room that includes no other room; else one more than the highest room that it may include.
+int floor_of(const std::string& room) {
+  static std::map<std::string, int> floors;
+  if (const auto known = floors.find(room); known != floors.end()) return known->second;
+  int below = 0;
+  for (const std::string& next : kMayInclude.at(room)) below = std::max(below, floor_of(next));
+  return floors[room] = below + 1;
+}
+
+// All rooms of a folder but `self`, each by its name in the folder.
+std::vector<std::string> rooms_in(const std::string& folder, const std::string& self) {
+  std::vector<std::string> names;
+  for (const auto& [room, below] : kMayInclude) {
+    if (room != self && room.starts_with(folder + "/")) names.push_back(room.substr(folder.size() + 1));
+  }
+  return names;
+}
+
+// What a room may include, in short: "core/{base,geometry} laws"; "core/*" for all rooms of a folder but itself.
+std::string arrows_of(const std::string& room) {
+  std::map<std::string, std::vector<std::string>> inner;  // by folder
+  std::string text;
+  for (const std::string& next : kMayInclude.at(room)) {
+    if (next.find('/') == std::string::npos) {
+      inner[next];
+    } else {
+      inner[top_of(next)].push_back(next.substr(next.find('/') + 1));
+    }
+  }
+  for (const auto& [folder, names] : inner) {
+    if (kMayInclude.at(room).contains(folder)) text += " " + folder;
+    if (names.empty()) continue;
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
+    if (names.size() > 1 && names == rooms_in(folder, room)) {
+      list = "*";
+    } else if (names.size() > 1) {
+      list = "{" + list + "}";
+    }
+    text += " " + folder + "/" + list;
+  }
+  return text;
+}
+
+// Each room with its floor, the highest first.
+std::vector<std::string> expected_picture() {
+  constexpr std::size_t kMargin = 28, kColumns = 120;
+  std::set<std::pair<int, std::string>> order;
+  for (const auto& [room, below] : kMayInclude) order.emplace(-floor_of(room), room);
+  std::vector<std::string> lines;
+  for (const auto& [minus_floor, room] : order) {
+    std::string line = (minus_floor > -10 ? " " : "") + std::to_string(-minus_floor) + "  " + room;
+    std::istringstream arrows(arrows_of(room));
+    for (std::string arrow; arrows >> arrow; line += " " + arrow) {
+      if (line.size() + 1 + arrow.size() > kColumns) lines.push_back(std::exchange(line, ""));
+      line.resize(std::max(line.size(), kMargin), ' ');
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+// The lines between the first two fences after a heading.
+std::vector<std::string> block_below(const std::string& heading) {
+  std::ifstream page(std::string(FLEETPROOF_SOURCE_DIR) + "/ARCHITECTURE.md");
+  std::vector<std::string> lines;
+  bool found = false, inside = false;
+  for (std::string line; std::getline(page, line);) {
+    found = found || line == heading;
+    if (!found) continue;
+    if (line.starts_with("```")) {
+      if (inside) break;
+      inside = true;
+    } else if (inside) {
+      lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+// Which folder of the top level may include which.
+std::set<std::pair<std::string, std::string>> arrows_between_folders() {
+  std::set<std::pair<std::string, std::string>> arrows;
+  for (const auto& [room, below] : kMayInclude) {
+    for (const std::string& next : below) {
+      if (top_of(room) != top_of(next)) arrows.emplace(top_of(room), top_of(next));
+    }
+  }
+  return arrows;
+}
+
 TEST(Architecture, ThePictureHasNoCircle) {
   for (const auto& [room, below] : kMayInclude) {
     std::set<std::string> seen;
@@ -201,6 +345,32 @@ TEST(Architecture, ThePictureHasNoCircle) {
 TEST(Architecture, NoTwoFilesHaveOneName) { EXPECT_EQ(names_used_twice(), std::vector<std::string>{}); }
 TEST(Architecture, ReadsTheWholeTree) { EXPECT_GT(sources().size(), 80U); }
 TEST(Architecture, IncludesFollowThePicture) { architecture::expect_none(sources(), forbidden_includes); }
+TEST(Architecture, ThePictureKnowsEveryFolder) {
+  architecture::expect_none(sources(), unknown_folder);
+  EXPECT_EQ(unknown_top_folders(FLEETPROOF_SOURCE_DIR), std::vector<std::string>{});
+  for (const auto& [folder, reason] : kInsideARoom)
+    EXPECT_FALSE(kMayInclude.contains(folder)) << folder << " is a room: take it out of kInsideARoom";
+}
+
+TEST(Architecture, TheMapShowsThePicture) {
+  const std::vector<std::string> expected = expected_picture();
+  EXPECT_TRUE(block_below("### Rooms") == expected)
+      << "the block below \"### Rooms\" of ARCHITECTURE.md must be this:\n"
+      << joined(expected);
+}
+
+// Each folder has one line in the drawing, "| NAME:"; its arrows point to lines below it.
+TEST(Architecture, TheMapDrawsEveryArrowDownwards) {
+  const std::vector<std::string> drawing = block_below("## The house");
+  const auto line_of = [&](const std::string& folder) {
+    const auto line = std::ranges::find_if(
+        drawing, [&](const std::string& text) { return text.find("| " + folder + ":") != std::string::npos; });
+    EXPECT_NE(line, drawing.end()) << folder << " is missing in the drawing";
+    return line - drawing.begin();
+  };
+  for (const auto& [from, to] : arrows_between_folders()) EXPECT_LT(line_of(from), line_of(to)) << from << " -> " << to;
+}
+
 TEST(Architecture, HeavyHeadersStayAtHome) { architecture::expect_none(sources(), homeless_headers); }
 TEST(Architecture, TheModelCallsNothingImpure) { architecture::expect_none(sources(), impure_calls); }
 
@@ -211,6 +381,11 @@ TEST(Architecture, FindsWhatIsPlanted) {
   EXPECT_EQ(homeless_headers({"laws/a.hpp", {"#include <fcl/fcl.h>"}}).size(), 1U);
   EXPECT_EQ(homeless_headers({"core/base/a.cpp", {"#include <Eigen/Geometry>"}}).size(), 1U);
   EXPECT_EQ(impure_calls({"core/base/a.cpp", {"double y = std::sin(x);"}}).size(), 1U);
+  EXPECT_EQ(unknown_folder({"core/base/deep/a.cpp", {}}).size(), 1U);
+  EXPECT_EQ(unknown_folder({"core/a.cpp", {}}).size(), 1U);
+  EXPECT_EQ(unknown_folder({"tools/a.cpp", {}}).size(), 1U);
+  EXPECT_EQ(unknown_folder({"core/base/a.cpp", {}}).size(), 0U);
+  EXPECT_GT(unknown_top_folders(fs::path(FLEETPROOF_SOURCE_DIR) / "tests").size(), 5U);
   EXPECT_EQ(impure_calls({"core/base/a.cpp", {"double y = std::sqrt(x);  // not sin(x)"}}).size(), 0U);
 }
 

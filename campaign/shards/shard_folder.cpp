@@ -10,7 +10,6 @@
 #include <random>
 
 #include "core/base/error.hpp"
-#include "core/base/machine_error.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 #include "storage/durable_file.hpp"

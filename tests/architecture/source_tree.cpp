@@ -57,7 +57,8 @@ const std::vector<Source>& other_texts() {
   static const std::vector<Source> all = [] {
     const fs::path root = FLEETPROOF_SOURCE_DIR;
     std::vector<Source> found = read_all(is_other_text);
-    for (const char* file : {"README.md", "CHANGELOG.md", "CMakeLists.txt", "get-started", ".ci/run"})
+    for (const char* file :
+         {"README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CMakeLists.txt", "get-started", ".ci/run"})
       found.push_back(read(root / file, root));
     return found;
   }();
