@@ -34,7 +34,7 @@ class FaultRecordLaw final : public Law {
                 {},
                 record.at,
                 record.at,
-                record.entity.index() < with_obstacles_ ? 0 : 1},
+                record.entity.index() < with_obstacles_ ? kObstacle : kFallenLoad},
                0);
         break;
       case TraceKind::Leaves:

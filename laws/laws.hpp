@@ -11,9 +11,10 @@
 
 namespace fleetproof {
 
-// All laws: first the default set, which begins with the judge of violations; then the laws to compare with.
+// All laws, and the default set of a campaign. Both begin with the judge of violations.
 std::span<const Entry<MakeLaw>> laws();
 std::span<const Entry<MakeLaw>> default_laws();
+const Entry<MakeLaw>& judge_of_violations();
 
 // Whether this is a published law. Published laws are judges, but are not in the default set.
 bool is_to_compare_with(const Entry<MakeLaw>& law);

@@ -6,25 +6,11 @@
 #include <vector>
 
 #include "core/base/words.hpp"
+#include "core/outcome/end_point.hpp"
 #include "storage/factors.hpp"
 
 namespace fleetproof {
 
-// What a gate counts as a failure of a run. The laws of core/outcome/incident.hpp and the outcome's own flags decide.
-enum class EndPoint : std::uint8_t {
-  Violation,
-  Contact,
-  HazardousContact,
-  Deadlock,
-  Livelock,
-  Starvation,
-  Standstill,
-  WrongLoad,
-  EmptyBattery,
-  Crash,
-  Hang,
-  Throughput
-};
 enum class Region : std::uint8_t { Contract, WorstCase, All };
 enum class GateKind : std::uint8_t { None, Rate };  // None: any failing run refutes. Rate: the bounds decide.
 // What is counted. World: one draw of all randomness, run in every cell; it fails if any of its runs fails. Run: the
@@ -35,35 +21,6 @@ enum class GateUnit : std::uint8_t { World, Run, AgvHour };
 // that was planned, and for no other.
 enum class GateMethod : std::uint8_t { AnyTime, Fixed };
 
-constexpr const char* name_of(EndPoint end_point) {
-  switch (end_point) {
-    case EndPoint::Violation:
-      return "violation";
-    case EndPoint::Contact:
-      return "contact";
-    case EndPoint::HazardousContact:
-      return "hazardous-contact";
-    case EndPoint::Deadlock:
-      return "deadlock";
-    case EndPoint::Livelock:
-      return "livelock";
-    case EndPoint::Starvation:
-      return "starvation";
-    case EndPoint::Standstill:
-      return "standstill";
-    case EndPoint::WrongLoad:
-      return "wrong-load";
-    case EndPoint::EmptyBattery:
-      return "empty-battery";
-    case EndPoint::Crash:
-      return "crash";
-    case EndPoint::Hang:
-      return "hang";
-    case EndPoint::Throughput:
-      return "throughput";
-  }
-  return kNoWord;
-}
 constexpr const char* name_of(Region region) {
   switch (region) {
     case Region::Contract:

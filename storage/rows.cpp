@@ -35,7 +35,7 @@ void bind_run(Insert& insert, const RunRecord& run, std::uint64_t checksum) {
   Binder to(insert);
   to << run.run_index << run.cell << run.replicate << run.scenario_digest << run.factors;
   to << name_of(o.outcome_class());
-  to << o.violation << o.contact << o.stuck << o.crash << o.hang << o.indeterminate << o.engine_error;
+  for (const RunEnd& end : kRunEnds) to << o.*end.flag;
   to << o.min_clearance_um << o.simulated_ns << o.agv_count << o.digest << o.running_digests << o.message;
   for (const auto& counter : kCounters) to << o.counters.*counter.member;
   to << checksum;
@@ -83,10 +83,7 @@ void read_run(const Row& row, StoredRun& into) {
   run.scenario_digest = from.u64();
   run.factors = from.factors();
   from.text(into.outcome_class);
-  for (const auto flag : {&Outcome::violation, &Outcome::contact, &Outcome::stuck, &Outcome::crash, &Outcome::hang,
-                          &Outcome::indeterminate, &Outcome::engine_error}) {
-    o.*flag = from.flag();
-  }
+  for (const RunEnd& end : kRunEnds) o.*end.flag = from.flag();
   o.min_clearance_um = from.maybe_i64();
   o.simulated_ns = from.u64();
   o.agv_count = from.u32();

@@ -77,14 +77,7 @@ CREATE TABLE runs (
   replicate INTEGER NOT NULL,
   scenario_digest INTEGER NOT NULL{factors},
   outcome_class TEXT NOT NULL,
-  violation INTEGER NOT NULL,
-  contact INTEGER NOT NULL,
-  stuck INTEGER NOT NULL,
-  crash INTEGER NOT NULL,
-  hang INTEGER NOT NULL,
-  indeterminate INTEGER NOT NULL,
-  engine_error INTEGER NOT NULL,
-  min_clearance_um INTEGER,
+{ends}  min_clearance_um INTEGER,
   simulated_ns INTEGER NOT NULL,
   agv_count INTEGER NOT NULL,
   digest INTEGER NOT NULL,
@@ -221,13 +214,19 @@ constexpr const char* kGateRule =
     "gate, name, agent, kind, end_point, region, limit_rate, confidence, min_transports_per_agv_hour";
 constexpr const char* kGateMethod = ", requirement, layout, unit, method, decides, passes_from, refuted_up_to";
 
-// Factors before this one have their places in the views.
-constexpr std::size_t kFirstLaterFactor = static_cast<std::size_t>(Factor::MeanOutage) + 1;
-
-// ", " and a name for each factor from `first` on, or for each value or bound.
-std::string factor_names(std::string_view FactorInfo::*name, const std::string& prefix = "", std::size_t first = 0) {
+// ", " and a name for each factor, or for each value or bound.
+std::string factor_names(std::string_view FactorInfo::*name) {
   std::string list;
-  for (std::size_t i = first; i < kFactors.size(); ++i) list += fmt::format(", {}{}", prefix, kFactors[i].*name);
+  for (const FactorInfo& factor : kFactors) list += fmt::format(", {}", factor.*name);
+  return list;
+}
+
+// Of the factors that came with a later schema. Those of the first one have their places in the views.
+std::string later_factor_names(std::string_view FactorInfo::*name, std::string_view prefix) {
+  std::string list;
+  for (const FactorInfo& factor : kFactors) {
+    if (factor.first_schema > 0) list += fmt::format(", {}{}", prefix, factor.*name);
+  }
   return list;
 }
 
@@ -262,11 +261,17 @@ std::string counter_list(const std::string& prefix) {
   return list;
 }
 
+std::string end_list(const std::string& prefix) {
+  std::string list;
+  for (const RunEnd& end : kRunEnds) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", prefix, name_of(end.id));
+  return list;
+}
+
 std::string run_list(const std::string& factors) {
-  return listed({"run_index", "cell", "replicate", "scenario_digest"}) + factors + ", " +
-         listed({"outcome_class", "violation", "contact", "stuck", "crash", "hang", "indeterminate", "engine_error",
-                 "min_clearance_um", "simulated_ns", "agv_count", "digest", "running_digests", "message"}) +
-         ", " + counter_list("") + ", checksum";
+  return listed({"run_index", "cell", "replicate", "scenario_digest"}) + factors + ", " + "outcome_class, " +
+         end_list("") + ", " +
+         listed({"min_clearance_um", "simulated_ns", "agv_count", "digest", "running_digests", "message"}) + ", " +
+         counter_list("") + ", checksum";
 }
 
 std::string cell_list(const std::string& factors) {
@@ -289,18 +294,19 @@ std::string decimal(double value, int digits) {
 }
 
 std::string ddl_with(std::string_view runs_order) {
-  std::string definitions;
+  std::string definitions, ends;
+  for (const RunEnd& end : kRunEnds) ends += fmt::format("  {} INTEGER NOT NULL,\n", name_of(end.id));
   for (const auto& counter : kCounters) definitions += fmt::format("  {} INTEGER NOT NULL,\n", counter.name);
   const std::string values = factor_definitions(&FactorInfo::key), bounds = factor_definitions(&FactorInfo::key_to);
   return fmt::format(fmt::runtime(kPlanTables), fmt::arg("factors", values + bounds),
                      fmt::arg("gate_factors", factor_definitions(&FactorInfo::key, "REAL"))) +
-         fmt::format(fmt::runtime(kRunTables), fmt::arg("factors", values), fmt::arg("counters", definitions),
-                     fmt::arg("runs_order", runs_order)) +
+         fmt::format(fmt::runtime(kRunTables), fmt::arg("factors", values), fmt::arg("ends", ends),
+                     fmt::arg("counters", definitions), fmt::arg("runs_order", runs_order)) +
          fmt::format(fmt::runtime(kViews), fmt::arg("run_counters", "       " + counter_list("r.")),
                      fmt::arg("loss", decimal(kContractLoss, 2)), fmt::arg("delay", decimal(kContractDelay_s, 1)),
-                     fmt::arg("later_factors", factor_names(&FactorInfo::key, "r.", kFirstLaterFactor)),
-                     fmt::arg("later_bounds", factor_names(&FactorInfo::key, "c.", kFirstLaterFactor) +
-                                                  factor_names(&FactorInfo::key_to, "c.", kFirstLaterFactor)),
+                     fmt::arg("later_factors", later_factor_names(&FactorInfo::key, "r.")),
+                     fmt::arg("later_bounds", later_factor_names(&FactorInfo::key, "c.") +
+                                                  later_factor_names(&FactorInfo::key_to, "c.")),
                      fmt::arg("world", name_of(ProbeSource::World)), fmt::arg("agent", name_of(ProbeSource::Agent)),
                      fmt::arg("hazardous", kHazardousSpeed_um_s),
                      fmt::arg("near", name_of(ViolationLevel::SafetyDistance)),

@@ -89,6 +89,37 @@ TEST(SinglePlaces, WordsOfAnEnumerationStandInASwitchWithoutDefault) {
   EXPECT_TRUE(std::regex_search(planted + "    default:\n", kWithDefault));
 }
 
+const std::vector<std::string> kRooms = {"core", "laws", "generators", "storage", "reports", "campaign"};
+
+// A fact with one home: a pattern that tells it, its home, and a line that would tell it twice.
+struct Home {
+  const char *fact, *pattern, *home, *planted;
+};
+const Home kHomes[] = {
+    {"the word of a fault", R"-("(breakdown|protective-stop|load-drop|restart|freeze|power-failure)")-",
+     "core/scenario/faults.hpp", R"(if (word == "restart") return;)"},
+    {"the flags of an outcome", R"(&Outcome::(stuck|crash|hang|indeterminate|engine_error)\b)",
+     "core/outcome/outcome.hpp", "for (const auto flag : {&Outcome::crash, &Outcome::hang})"},
+    {"the agent of a run", R"(% *\(?[A-Za-z_.]*(agents|agent_count)\b)", "campaign/plan/plan.hpp",
+     "const auto agent = run_index % plan.agents.size();"},
+    {"an exit code", R"(\bexit_code(\(\))? *(=|==|!=) *[0-9]|\b128 \+ )", "campaign/cli/",
+     "if (input.exit_code == 3) return;"},
+    // Of a table, a column says what a line is; of an enumeration, a column or a function says what outranks what.
+    {"a place in a table", R"(std::size\(k[A-Z]\w*\) *-|\w::[A-Z]\w+\) *[-+] *[0-9])", "nowhere",
+     "const auto some = all.first(std::size(kLines) - kToCompare);"},
+    {"an order of values",
+     R"((<|>|<=|>=) [A-Z]\w*::[A-Z][a-z]\w*\b(?!::| *[(<])|[^<]\b[A-Z]\w*::[A-Z][a-z]\w* (<|<=|>=) [a-z])", "nowhere",
+     "if (outcome.outcome_class() <= OutcomeClass::Hang) return;"},
+};
+
+TEST(SinglePlaces, AFactHasOneHome) {
+  for (const Home& home : kHomes) {
+    const std::regex pattern(home.pattern);
+    for (const auto& line : lines_with(kRooms, pattern, home.home)) ADD_FAILURE() << home.fact << ": " << line;
+    EXPECT_TRUE(std::regex_search(home.planted, pattern)) << home.fact << ": the pattern is alive";
+  }
+}
+
 TEST(SinglePlaces, PackagesAreNamedInTheirListAlone) {
   const auto list = text_of(kRoot / ".ci/packages");
   std::istringstream lines(list);

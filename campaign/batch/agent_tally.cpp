@@ -7,18 +7,14 @@
 namespace fleetproof {
 namespace {
 
-constexpr const char* kStuck = "stuck";
-
 // Without the links of a deadlock, which are filed beside it.
 std::vector<std::string> accusations_of(const Outcome& outcome) {
   std::vector<std::string> names;
   if (outcome.violation) names.emplace_back(kAccusedOfViolation);
-  if (outcome.stuck) names.emplace_back(kStuck);
+  if (outcome.stuck) names.emplace_back(name_of(OutcomeClass::Stuck));
   for (const Incident& incident : outcome.incidents) {
-    if (!accuses(incident.kind) || incident.kind == IncidentKind::WaitsDeclared ||
-        incident.kind == IncidentKind::WaitsInferred)
-      continue;
-    names.emplace_back(info_of(incident.kind).name);
+    const IncidentKindInfo& info = info_of(incident.kind);
+    if (info.role == IncidentRole::Accusation) names.emplace_back(info.name);
   }
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());

@@ -11,7 +11,7 @@
 
 namespace fleetproof {
 
-inline constexpr const char* kAccusedOfViolation = "violation";
+inline constexpr const char* kAccusedOfViolation = name_of(OutcomeClass::Violation);
 
 // Runs of one agent, and of what the laws accused it in them: "violation", "stuck", or the name of an incident kind.
 struct AccusedRuns {

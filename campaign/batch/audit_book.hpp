@@ -16,7 +16,7 @@ class AuditBook {
   AuditBook(const CampaignPlan& plan, const AgentPrograms& programs);
 
   void add(const AuditFinding& finding);
-  std::size_t agent_of(std::uint64_t run_index) const { return run_index % agents_.size(); }  // agents vary fastest
+  std::size_t agent_of(std::uint64_t run_index) const { return agent_of_run(run_index, agents_.size()); }
   std::size_t agent_count() const { return agents_.size(); }
   // Whether a failed run of this agent may not be reproduced by simulating it again: the agent has not passed its
   // audits. Without audits nothing is recorded.

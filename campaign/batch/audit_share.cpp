@@ -25,8 +25,8 @@ AuditShare::AuditShare(const CampaignPlan& plan, const AgentPrograms& programs)
 
 bool AuditShare::contains(const RunRecord& run) const {
   if (block_ == 0 || run.outcome.hang) return false;
-  // Agents vary fastest: this is the run with this number among those of its agent.
-  const std::uint64_t agent = run.run_index % first_runs_.size(), number = run.run_index / first_runs_.size();
+  const std::size_t agent = agent_of_run(run.run_index, first_runs_.size());
+  const std::uint64_t number = number_within_agent(run.run_index, first_runs_.size());
   if (number < first_runs_[agent]) return true;
   Draws draws(seed_ + number / block_, static_cast<std::uint32_t>(agent));
   return number % block_ == draws.below(static_cast<std::uint32_t>(block_));

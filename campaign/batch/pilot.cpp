@@ -55,8 +55,8 @@ double first_audits_s(const CampaignPlan& plan, const AgentPrograms& programs, c
   const AuditShare share(plan, programs);
   const std::size_t agents = plan.agents.size();
   double sum_s = 0.0;
-  for (std::size_t cell = 0; cell < cells.size(); ++cell)  // agents vary fastest
-    sum_s += cells[cell].mean_s * static_cast<double>(share.first_runs(cell % agents));
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+    sum_s += cells[cell].mean_s * static_cast<double>(share.first_runs(agent_of_run(cell, agents)));
   return sum_s * static_cast<double>(agents) / static_cast<double>(cells.size());
 }
 

@@ -64,7 +64,7 @@ void tell_first_run(FaultFinding& finding, const AccusedRuns& shows, const Agent
   if (!finding.by_rate) finding.runs = first.run_index + 1;
   finding.cell = cells[first.cell];
   finding.probe = rarest_probe(first, sound.met);
-  if (!finding.by_rate && first.outcome.contact) finding.seen_as = "contact";
+  if (!finding.by_rate && first.outcome.contact) finding.seen_as = name_of(OutcomeClass::Contact);
 }
 
 FaultFinding finding_of(AgentTally tally, const AgentTally& sound, const CampaignPlan& plan) {

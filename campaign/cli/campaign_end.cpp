@@ -4,12 +4,38 @@
 #include "campaign/cli/command_line.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
+#include "core/base/error.hpp"
 #include "reports/sections/report_input.hpp"
 
 namespace fleetproof::cli {
+namespace {
+
+ExitCode code_of(Conclusion conclusion) {
+  switch (conclusion) {
+    case Conclusion::Demonstrated:
+      return kDemonstrated;
+    case Conclusion::Violated:
+      return kViolated;
+    case Conclusion::NotDemonstrated:
+      return kNotDemonstrated;
+    case Conclusion::EngineFault:
+      return kEngineFault;
+  }
+  invariant_violated("a conclusion has an exit code");
+}
+
+}  // namespace
+
+int exit_code_of(const ReportInput& input, bool exit_zero) {
+  const Conclusion conclusion = conclusion_of(input);
+  return exit_zero && conclusion != Conclusion::EngineFault ? kDemonstrated : code_of(conclusion);
+}
+
+void add_exit_code(ReportInput& input) { input.exit_code = code_of(conclusion_of(input)); }
 
 int tell_verdict(const std::string& archive, AttemptLog& attempt, const EndWords& words) {
   ReportInput input = read_report_input(ArchiveReader(archive), archive);
+  add_exit_code(input);
   attempt.end(input);
   add_history(input, attempt.path());
   if (words.json) {
@@ -19,7 +45,7 @@ int tell_verdict(const std::string& archive, AttemptLog& attempt, const EndWords
     put("report: fleetproof report {}\n", shell_word(archive));
   }
   tell_ci(input);
-  return words.exit_zero && input.exit_code != kEngineFault ? kDemonstrated : input.exit_code;
+  return exit_code_of(input, words.exit_zero);
 }
 
 }  // namespace fleetproof::cli

@@ -51,7 +51,7 @@ void tell_ci(const ReportInput& input) {
   const char* actions = std::getenv("GITHUB_ACTIONS");
   if (actions == nullptr || std::string_view(actions) != "true") return;
   const Headline claim = verdicts(input).front();
-  talk_text("::" + std::string(input.exit_code == 0 ? "notice" : "error") +
+  talk_text("::" + std::string(conclusion_of(input) == Conclusion::Demonstrated ? "notice" : "error") +
             " title=" + in_command("fleetproof " + claim.word, true) + "::" + in_command(claim.text, false) + "\n");
 }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <csignal>
 #include <memory>
 #include <sstream>
 
@@ -143,6 +144,15 @@ int bad_usage(const CLI::App& app, const CLI::ParseError& error, std::span<const
 
 }  // namespace
 
+std::string exit_codes_text() {
+  return fmt::format(
+      "{} demonstrated, {} violated, {} bad usage or input, {} engine fault or damaged archive, {} not demonstrated, "
+      "{}, {}, {} interrupted",
+      static_cast<int>(kDemonstrated), static_cast<int>(kViolated), static_cast<int>(kBadInput),
+      static_cast<int>(kEngineFault), static_cast<int>(kNotDemonstrated), exit_code_of_signal(SIGHUP),
+      exit_code_of_signal(SIGINT), exit_code_of_signal(SIGTERM));
+}
+
 int run_command_line(std::span<const Verb> verbs, int argc, const char* const* argv) {
   if (argc == 2) {  // for the package, not for people
     const std::string_view word = argv[1];
@@ -156,9 +166,7 @@ int run_command_line(std::span<const Verb> verbs, int argc, const char* const* a
       "fleetproof");
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text);
-  app.footer(
-      "Exit codes: 0 demonstrated, 1 violated, 2 bad usage or input, 3 engine fault or damaged archive, 4 not "
-      "demonstrated, 129/130/143 interrupted.");
+  app.footer("Exit codes: " + exit_codes_text() + ".");
   struct Prepared {
     CLI::App* app;
     std::unique_ptr<Cli11Options> options;

@@ -33,7 +33,18 @@ struct Verb {
   Action (*prepare)(Options& options);
 };
 
-enum ExitCode : int { kDemonstrated = 0, kViolated = 1, kBadInput = 2, kEngineFault = 3, kNotDemonstrated = 4 };
+// All exit codes, and what the help and the manual say of them.
+enum ExitCode : int {
+  kDemonstrated = 0,
+  kViolated = 1,
+  kBadInput = 2,
+  kEngineFault = 3,
+  kNotDemonstrated = 4,
+  kCannotTest = 125,  // of `retest --bisect`: git skips the commit
+};
+std::string exit_codes_text();
+// After a signal (SIGHUP, SIGINT, SIGTERM), as shells say it.
+constexpr int exit_code_of_signal(int number) { return 128 + number; }
 
 // Parses the words and runs one verb. An exception becomes one clear line on stderr and an exit code.
 int run_command_line(std::span<const Verb> verbs, int argc, const char* const* argv);

@@ -119,18 +119,20 @@ class RunsToReplay {
  public:
   void add(const RunRecord& run, bool under_test) {
     const auto failing = FailingRun::of(run);
-    if (run.outcome.is_failure() && failing) runs_.push_back({!under_test, failing->severity, run.run_index});
+    if (run.outcome.is_failure() && failing)
+      runs_.push_back({!under_test, -std::int64_t{failing->seriousness()}, run.run_index});
   }
   std::string text(const ReportInput& input) {
     std::ranges::sort(runs_);
     std::string lines = fmt::format("# Call these where {} lies; it is no part of this folder.\n",
                                     printable(std::filesystem::path(input.archive_path).filename().string()));
-    for (const auto& [is_reference, severity, run_index] : runs_) lines += replay_line(input, run_index) + "\n";
+    for (const auto& [is_reference, most_serious_first, run_index] : runs_)
+      lines += replay_line(input, run_index) + "\n";
     return lines;
   }
 
  private:
-  std::vector<std::tuple<bool, Severity, std::uint64_t>> runs_;
+  std::vector<std::tuple<bool, std::int64_t, std::uint64_t>> runs_;
 };
 
 void write_runs(EvidenceFolder& folder, const ArchiveReader& archive, const ReportInput& input) {

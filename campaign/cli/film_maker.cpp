@@ -75,7 +75,7 @@ class FilmMaker {
     AgentPrograms programs;
     meet_plugins(path_, archive_.campaign(), {&agent, 1}, {}, programs, &AgentPrograms::know);
     RunHost host(plan_, programs, Hosting{});
-    host.record(run_index % plan_.agents.size(), true);  // agents vary fastest
+    host.record(agent_of_run(run_index, plan_.agents.size()), true);
     auto record = host(run_index);
     ensure(record.has_value(), "a strip is not abandoned");
     return *std::move(record);

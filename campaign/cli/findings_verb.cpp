@@ -74,7 +74,7 @@ class FindingsDesk {
       talk("interrupted: {} of {} failures were looked at; the findings are those of these\n", survey_.looked_at,
            runs_.looked_at.size());
       if (words_.add) talk("{} of {} new findings were added\n", added_, new_);
-      return 128 + interrupted();
+      return exit_code_of_signal(interrupted());
     }
     const auto is_open = [&](const Finding& f) { return needs_attention(kept(f), today()); };
     const bool all_seen = words_.add || std::ranges::none_of(findings_, is_open);

@@ -3,13 +3,15 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "campaign/cli/command_line.hpp"
+
 namespace fleetproof::cli {
 namespace {
 
 std::atomic<int> first_signal{0};
 
 void on_signal(int number) {
-  if (first_signal.exchange(number) != 0) std::_Exit(128 + number);
+  if (first_signal.exchange(number) != 0) std::_Exit(exit_code_of_signal(number));
 }
 
 }  // namespace

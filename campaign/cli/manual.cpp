@@ -108,10 +108,7 @@ std::string man_page(std::span<const Verb> verbs, std::string_view version) {
     }
     page += fmt::format(".PP\nExample:\n.EX\n{}\n.EE\n", roff(verb.example));
   }
-  page +=
-      ".SH EXIT STATUS\n0 demonstrated, 1 violated, 2 bad usage or input, 3 engine fault or damaged archive, 4 not "
-      "demonstrated, 129, 130, 143 interrupted.\n";
-  return page;
+  return page + ".SH EXIT STATUS\n" + exit_codes_text() + ".\n";
 }
 
 std::string bash_completion(std::span<const Verb> verbs) {

@@ -47,7 +47,7 @@ void ProgressTalk::started() { talk("{}\n", opening_); }
 
 void ProgressTalk::run_finished(const RunRecord& record) {
   const Outcome& outcome = record.outcome;
-  if (outcome.outcome_class() > OutcomeClass::Hang) return;
+  if (!outcome.is_failure()) return;
   const CellRecord& cell = cells_[record.cell];
   if (std::ranges::find(told_agents_, cell.agent) != told_agents_.end()) return;
   told_agents_.push_back(cell.agent);

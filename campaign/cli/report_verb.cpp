@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/cli/attempt_log.hpp"
+#include "campaign/cli/campaign_end.hpp"
 #include "campaign/cli/ci_summary.hpp"
 #include "campaign/cli/evidence_set.hpp"
 #include "campaign/cli/film_maker.hpp"
@@ -51,9 +52,9 @@ void add_baseline(ReportInput& input, const ArchiveReader& archive, const Report
   input.baseline = compare_with_baseline(archive, words.archive, baseline, words.baseline);
 }
 
-int exit_code_of(const ReportInput& input, const ReportWords& words) {
+int told_to_ci(const ReportInput& input, const ReportWords& words) {
   tell_ci(input);
-  return words.exit_zero && input.exit_code != 3 ? kDemonstrated : input.exit_code;
+  return exit_code_of(input, words.exit_zero);
 }
 
 // A report on a campaign that still grows is a look at it.
@@ -71,12 +72,13 @@ int html_report(const ArchiveReader& archive, const ReportWords& words) {
     throw InputError(words.html.empty() ? "--evidence" : "--html",
                      "writes files of its own; leave out --output, --json and --format, or call report twice");
   HtmlInput input = read_html_input(archive, words.archive);
+  add_exit_code(input.report);
   add_baseline(input.report, archive, words);
   show_history(input.report, words);
   if (!words.no_film) input.strips = film_strips(archive, words.archive, input.report.failures);
   if (!words.html.empty()) write_whole({words.html, "--html", OutputKind::Report}, render_html(input));
   if (!words.evidence.empty()) write_evidence_set(words.evidence, archive, input);
-  return exit_code_of(input.report, words);
+  return told_to_ci(input.report, words);
 }
 
 int report(const ReportWords& words) {
@@ -91,6 +93,7 @@ int report(const ReportWords& words) {
     throw InputError("--baseline",
                      "stands on pages for people (text, markdown, --html); see: fleetproof compare --json");
   ReportInput input = read_report_input(archive, words.archive);
+  add_exit_code(input);
   add_baseline(input, archive, words);
   show_history(input, words);
   const std::string text = render(input, words.json ? "json" : words.format);
@@ -99,7 +102,7 @@ int report(const ReportWords& words) {
   } else {
     write_whole({words.out, "--output", OutputKind::Report}, text);
   }
-  return exit_code_of(input, words);
+  return told_to_ci(input, words);
 }
 
 }  // namespace

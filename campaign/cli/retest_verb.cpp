@@ -17,8 +17,6 @@
 namespace fleetproof::cli {
 namespace {
 
-// What `git bisect run` takes as "this revision cannot be tested".
-constexpr int kCannotTest = 125;
 constexpr std::uint64_t kMostNeighbours = 1'000'000;
 
 struct RetestWords {

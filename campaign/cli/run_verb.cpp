@@ -116,7 +116,7 @@ int finish(const CampaignResult& result, const RunWords& words, AttemptLog& atte
     talk("{} of its runs are still to be audited; go on: {}\n", result.progress.audits_open, resume_command(words));
   }
   const int exit_code = tell_verdict(words.archive, attempt, {words.json, words.exit_zero});
-  return signal_number != 0 ? 128 + signal_number : exit_code;
+  return signal_number != 0 ? exit_code_of_signal(signal_number) : exit_code;
 }
 
 // Before the campaign, and apart from it.

@@ -102,7 +102,7 @@ int simulate_shard(const ShardWords& words, const ShardCall& call) {
   const int signal_number = options.interrupted->load();
   talk("{}: go on: {} --shard {} --out {}\n", signal_number != 0 ? "interrupted" : "stopped early", call.resume_command,
        text_of(choice.shard), shell_word(words.out));
-  return signal_number != 0 ? 128 + signal_number : kNotDemonstrated;
+  return signal_number != 0 ? exit_code_of_signal(signal_number) : kNotDemonstrated;
 }
 
 }  // namespace fleetproof::cli

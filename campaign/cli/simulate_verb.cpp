@@ -116,7 +116,7 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
                      fmt::format("\"{}\" is not a law{} (see: fleetproof list laws)", name, name_hint(name, names)));
   }
   Observers observers;
-  if (law != &laws().front()) observers.laws.push_back(law->make(scenario));
+  if (law != &judge_of_violations()) observers.laws.push_back(law->make(scenario));
   const bool published = is_to_compare_with(*law);
   if (!observers.laws.empty() && !published) return observers;
   std::ranges::move(make_default_laws(scenario, scenario.law.leave_out), std::back_inserter(observers.laws));
@@ -131,7 +131,7 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
 }
 
 // Only a judge of clearances measures the smallest clearance.
-bool measures_clearance(const SimulateWords& words) { return find_law(words.law) == &laws().front(); }
+bool measures_clearance(const SimulateWords& words) { return find_law(words.law) == &judge_of_violations(); }
 
 // What a published law counted for each drive activity, as the paper tells it; empty for all other laws.
 nlohmann::ordered_json drives_json(const Scenario& scenario, const std::vector<DriveChecks>& drives) {
@@ -170,7 +170,7 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   for (const ProbeCount& probe : outcome.probes)
     json["met"].push_back({{"source", name_of(probe.source)}, {"name", probe.name}, {"count", probe.count}});
   if (observers.compared_with != nullptr) {
-    json["compared_with"] = laws().front().name;
+    json["compared_with"] = judge_of_violations().name;
     json["differences"] = nlohmann::ordered_json::array();
     for (const Difference& difference : observers.differences(scenario)) {
       json["differences"].push_back({{"what", difference.missed ? "missed" : "accused wrongly"},
@@ -253,7 +253,7 @@ ReplayWords page_words(const SimulateWords& words) {
   std::string command = "fleetproof simulate " + shell_word(words.scenario) + " --agent " + shell_word(words.agent);
   for (const std::string& plugin : words.plugins) command += " --plugin " + shell_word(plugin);
   if (!words.config.empty()) command += " --agent-config " + shell_word(words.config);
-  if (words.law != laws().front().name) command += " --law " + shell_word(words.law);
+  if (words.law != judge_of_violations().name) command += " --law " + shell_word(words.law);
   if (words.luck) command += fmt::format(" --luck {}", *words.luck);
   if (words.radio_luck) command += fmt::format(" --radio-luck {}", *words.radio_luck);
   if (!words.granularity.empty()) command += " --granularity " + shell_word(words.granularity);
@@ -306,7 +306,7 @@ int simulate_scenario(SimulateWords words) {
 
 Action prepare_simulate(Options& options) {
   auto words = std::make_shared<SimulateWords>();
-  words->law = laws().front().name;
+  words->law = judge_of_violations().name;
   options.positional("SCENARIO", words->scenario, "scenario file (JSON)");
   options.option("--agent", words->agent,
                  "control software under test (default: the scenario file's agent, or scripted if it has a script)");

@@ -27,8 +27,14 @@ constexpr std::uint32_t kTriesForNothing = 40;
 // With more of them, what seems needed was tried often enough.
 constexpr std::size_t kManyLucks = 4;
 constexpr std::size_t kMostKinds = 16;  // of messages; with more, no replay would be left for the other ingredients
+
 // What keeps a fleet from its work is told apart by who waits for whom, which is chance.
-constexpr std::array kStandstills = {"deadlock", "livelock", "starvation", "standstill-in-contract", "stuck"};
+bool is_no_progress(std::string_view what) {
+  if (what == name_of(OutcomeClass::Stuck)) return true;
+  return std::ranges::any_of(incident_kinds(), [&](const IncidentKindInfo& info) {
+    return info.name == what && info.end_point && info_of(*info.end_point).is_lack_of_progress;
+  });
+}
 
 // Those of which most messages were lost or late. An agent may give each message a kind of its own.
 std::vector<std::string> adverse_kinds(const std::vector<MessageFate>& fates) {
@@ -222,7 +228,7 @@ std::string trait_of_word(const std::string& word) { return fmt::format("says \"
 std::string end_of(const Failure& failure) {
   const auto comma = failure.kind.what.find(',');
   const std::string what = failure.kind.what.substr(0, comma);
-  if (std::ranges::count(kStandstills, what) > 0) return "no progress";
+  if (is_no_progress(what)) return "no progress";
   if (!failure.is_violation) return failure.kind.what;
   return "too close" + (comma == std::string::npos ? "" : failure.kind.what.substr(comma));
 }

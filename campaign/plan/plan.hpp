@@ -92,6 +92,11 @@ struct AuditSetup {
   friend bool operator==(const AuditSetup&, const AuditSetup&) = default;
 };
 
+// Agents vary fastest (CampaignPlan::cells): the position of the agent of a run, or of a cell, in CampaignPlan::agents,
+// and the number of the run among those of its agent.
+constexpr std::size_t agent_of_run(std::uint64_t run_index, std::size_t agents) { return run_index % agents; }
+constexpr std::uint64_t number_within_agent(std::uint64_t run_index, std::size_t agents) { return run_index / agents; }
+
 // Everything that decides the outcomes of a campaign: no path, no number of jobs. And `keep`, which decides nothing.
 struct CampaignPlan {
   std::string name = "campaign";
@@ -133,7 +138,8 @@ struct CampaignPlan {
   bool default_gates = true;  // a claim without gates gets those of default_gates.hpp
 
   const std::string& config_of(const AgentFactor& agent) const { return agent.config ? *agent.config : agent_config; }
-  const AgentFactor& agent_of_cell(std::uint64_t cell) const { return agents[cell % agents.size()]; }
+  // Of a cell, or of a run.
+  const AgentFactor& agent_of_cell(std::uint64_t cell) const { return agents[agent_of_run(cell, agents.size())]; }
   std::vector<std::string> agent_names() const;
 
   // The probes that must be met; otherwise the evidence is weak. A claim requires an encounter. If an agent declares

@@ -150,7 +150,7 @@ ReplayResult compare_runs(RunRecord stored, RunRecord recomputed) {
 AuditCount audits_of(const ArchiveReader& archive, const CampaignPlan& plan, const AgentFactor& agent) {
   AuditCount count;
   archive.for_each_audit([&](const AuditRecord& audit, bool same) {
-    if (plan.agent_of_cell(audit.run_index).name != agent.name) return;  // agents vary fastest
+    if (plan.agent_of_cell(audit.run_index).name != agent.name) return;
     ++count.audited;
     count.differing += same ? 0 : 1;
   });

@@ -40,9 +40,7 @@ class Storyteller {
  private:
   void tell_without_violation() {
     if (const web::Happening* end = crash()) return tell_crash(*end);
-    for (const IncidentKind kind : {IncidentKind::Deadlock, IncidentKind::Livelock, IncidentKind::Starvation}) {
-      if (const Incident* incident = longest(kind)) return tell_stall(*incident);
-    }
+    if (const Incident* incident = longest_stall()) return tell_stall(*incident);
     for (const Incident& incident : outcome_.incidents) {
       if (accuses(incident.kind) && film_.failed) return tell_stall(incident);
     }
@@ -130,12 +128,16 @@ class Storyteller {
     add(evidence_.faults(film_.involved, at - std::chrono::microseconds(1)));  // the crash itself stands above
   }
 
-  // The one that was there longest, the first of equals.
-  const Incident* longest(IncidentKind kind) const {
+  // Of the heaviest end point, the one that was there longest, the first of equals. Null: the fleet did not stall.
+  const Incident* longest_stall() const {
+    const auto rank = [](const Incident& incident) {
+      const auto& end_point = info_of(incident.kind).end_point;
+      return std::pair(end_point ? info_of(*end_point).stall_weight : 0, incident.last - incident.first);
+    };
     const Incident* found = nullptr;
     for (const Incident& incident : outcome_.incidents) {
-      if (incident.kind != kind) continue;
-      if (found == nullptr || incident.last - incident.first > found->last - found->first) found = &incident;
+      if (rank(incident).first == 0) continue;
+      if (found == nullptr || rank(incident) > rank(*found)) found = &incident;
     }
     return found;
   }
@@ -150,8 +152,7 @@ class Storyteller {
     involve(incident.b);
     std::vector<const Incident*> waits;
     for (const Incident& wait : outcome_.incidents) {
-      const bool is_wait = wait.kind == IncidentKind::WaitsDeclared || wait.kind == IncidentKind::WaitsInferred;
-      if (incident.kind != IncidentKind::Deadlock || !is_wait || wait.first != incident.first) continue;
+      if (incident.kind != IncidentKind::Deadlock || !is_link(wait.kind) || wait.first != incident.first) continue;
       if (wait.last != incident.last) continue;
       waits.push_back(&wait);
       involve(wait.a);
@@ -178,9 +179,8 @@ class Storyteller {
     add(evidence_.faults(film_.involved, incident.first));
     std::set<std::string> others;
     for (const Incident& other : outcome_.incidents) {
-      if (accuses(other.kind) && other.kind != incident.kind && other.kind != IncidentKind::WaitsDeclared &&
-          other.kind != IncidentKind::WaitsInferred)
-        others.insert(std::string(info_of(other.kind).name));
+      const IncidentKindInfo& its = info_of(other.kind);
+      if (its.role == IncidentRole::Accusation && other.kind != incident.kind) others.insert(std::string(its.name));
     }
     if (!others.empty()) add("The run was also filed for: " + joined({others.begin(), others.end()}) + ".");
   }

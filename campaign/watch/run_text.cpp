@@ -48,9 +48,8 @@ std::string counters_text(const Outcome& outcome) {
 
 // The value of an incident with its unit; a word where the number stands for one.
 std::string value_text(const Incident& incident) {
-  if (incident.kind == IncidentKind::FaultInjected)
-    return name_of(static_cast<Fault::Kind>(static_cast<std::uint8_t>(incident.value)));
-  if (incident.kind == IncidentKind::ForeignBody) return incident.value == 1 ? "a fallen load" : "an obstacle";
+  if (incident.kind == IncidentKind::FaultInjected) return std::string(fault_word(incident));
+  if (incident.kind == IncidentKind::ForeignBody) return is_fallen_load(incident) ? "a fallen load" : "an obstacle";
   return fmt::format("{}: {}", info_of(incident.kind).unit, incident.value);
 }
 

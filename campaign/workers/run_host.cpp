@@ -12,7 +12,7 @@ RunHost::RunHost(const CampaignPlan& plan, const AgentPrograms& programs, const 
 
 std::optional<RunRecord> RunHost::operator()(std::uint64_t run_index) {
   try {
-    const std::size_t agent = run_index % is_plugin_.size();  // agents vary fastest
+    const std::size_t agent = agent_of_run(run_index, is_plugin_.size());
     if (is_plugin_[agent]) return (*isolated_)(run_index, records_[agent]);
     return run_one_(run_index, nullptr, RunWatch{nullptr, {}, &abandoned_});
   } catch (const RunAbandoned&) {

@@ -14,8 +14,6 @@ Halt::Reason halt_of(Fault::Kind kind) {
   return kind == Fault::Kind::ProtectiveStop ? Halt::Reason::ProtectiveStop : Halt::Reason::Breakdown;
 }
 
-bool concerns_agent(Fault::Kind kind) { return kind == Fault::Kind::Restart || kind == Fault::Kind::Freeze; }
-
 }  // namespace
 
 FaultDesk::FaultDesk(RunContext& run, const Ports& ports)
@@ -48,7 +46,7 @@ void FaultDesk::load_taken_up(AgvId agv, TransportId transport) {
 void FaultDesk::strikes(AgvId agv, std::uint64_t number) {
   const Fault& fault = run_.scenario.faults[number];
   // An AGV or agent that is already out of order cannot fail.
-  if (concerns_agent(fault.kind) ? !ports_.agents.is_up(agv) : run_.status(agv).out_of_order) return;
+  if (concerns_agent_alone(fault.kind) ? !ports_.agents.is_up(agv) : run_.status(agv).out_of_order) return;
   if (fault.kind == Fault::Kind::LoadDrop && !load_drops(agv, number)) return;
   ++run_.counters.faults;
   run_.trace(agv, traced::FaultStrikes{fault.kind, number});

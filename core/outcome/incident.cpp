@@ -10,41 +10,70 @@ namespace fleetproof {
 namespace {
 
 using enum IncidentKind;
+using enum IncidentRole;
 
-constexpr std::array<IncidentKindInfo, 19> kKinds{{
-    {BatteryEmpty, "battery-empty", "micrometres to the nearest charging station",
+// "kind of the fault: 1 breakdown, 2 protective stop, ...": the words of the faults, without hyphens.
+struct FaultUnit {
+  std::array<char, 256> letters{};
+  std::size_t size = 0;
+
+  consteval FaultUnit() {
+    add(kHead);
+    for (const Fault::Kind kind : kValuesOf<Fault::Kind>) {
+      add(size == kHead.size() ? " " : ", ");
+      const int number = static_cast<int>(kind);
+      if (number > 9) letters.at(size++) = static_cast<char>('0' + number / 10);
+      letters.at(size++) = static_cast<char>('0' + number % 10);
+      add(" ");
+      add(name_of(kind));
+    }
+  }
+  consteval void add(std::string_view text) {
+    for (const char letter : text) letters.at(size++) = letter == '-' ? ' ' : letter;
+  }
+  static constexpr std::string_view kHead = "kind of the fault:";
+};
+constexpr FaultUnit kFaultLetters;
+constexpr std::string_view kFaultUnit(kFaultLetters.letters.data(), kFaultLetters.size);
+
+constexpr auto kKinds = std::to_array<IncidentKindInfo>({
+    {BatteryEmpty, Accusation, EndPoint::EmptyBattery, "battery-empty", "micrometres to the nearest charging station",
      "the battery of an AGV ran empty away from a charging station"},
-    {ChannelSaturated, "channel-saturated", "millionths of the air time, at the peak",
+    {ChannelSaturated, Accusation, std::nullopt, "channel-saturated", "millionths of the air time, at the peak",
      "the fleet sent more than the radio channel can carry"},
-    {InterferenceLosses, "interference-losses", "millionths of the receptions, at the peak",
+    {InterferenceLosses, Accusation, std::nullopt, "interference-losses", "millionths of the receptions, at the peak",
      "transmissions destroyed each other"},
-    {LoadHeldByTwo, "load-held-by-two", "load", "a load passed to an AGV while another AGV held it"},
-    {LoadVanished, "load-vanished", "load", "a load is nowhere after a pick or drop"},
-    {LoadDeliveredTwice, "load-delivered-twice", "load", "a transport was reported done a second time"},
-    {LoadPickedByFullAgv, "load-picked-by-full-agv", "load", "an AGV took a load while it carried another load"},
-    {LoadAtWrongStation, "load-at-wrong-station", "load", "a load lay at a station that its transport does not name"},
-    {LoadMovedByNobody, "load-moved-by-nobody", "load",
+    {LoadHeldByTwo, Accusation, EndPoint::WrongLoad, "load-held-by-two", "load",
+     "a load passed to an AGV while another AGV held it"},
+    {LoadVanished, Accusation, EndPoint::WrongLoad, "load-vanished", "load", "a load is nowhere after a pick or drop"},
+    {LoadDeliveredTwice, Accusation, EndPoint::WrongLoad, "load-delivered-twice", "load",
+     "a transport was reported done a second time"},
+    {LoadPickedByFullAgv, Accusation, EndPoint::WrongLoad, "load-picked-by-full-agv", "load",
+     "an AGV took a load while it carried another load"},
+    {LoadAtWrongStation, Accusation, EndPoint::WrongLoad, "load-at-wrong-station", "load",
+     "a load lay at a station that its transport does not name"},
+    {LoadMovedByNobody, Accusation, EndPoint::WrongLoad, "load-moved-by-nobody", "load",
      "a load moved although no AGV at its place was picking or dropping it"},
-    {Deadlock, "deadlock", "AGVs in the circle; 0: no circle known", "AGVs with open transports waited for each other"},
-    {WaitsDeclared, "waits", "1: in the circle", "an AGV of a deadlock declared that it waited for another AGV"},
-    {WaitsInferred, "waits-inferred", "1: in the circle",
+    {Deadlock, Accusation, EndPoint::Deadlock, "deadlock", "AGVs in the circle; 0: no circle known",
+     "AGVs with open transports waited for each other"},
+    {WaitsDeclared, Link, std::nullopt, "waits", "1: in the circle",
+     "an AGV of a deadlock declared that it waited for another AGV"},
+    {WaitsInferred, Link, std::nullopt, "waits-inferred", "1: in the circle",
      "another AGV stood in the way of an AGV of a deadlock; inferred from the geometry"},
-    {Livelock, "livelock", "drives and turns begun", "AGVs moved, but no transport advanced"},
-    {Starvation, "starvation", "open transports",
+    {Livelock, Accusation, EndPoint::Livelock, "livelock", "drives and turns begun",
+     "AGVs moved, but no transport advanced"},
+    {Starvation, Accusation, EndPoint::Starvation, "starvation", "open transports",
      "the transports of one AGV did not advance while other AGVs finished theirs"},
-    {SafeModeInContract, "safe-mode-in-contract", "millionths of receptions lost, on its worst link",
-     "an AGV was in safe mode while the radio kept its contract"},
-    {StandstillInContract, "standstill-in-contract", "open transports",
+    {SafeModeInContract, Accusation, std::nullopt, "safe-mode-in-contract",
+     "millionths of receptions lost, on its worst link", "an AGV was in safe mode while the radio kept its contract"},
+    {StandstillInContract, Accusation, EndPoint::Standstill, "standstill-in-contract", "open transports",
      "the fleet stood still while the radio kept its contract"},
-    {ThroughputBelowFloor, "throughput-below-floor", "thousandths of a transport per AGV-hour",
-     "the fleet finished fewer transports than the floor requires"},
-    {FaultInjected, "fault-injected",
-     "kind of the fault: 1 breakdown, 2 protective stop, 3 load drop, 4 restart, 5 "
-     "freeze, 6 power failure",
-     "a fault of the scenario struck an AGV"},
-    {ForeignBody, "foreign-body", "1: a fallen load; 0: an obstacle",
+    {ThroughputBelowFloor, Accusation, std::nullopt, "throughput-below-floor",
+     "thousandths of a transport per AGV-hour", "the fleet finished fewer transports than the floor requires"},
+    {FaultInjected, Condition, std::nullopt, "fault-injected", kFaultUnit, "a fault of the scenario struck an AGV"},
+    {ForeignBody, Condition, std::nullopt, "foreign-body", "1: a fallen load; 0: an obstacle",
      "a body lay on the floor that no control software is told of"},
-}};
+});
 
 static_assert([] {
   for (std::size_t i = 0; i < kKinds.size(); ++i) {
@@ -65,6 +94,9 @@ const IncidentKindInfo& info_of(IncidentKind kind) {
   return kKinds[number - 1];
 }
 
+bool accuses(IncidentKind kind) { return info_of(kind).role != IncidentRole::Condition; }
+bool is_link(IncidentKind kind) { return info_of(kind).role == IncidentRole::Link; }
+
 std::string_view fault_word(const Incident& incident) {
   ensure(incident.kind == IncidentKind::FaultInjected, "an injected fault has a word");
   return name_of(static_cast<Fault::Kind>(incident.value));
@@ -73,6 +105,10 @@ std::string_view fault_word(const Incident& incident) {
 bool is_load_drop(const Incident& incident) {
   return incident.kind == IncidentKind::FaultInjected &&
          static_cast<Fault::Kind>(incident.value) == Fault::Kind::LoadDrop;
+}
+
+bool is_fallen_load(const Incident& incident) {
+  return incident.kind == IncidentKind::ForeignBody && incident.value == kFallenLoad;
 }
 
 }  // namespace fleetproof

@@ -1,16 +1,17 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/outcome/end_point.hpp"
 
 namespace fleetproof {
 
-// What a law may find besides pairs that were too close. The numbers are stored: never renumber, only append. The last
-// two accuse nobody: they are what the scenario did to the fleet.
+// What a law may find besides pairs that were too close. The numbers are stored: never renumber, only append.
 enum class IncidentKind : std::uint32_t {
   BatteryEmpty = 1,
   ChannelSaturated = 2,
@@ -33,15 +34,26 @@ enum class IncidentKind : std::uint32_t {
   ForeignBody = 19,
 };
 
-// The name of a kind, the unit of `value`, and what an incident of the kind means, for pages and the archive's views.
+// What an incident says about the fleet.
+enum class IncidentRole : std::uint8_t {
+  Accusation,  // the fleet did something wrong
+  Link,        // a part of an accusation, filed beside it: who waits for whom in a deadlock
+  Condition,   // what the scenario did to the fleet; accuses nobody
+};
+
+// All that is known of a kind: its role, the end point that a run with such an incident fails (absent: none), its name,
+// the unit of `value`, and what an incident of the kind means, for pages and the archive's views.
 struct IncidentKindInfo {
   IncidentKind kind;
+  IncidentRole role;
+  std::optional<EndPoint> end_point;
   std::string_view name, unit, meaning;
 };
 std::span<const IncidentKindInfo> incident_kinds();  // in order of their numbers, without gaps
 const IncidentKindInfo& info_of(IncidentKind kind);
 bool is_incident_kind(std::uint32_t number);
-constexpr bool accuses(IncidentKind kind) { return kind < IncidentKind::FaultInjected; }
+bool accuses(IncidentKind kind);  // an accusation, or a part of one
+bool is_link(IncidentKind kind);
 
 // Something that a law found. `a` and `b` are the bodies concerned, each invalid if there is none.
 struct Incident {
@@ -56,5 +68,8 @@ struct Incident {
 // Of an incident FaultInjected: the kind of the fault, in the words of a scenario.
 std::string_view fault_word(const Incident& incident);
 bool is_load_drop(const Incident& incident);
+// Of an incident ForeignBody: a load that fell, not an obstacle.
+inline constexpr std::int64_t kObstacle = 0, kFallenLoad = 1;  // its values
+bool is_fallen_load(const Incident& incident);
 
 }  // namespace fleetproof

@@ -11,11 +11,6 @@
 namespace fleetproof {
 namespace {
 
-// The order of the fields in the encoding: these, then the counters in the order of their table. Append only, together
-// with a new version.
-constexpr std::array kFlags{&Outcome::violation, &Outcome::contact,       &Outcome::stuck,       &Outcome::crash,
-                            &Outcome::hang,      &Outcome::indeterminate, &Outcome::engine_error};
-
 constexpr std::size_t kViolationBytes = 2 * 4 + 8 * 8 + 1;
 
 void put(ByteSink& sink, const Violation& v, std::uint32_t version) {
@@ -125,37 +120,22 @@ const char* name_of(ViolationLevel level) {
   invariant_violated("a level of violation has a name");
 }
 
-const char* name_of(OutcomeClass c) {
-  switch (c) {
-    case OutcomeClass::EngineError:
-      return "engine_error";
-    case OutcomeClass::Contact:
-      return "contact";
-    case OutcomeClass::Violation:
-      return "violation";
-    case OutcomeClass::Crash:
-      return "crash";
-    case OutcomeClass::Hang:
-      return "hang";
-    case OutcomeClass::Indeterminate:
-      return "indeterminate";
-    case OutcomeClass::Stuck:
-      return "stuck";
-    case OutcomeClass::Clean:
-      return "clean";
-  }
-  invariant_violated("an outcome class has a name");
+const RunEnd* find_run_end(OutcomeClass id) {
+  const auto* const found = std::ranges::find(kRunEnds, id, &RunEnd::id);
+  return found == kRunEnds.end() ? nullptr : found;
 }
 
 OutcomeClass Outcome::outcome_class() const {
-  if (engine_error) return OutcomeClass::EngineError;
-  if (contact) return OutcomeClass::Contact;
-  if (violation) return OutcomeClass::Violation;
-  if (crash) return OutcomeClass::Crash;
-  if (hang) return OutcomeClass::Hang;
-  if (indeterminate) return OutcomeClass::Indeterminate;
-  if (stuck) return OutcomeClass::Stuck;
-  return OutcomeClass::Clean;
+  const RunEnd* heaviest = nullptr;
+  for (const RunEnd& end : kRunEnds) {
+    if (this->*end.flag && (heaviest == nullptr || end.weight > heaviest->weight)) heaviest = &end;
+  }
+  return heaviest == nullptr ? OutcomeClass::Clean : heaviest->id;
+}
+
+bool Outcome::is_failure() const {
+  const RunEnd* end = find_run_end(outcome_class());
+  return end != nullptr && end->is_failure;
 }
 
 std::string encode(const Outcome& outcome, std::uint32_t version) {
@@ -166,7 +146,7 @@ std::string encode(const Outcome& outcome, std::uint32_t version) {
 
 void encode(const Outcome& outcome, ByteSink& sink, std::uint32_t version) {
   sink.u32(version);
-  for (const auto flag : kFlags) sink.u8(outcome.*flag ? 1 : 0);
+  for (const RunEnd& end : kRunEnds) sink.u8(outcome.*end.flag ? 1 : 0);
   sink.u8(outcome.min_clearance_um ? 1 : 0);
   if (outcome.min_clearance_um) sink.i64(*outcome.min_clearance_um);
   std::array<std::uint64_t, kCounters.size()> counters{};
@@ -191,7 +171,7 @@ Outcome decode_outcome(std::string_view bytes) {
   if (source.u32() != kEncodingVersion)
     throw EngineError("an encoded outcome is of another version, or is no outcome at all");
   Outcome outcome;
-  for (const auto flag : kFlags) outcome.*flag = source.flag();
+  for (const RunEnd& end : kRunEnds) outcome.*end.flag = source.flag();
   if (source.flag()) outcome.min_clearance_um = source.i64();
   for (const auto& counter : kCounters) outcome.counters.*counter.member = source.u64();
   outcome.simulated_ns = source.u64();

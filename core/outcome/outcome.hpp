@@ -1,21 +1,44 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/base/words.hpp"
 #include "core/outcome/counters.hpp"
 #include "core/outcome/incident.hpp"
 #include "core/outcome/probes.hpp"
 
 namespace fleetproof {
 
-// The class of a run: its worst end point. The worst comes first, so that a crash hides no violation before it.
+// The class of a run: of what happened in it, what outranks the rest (kRunEnds).
 enum class OutcomeClass : std::uint8_t { EngineError, Contact, Violation, Crash, Hang, Indeterminate, Stuck, Clean };
-const char* name_of(OutcomeClass c);
+constexpr const char* name_of(OutcomeClass c) {
+  switch (c) {
+    case OutcomeClass::EngineError:
+      return "engine_error";
+    case OutcomeClass::Contact:
+      return "contact";
+    case OutcomeClass::Violation:
+      return "violation";
+    case OutcomeClass::Crash:
+      return "crash";
+    case OutcomeClass::Hang:
+      return "hang";
+    case OutcomeClass::Indeterminate:
+      return "indeterminate";
+    case OutcomeClass::Stuck:
+      return "stuck";
+    case OutcomeClass::Clean:
+      return "clean";
+  }
+  return kNoWord;
+}
 
 // A stretch of time in which two bodies were closer than the minimal safety distance. `a` < `b`.
 struct Violation {
@@ -55,10 +78,35 @@ struct Outcome {
   std::string message;                         // of a crash, hang or engine error
 
   OutcomeClass outcome_class() const;
-  // Worth a replay: the run broke something, or its software did.
-  bool is_failure() const { return outcome_class() <= OutcomeClass::Hang; }
+  // Worth a replay.
+  bool is_failure() const;
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
+
+// All that is known of a flag of an outcome. Weight: of several, the class of the run is the one with the highest, so
+// that a crash hides no violation before it. Seriousness: a failing run stands in a list where its highest one says.
+// Both are as serious as the flag itself, but for an error of the simulator: the class tells it before all else, since
+// then nothing else is sure; a list tells what the software did first.
+struct RunEnd {
+  OutcomeClass id;
+  bool Outcome::*flag;
+  std::uint32_t weight, seriousness;
+  bool is_failure;  // the run broke something, or its software did: worth a replay
+  std::string_view meaning;
+};
+// The encoding and the archive hold the flags in this order. Append only, together with a new version.
+inline constexpr auto kRunEnds = std::to_array<RunEnd>({
+    {OutcomeClass::Violation, &Outcome::violation, 50, 60, true, "AGVs were closer than the safety distance"},
+    {OutcomeClass::Contact, &Outcome::contact, 60, 70, true, "bodies touched"},
+    {OutcomeClass::Stuck, &Outcome::stuck, 10, 10, false, "transports were open and nothing began or ended"},
+    {OutcomeClass::Crash, &Outcome::crash, 40, 50, true, "control software crashed"},
+    {OutcomeClass::Hang, &Outcome::hang, 30, 40, true, "control software hung"},
+    {OutcomeClass::Indeterminate, &Outcome::indeterminate, 20, 30, false, "the run could not be judged"},
+    {OutcomeClass::EngineError, &Outcome::engine_error, 70, 20, true, "the simulator met an error of its own"},
+});
+// A clean run has no flag, and no line.
+static_assert(kRunEnds.size() == kValuesOf<OutcomeClass>.size() - 1, "each flag has a line");
+const RunEnd* find_run_end(OutcomeClass id);
 
 // The one canonical byte encoding (little-endian, version first): what a pipe carries and what a row's checksum covers.
 // An earlier version has fewer fields; the checksums of older archives are over it.

@@ -58,6 +58,10 @@ constexpr bool holds_agv(Fault::Kind kind) {
 constexpr bool stops_computer(Fault::Kind kind) {
   return kind == Fault::Kind::Restart || kind == Fault::Kind::PowerFailure;
 }
+// Whether the fault concerns the agent alone: it strikes an agent that runs, also if the AGV is out of order.
+constexpr bool concerns_agent_alone(Fault::Kind kind) {
+  return kind == Fault::Kind::Restart || kind == Fault::Kind::Freeze;
+}
 
 // The laser scanner of an AGV. It stops the AGV when a body is in its protective field, and lets the AGV go on some
 // time after the field is clear. The field is a rectangle before the end of the AGV that goes first. Its length is v *

@@ -122,7 +122,8 @@ class TableReader {
   Table table_begun_by(const std::vector<std::string>& fields) const {
     const auto has = [&](std::string_view name) { return std::ranges::find(fields, name) != fields.end(); };
     if (table_ == Table::None && has("layout")) return Table::Layout;
-    if (table_ <= Table::Layout && has("id") && has("x") && has("y")) return Table::Nodes;
+    const bool has_no_rows = table_ == Table::None || table_ == Table::Layout;
+    if (has_no_rows && has("id") && has("x") && has("y")) return Table::Nodes;
     if (table_ != Table::Edges && has("from") && has("to")) return Table::Edges;
     return table_ != Table::Edges && has("block") && has("kind") ? Table::Blocks : Table::None;
   }

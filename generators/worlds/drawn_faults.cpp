@@ -2,26 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/geometry/rotation.hpp"
 
 namespace fleetproof {
 namespace {
-
-// Topics of the faults stream; with the AGV's number they key every sequence of draws.
-enum class FaultTopic : std::uint32_t {
-  Breakdown = 1,
-  MissionBreakdown,
-  ProtectiveStop,
-  LoadDrop,
-  Obstacle,
-  Restart,
-  Freeze,
-  Clock,
-  Battery,
-  PowerFailure,
-  ClocksAgree
-};
 
 constexpr double kHourIn_s = 3600.0;
 constexpr double kWithinMission_s = 60.0;  // after the pick
@@ -48,16 +34,7 @@ class FaultDraws {
   }
 
   void agv(AgvId id) {
-    poisson(id, FaultTopic::Breakdown, Fault::Kind::Breakdown, rates_.breakdowns_per_agv_hour,
-            [&](Draws& d) { return d.exponential(rates_.repair_s); });
-    poisson(id, FaultTopic::ProtectiveStop, Fault::Kind::ProtectiveStop, rates_.protective_stops_per_agv_hour,
-            [&](Draws& d) { return d.uniform(rates_.protective_stop_least_s, rates_.protective_stop_most_s); });
-    poisson(id, FaultTopic::Restart, Fault::Kind::Restart, rates_.restarts_per_agv_hour,
-            [&](Draws&) { return rates_.restart_s; });
-    poisson(id, FaultTopic::Freeze, Fault::Kind::Freeze, rates_.freezes_per_agv_hour,
-            [&](Draws& d) { return d.uniform(rates_.freeze_least_s, rates_.freeze_most_s); });
-    poisson(id, FaultTopic::PowerFailure, Fault::Kind::PowerFailure, rates_.power_failures_per_agv_hour,
-            [&](Draws& d) { return d.exponential(rates_.power_back_s); });
+    for (const RecurringFault& fault : kRecurringFaults) recurring(id, fault);
     missions(id);
     sensing(id);
     Draws battery = draws(FaultTopic::Battery, id.value);
@@ -65,18 +42,31 @@ class FaultDraws {
       scenario_.agvs[id.index()].battery = battery.uniform(kLowBattery, kLowBatteryMost);
   }
 
-  template <class Lasts>
-  void poisson(AgvId id, FaultTopic topic, Fault::Kind kind, double per_hour, Lasts lasts) {
+  double lasts_s(const RecurringFault& recurring, Draws& d) const {
+    const double lasts = rates_.*recurring.lasts_s;
+    switch (recurring.lasting) {
+      case RecurringFault::Lasting::Exponential:
+        return d.exponential(lasts);
+      case RecurringFault::Lasting::Uniform:
+        return d.uniform(lasts, rates_.*recurring.most_s);
+      case RecurringFault::Lasting::Exact:
+        return lasts;
+    }
+    invariant_violated("a fault lasts for some time");
+  }
+
+  void recurring(AgvId id, const RecurringFault& recurring) {
+    const double per_hour = rates_.*recurring.per_agv_hour;
     if (per_hour <= 0.0) return;
-    Draws d = draws(topic, id.value);
+    Draws d = draws(recurring.topic, id.value);
     const double horizon_s = to_seconds(scenario_.horizon);
     for (double t_s = d.exponential(kHourIn_s / per_hour); t_s < horizon_s;
          t_s += d.exponential(kHourIn_s / per_hour)) {
       Fault fault;
-      fault.kind = kind;
+      fault.kind = recurring.kind;
       fault.agv = id;
       fault.at = seconds(t_s);
-      fault.lasts = seconds(lasts(d));
+      fault.lasts = seconds(lasts_s(recurring, d));
       scenario_.faults.push_back(fault);
     }
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/contract.hpp"
 #include "reports/campaign_page/chart.hpp"
 #include "reports/campaign_page/quality_maps.hpp"
 #include "reports/markup/section_tables.hpp"
@@ -120,8 +121,9 @@ Element map_part(const ReportInput& input, const CampaignFigures& figures) {
   const auto list = quality_maps(input, figures);
   const bool counts_only = input.evidence.counts_only();
   part.add(paragraph(
-      std::string("Thick lines: the bounds of the contract, 40 % loss and 2 s delay. Beyond them a fleet may stand "
-                  "still (safe mode), but a violation stays a violation. Hatched: no evidence. ") +
+      fmt::format("Thick lines: the bounds of the contract, {} loss and {:g} s delay. Beyond them a fleet may stand "
+                  "still (safe mode), but a violation stays a violation. Hatched: no evidence. ",
+                  percent(kContractLoss), kContractDelay_s) +
       (counts_only ? "A search gives counts, no rates."
                    : "The colour of the first map is the upper bound, not the rate: with few runs it stays high, "
                      "even without a failure.")));

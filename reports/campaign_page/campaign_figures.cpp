@@ -47,7 +47,7 @@ void CampaignFigures::add(const RunRecord& run, const Evidence& evidence) {
   ++figures.runs;
   (run.factors.in_contract() ? figures.in_contract : figures.beyond).add(run.outcome);
   if (const auto failing = FailingRun::of(run))
-    figures.failures.add(std::string(name_of(failing->severity)) + ": " + failing->cause.what, figures.runs);
+    figures.failures.add(std::string(failing->severity()) + ": " + failing->cause.what, figures.runs);
   Coverage met;  // by the rules of the table of what the runs met, so that both have the same names
   met.add(run.outcome);
   for (const auto* names : {&met.by_the_world(), &met.by_agents()}) {

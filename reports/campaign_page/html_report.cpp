@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/contract.hpp"
 #include "reports/campaign_page/campaign_charts.hpp"
 #include "reports/campaign_page/look.hpp"
 #include "reports/markup/section_tables.hpp"
@@ -67,6 +68,8 @@ Element listed(const std::string& title, std::initializer_list<const char*> item
   for (const char* item : items) list.add(text_element("li", item));
   return part.add(list);
 }
+
+static_assert(kContractLoss == 0.4 && kContractDelay_s == 2.0, "the last sentence says it in words");
 
 Element limits_part() {
   return listed(

@@ -1,7 +1,6 @@
 #include "reports/evidence/breakdown.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <utility>
 
@@ -13,8 +12,9 @@ namespace {
 // Behind a wreck nothing moves: that is no fault of its own (run_result.hpp calls it unknown).
 bool stalls(const Outcome& outcome) {
   if (outcome.incidents.empty()) return false;
-  constexpr std::array kinds{EndPoint::Deadlock, EndPoint::Livelock, EndPoint::Starvation};
-  return std::ranges::any_of(kinds, [&](EndPoint kind) { return result_of(outcome, kind) == RunResult::Failed; });
+  return std::ranges::any_of(kValuesOf<EndPoint>, [&](EndPoint end_point) {
+    return is_stall(end_point) && result_of(outcome, end_point) == RunResult::Failed;
+  });
 }
 
 // Of the agents, in the order of the campaign: a group of all cells, then the layouts, then the fleet sizes.

@@ -251,17 +251,4 @@ Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>&
   return all && evidence.runs() > 0 ? Verdict::Demonstrated : Verdict::NotDemonstrated;
 }
 
-int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates) {
-  if (evidence.engine_errors() > 0) return 3;
-  switch (overall_verdict(evidence, gates)) {
-    case Verdict::Demonstrated:
-      return 0;
-    case Verdict::Violated:
-      return 1;
-    case Verdict::NotDemonstrated:
-      return 4;
-  }
-  invariant_violated("a verdict has an exit code");
-}
-
 }  // namespace fleetproof

@@ -122,7 +122,4 @@ bool is_under_test(const std::vector<GateRecord>& gates, const std::string& agen
 // without such a gate, not demonstrated.
 Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates);
 
-// 3 after an engine error; otherwise by the overall verdict: 1 violated, 4 not demonstrated, 0 demonstrated.
-int exit_code(const Evidence& evidence, const std::vector<GateResult>& gates);
-
 }  // namespace fleetproof

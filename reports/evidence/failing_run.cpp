@@ -16,16 +16,13 @@ std::optional<Incident> first_judged(const Outcome& outcome) {
   return *found;
 }
 
-std::optional<Severity> severity_of(const Outcome& o) {
-  if (o.contact) return Severity::Contact;
-  if (o.violation) return Severity::Violation;
-  if (o.crash) return Severity::Crash;
-  if (o.hang) return Severity::Hang;
-  if (o.indeterminate) return Severity::Indeterminate;
-  if (o.engine_error) return Severity::EngineError;
-  if (o.stuck) return Severity::Stuck;
-  if (first_judged(o)) return Severity::Incident;
-  return std::nullopt;
+std::optional<OutcomeClass> most_serious(const Outcome& outcome) {
+  const RunEnd* first = nullptr;
+  for (const RunEnd& end : kRunEnds) {
+    if (outcome.*end.flag && (first == nullptr || end.seriousness > first->seriousness)) first = &end;
+  }
+  if (first != nullptr) return first->id;
+  return first_judged(outcome) ? std::optional(OutcomeClass::Clean) : std::nullopt;
 }
 
 // The least is the worst: by level, then by the speed of a contact, else by the clearance.
@@ -35,37 +32,15 @@ std::tuple<int, std::int64_t, std::int64_t> worst_first(const Violation& v) {
 
 }  // namespace
 
-const char* name_of(Severity severity) {
-  switch (severity) {
-    case Severity::Contact:
-      return "contact";
-    case Severity::Violation:
-      return "violation";
-    case Severity::Crash:
-      return "crash";
-    case Severity::Hang:
-      return "hang";
-    case Severity::Indeterminate:
-      return "indeterminate";
-    case Severity::EngineError:
-      return "engine error";
-    case Severity::Stuck:
-      return "stuck";
-    case Severity::Incident:
-      return "incident";
-  }
-  invariant_violated("a severity has a name");
-}
-
 std::optional<FailingRun> FailingRun::of(const RunRecord& run) {
-  const auto severity = severity_of(run.outcome);
-  if (!severity) return std::nullopt;
+  const auto end = most_serious(run.outcome);
+  if (!end) return std::nullopt;
   FailingRun failing;
   failing.run_index = run.run_index;
   failing.replicate = run.replicate;
   failing.cell = run.cell;
   failing.factors = run.factors;
-  failing.severity = *severity;
+  failing.end = *end;
   failing.min_clearance_um = run.outcome.min_clearance_um;
   failing.violations = run.outcome.violations.size();
   failing.message = run.outcome.message;
@@ -77,6 +52,16 @@ std::optional<FailingRun> FailingRun::of(const RunRecord& run) {
   return failing;
 }
 
+std::uint32_t FailingRun::seriousness() const {
+  const RunEnd* known = find_run_end(end);
+  return known == nullptr ? 0 : known->seriousness;
+}
+
+const char* FailingRun::severity() const {
+  if (end == OutcomeClass::Clean) return "incident";
+  return end == OutcomeClass::EngineError ? "engine error" : name_of(end);
+}
+
 const Violation* worst_of(const std::vector<Violation>& violations) {
   const auto worst = std::ranges::min_element(violations, {}, worst_first);
   return worst == violations.end() ? nullptr : &*worst;
@@ -84,7 +69,7 @@ const Violation* worst_of(const std::vector<Violation>& violations) {
 
 bool more_serious(const FailingRun& a, const FailingRun& b) {
   const auto rank = [](const FailingRun& run) {
-    return std::tuple(run.severity, worst_first(run.worst.value_or(Violation{})),
+    return std::tuple(-std::int64_t{run.seriousness()}, worst_first(run.worst.value_or(Violation{})),
                       run.min_clearance_um.value_or(std::numeric_limits<std::int64_t>::max()), run.run_index);
   };
   return rank(a) < rank(b);

@@ -10,16 +10,12 @@
 
 namespace fleetproof {
 
-// Most serious first.
-enum class Severity : std::uint8_t { Contact, Violation, Crash, Hang, Indeterminate, EngineError, Stuck, Incident };
-const char* name_of(Severity severity);
-
 // A run in which something went wrong, with the data to name it, to sort it and to replay it.
 struct FailingRun {
   std::uint64_t run_index = 0, replicate = 0;
   std::uint32_t cell = 0;
-  FactorValues factors;  // of the run itself
-  Severity severity = Severity::Stuck;
+  FactorValues factors;                    // of the run itself
+  OutcomeClass end = OutcomeClass::Stuck;  // what was most serious (RunEnd::seriousness); Clean: an incident alone
   std::optional<std::int64_t> min_clearance_um;
   std::size_t violations = 0;
   std::optional<Violation> worst;    // of the violations
@@ -29,13 +25,15 @@ struct FailingRun {
 
   // Absent if nothing went wrong in the run.
   static std::optional<FailingRun> of(const RunRecord& run);
+  std::uint32_t seriousness() const;
+  const char* severity() const;  // `end` in the words of reports
 };
 
 // The violation that leads: contact at hazardous speed before contact before less than the safety distance; the highest
 // relative speed of contacts, else the smallest clearance; of equal ones the first. Null if there is none.
 const Violation* worst_of(const std::vector<Violation>& violations);
 
-// By severity, then by the worst violation, then by smallest clearance, then by run index.
+// By seriousness, then by the worst violation, then by smallest clearance, then by run index.
 bool more_serious(const FailingRun& a, const FailingRun& b);
 
 // The most serious of all added runs, the most serious first. The order of adding does not matter.

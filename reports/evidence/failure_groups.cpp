@@ -16,9 +16,9 @@ void FailureGroups::add(const RunRecord& run, const std::string& agent) {
   if (!failing) return;
   ++failing_runs_;
   const FirstCause& cause = failing->cause;
-  auto [place, is_new] = groups_.try_emplace({agent, failing->severity, cause.what, cause.before});
+  auto [place, is_new] = groups_.try_emplace({agent, failing->end, cause.what, cause.before});
   Group& group = place->second;
-  if (is_new) group.shown = {agent, name_of(failing->severity), cause.what, cause.before, 0, 0, false, *failing};
+  if (is_new) group.shown = {agent, failing->severity(), cause.what, cause.before, 0, 0, false, *failing};
   ++group.shown.runs;
   if (more_serious(*failing, group.shown.worst)) group.shown.worst = *failing;
   if (digests_ < kMostDigests) {

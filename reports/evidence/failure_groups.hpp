@@ -35,7 +35,7 @@ class FailureGroups {
     FailureGroup shown;
     std::unordered_set<std::uint64_t> digests{};
   };
-  std::map<std::tuple<std::string, Severity, std::string, CameBefore>, Group> groups_;
+  std::map<std::tuple<std::string, OutcomeClass, std::string, CameBefore>, Group> groups_;
   std::uint64_t failing_runs_ = 0;
   std::size_t digests_ = 0;
 };

@@ -42,8 +42,7 @@ std::optional<FirstCause> bare_cause(const Outcome& outcome) {
   if (has_incident) return cause_of(*incident, outcome);
   const auto end = at_ns(static_cast<std::int64_t>(outcome.simulated_ns));
   if (outcome.outcome_class() == OutcomeClass::Clean) return std::nullopt;
-  return FirstCause{
-      outcome.outcome_class() == OutcomeClass::Stuck ? "stuck" : name_of(outcome.outcome_class()), end, {}, {}, {}, {}};
+  return FirstCause{name_of(outcome.outcome_class()), end, {}, {}, {}, {}};
 }
 
 bool is_fault(const Incident& incident) { return !accuses(incident.kind); }
@@ -63,7 +62,7 @@ std::optional<FirstCause> first_cause(const Outcome& outcome) {
   const bool has_foreign = is_foreign(cause->a, outcome) || is_foreign(cause->b, outcome);
   bool any_before = outcome.counters.faults > 0 && std::ranges::none_of(outcome.incidents, is_fault);
   const auto note = [&](CameBefore before, const Incident& fault) {
-    cause->before = std::max(cause->before, before);
+    cause->before = std::ranges::max(cause->before, before, {}, weight_of);
     if (!cause->fault || cause->fault->first <= fault.first) cause->fault = fault;
   };
   for (const Incident& fault : outcome.incidents) {
@@ -86,37 +85,12 @@ SimTime surely_began(const Incident& incident) {
   return slow ? incident.last : incident.first;
 }
 
-bool is_judged(IncidentKind kind) {
-  switch (kind) {
-    case IncidentKind::BatteryEmpty:
-    case IncidentKind::LoadHeldByTwo:
-    case IncidentKind::LoadVanished:
-    case IncidentKind::LoadDeliveredTwice:
-    case IncidentKind::LoadPickedByFullAgv:
-    case IncidentKind::LoadAtWrongStation:
-    case IncidentKind::LoadMovedByNobody:
-    case IncidentKind::Deadlock:
-    case IncidentKind::Livelock:
-    case IncidentKind::Starvation:
-    case IncidentKind::StandstillInContract:
-      return true;
-    case IncidentKind::ChannelSaturated:
-    case IncidentKind::InterferenceLosses:
-    case IncidentKind::WaitsDeclared:
-    case IncidentKind::WaitsInferred:
-    case IncidentKind::SafeModeInContract:
-    case IncidentKind::ThroughputBelowFloor:
-    case IncidentKind::FaultInjected:
-    case IncidentKind::ForeignBody:
-      return false;
-  }
-  invariant_violated("a kind of incident is judged or not");
-}
+bool is_judged(IncidentKind kind) { return info_of(kind).end_point.has_value(); }
 
 std::string fault_text(const FirstCause& cause, std::uint32_t agv_count) {
   if (!cause.fault) return "";
   const Incident& fault = *cause.fault;
-  std::string what = fault.value == 1 ? "a load fell" : "an obstacle appeared";
+  std::string what = is_fallen_load(fault) ? "a load fell" : "an obstacle appeared";
   if (fault.kind == IncidentKind::FaultInjected) {
     what = fmt::format("the {} of AGV {} began", fault_word(fault), fault.a.value);
   } else {

@@ -10,7 +10,7 @@
 namespace fleetproof {
 
 // What the scenario had done to the bodies of a failure before it happened. It says what came before, not what caused
-// it.
+// it. Of several, the heaviest is told.
 enum class CameBefore : std::uint8_t {
   Nothing,      // no injected fault touched a body involved
   KnownFault,   // a fault of an AGV involved, which its software could know of: it stopped, or was away
@@ -29,6 +29,20 @@ constexpr const char* name_of(CameBefore before) {
       return "faults; which of them matter is not known";
   }
   return kNoWord;
+}
+
+constexpr std::uint32_t weight_of(CameBefore before) {
+  switch (before) {
+    case CameBefore::Nothing:
+      return 0;
+    case CameBefore::KnownFault:
+      return 10;
+    case CameBefore::ForeignBody:
+      return 20;
+    case CameBefore::Undecided:
+      return 30;
+  }
+  return 0;
 }
 
 // The first thing that went wrong in a run: its earliest violation or judged incident (deadlock, wrong load, ...), else

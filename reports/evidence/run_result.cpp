@@ -67,15 +67,12 @@ Findings violations(const Outcome& outcome, ViolationLevel level) {
   return findings;
 }
 
-bool is_wrong_load(const Incident& incident) {
-  return incident.kind >= IncidentKind::LoadHeldByTwo && incident.kind <= IncidentKind::LoadMovedByNobody;
-}
+bool fails(const Incident& incident, EndPoint end_point) { return info_of(incident.kind).end_point == end_point; }
 
-template <class Is>
-Findings incidents(const Outcome& outcome, Is is) {
+Findings incidents(const Outcome& outcome, EndPoint end_point) {
   Findings findings(ended_early(outcome));
   for (const Incident& incident : outcome.incidents) {
-    if (is(incident)) findings.event(incident.first, incident.first);
+    if (fails(incident, end_point)) findings.event(incident.first, incident.first);
   }
   return findings;
 }
@@ -89,11 +86,11 @@ SimTime first_wreck(const Outcome& outcome) {
   return first;
 }
 
-Findings lack_of_progress(const Outcome& outcome, IncidentKind kind) {
+Findings lack_of_progress(const Outcome& outcome, EndPoint end_point) {
   const SimTime wreck = first_wreck(outcome);
   Findings findings(ended_early(outcome) || wreck != kForever);
   for (const Incident& incident : outcome.incidents) {
-    if (incident.kind != kind) continue;
+    if (!fails(incident, end_point)) continue;
     const SimTime began = surely_began(incident);
     if (ended_early(outcome) || began >= wreck || foreign_body_lay(outcome, incident)) {
       findings.leave_undecided();
@@ -105,6 +102,7 @@ Findings lack_of_progress(const Outcome& outcome, IncidentKind kind) {
 }
 
 Findings findings_of(const Outcome& outcome, EndPoint end_point) {
+  if (info_of(end_point).is_lack_of_progress) return lack_of_progress(outcome, end_point);
   switch (end_point) {
     case EndPoint::Violation:
       return violations(outcome, ViolationLevel::SafetyDistance);
@@ -112,22 +110,17 @@ Findings findings_of(const Outcome& outcome, EndPoint end_point) {
       return violations(outcome, ViolationLevel::Contact);
     case EndPoint::HazardousContact:
       return violations(outcome, ViolationLevel::HazardousContact);
-    case EndPoint::Deadlock:
-      return lack_of_progress(outcome, IncidentKind::Deadlock);
-    case EndPoint::Livelock:
-      return lack_of_progress(outcome, IncidentKind::Livelock);
-    case EndPoint::Starvation:
-      return lack_of_progress(outcome, IncidentKind::Starvation);
-    case EndPoint::Standstill:
-      return lack_of_progress(outcome, IncidentKind::StandstillInContract);
     case EndPoint::WrongLoad:
-      return incidents(outcome, is_wrong_load);
     case EndPoint::EmptyBattery:
-      return incidents(outcome, [](const Incident& i) { return i.kind == IncidentKind::BatteryEmpty; });
+      return incidents(outcome, end_point);
     case EndPoint::Crash:
       return some_time(outcome, outcome.crash);
     case EndPoint::Hang:
       return some_time(outcome, outcome.hang);
+    case EndPoint::Deadlock:
+    case EndPoint::Livelock:
+    case EndPoint::Starvation:
+    case EndPoint::Standstill:
     case EndPoint::Throughput:
       break;
   }

@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "core/base/contract.hpp"
 #include "core/base/outside_text.hpp"
 #include "reports/evidence/first_cause.hpp"
 #include "reports/page/wording.hpp"
@@ -40,7 +41,8 @@ void add_run_columns(std::vector<CsvColumn>& columns) {
   for (const FactorInfo& factor : kFactors) {
     add(columns, factor.key, factor.key.ends_with("_s") ? "s" : "none", fmt::format("{} of this run", factor.name));
   }
-  add(columns, "in_contract", "0/1", "loss at most 0.4 and delay at most 2 s");
+  add(columns, "in_contract", "0/1",
+      fmt::format("loss at most {:g} and delay at most {:g} s", kContractLoss, kContractDelay_s));
 }
 
 void add_run_values(Values& values, const CsvRow& row) {
@@ -54,25 +56,11 @@ void add_run_values(Values& values, const CsvRow& row) {
   values.push_back(number(run.factors.in_contract()));
 }
 
-struct Flag {
-  const char *name, *meaning;
-  bool Outcome::*member;
-};
-constexpr Flag kFlags[] = {
-    {"violation", "AGVs were closer than the safety distance", &Outcome::violation},
-    {"contact", "bodies touched", &Outcome::contact},
-    {"stuck", "transports were open and nothing began or ended", &Outcome::stuck},
-    {"crash", "control software crashed", &Outcome::crash},
-    {"hang", "control software hung", &Outcome::hang},
-    {"indeterminate", "the run could not be judged", &Outcome::indeterminate},
-    {"engine_error", "the simulator met an error of its own", &Outcome::engine_error},
-};
-
 CsvTable runs_table() {
   CsvTable table{"runs.csv", "one simulation", {}, [](const RunRecord&) { return std::size_t{1}; }, {}};
   add_run_columns(table.columns);
   add(table.columns, "outcome_class", "none", "the worst end point of the run");
-  for (const Flag& flag : kFlags) add(table.columns, flag.name, "0/1", flag.meaning);
+  for (const RunEnd& end : kRunEnds) add(table.columns, name_of(end.id), "0/1", end.meaning);
   add(table.columns, "min_clearance_um", "um",
       "smallest clearance, rounded down; empty: not measured if engine_error is 1 or simulated_ns is 0, otherwise "
       "never "
@@ -90,7 +78,7 @@ CsvTable runs_table() {
     Values values;
     add_run_values(values, row);
     values.emplace_back(name_of(o.outcome_class()));
-    for (const Flag& flag : kFlags) values.push_back(number(o.*flag.member));
+    for (const RunEnd& end : kRunEnds) values.push_back(number(o.*end.flag));
     values.push_back(number(o.min_clearance_um));
     const auto cause = first_cause(o);
     values.push_back(cause ? cause->what : "");

@@ -108,7 +108,7 @@ Json failing_run_json(const ReportInput& input, const std::optional<FailingRun>&
   auto json = cell_json(cell);
   json["run_index"] = run->run_index;
   json["replicate"] = run->replicate;
-  json["severity"] = name_of(run->severity);
+  json["severity"] = run->severity();
   json["min_clearance_m"] = metres(run->min_clearance_um);
   json["min_clearance_um"] = maybe(run->min_clearance_um);
   json["violations"] = run->violations;
@@ -350,7 +350,7 @@ std::string render_json(const ReportInput& input) {
   json["schema_version"] = kReportSchemaVersion;
   json["archive"] = input.archive_path;
   json["verdict"] = name_of(overall_verdict(evidence, input.gates));
-  json["exit_code"] = input.exit_code;
+  json["exit_code"] = input.exit_code ? Json(*input.exit_code) : Json(nullptr);
   json["complete"] = evidence.complete();
   json["weak"] = is_weak(input);
   json["exemptions"] = exemptions_json(input.campaign);

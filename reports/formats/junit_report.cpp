@@ -22,7 +22,7 @@ enum class Ending { Passed, Failed, Skipped, Error };
 
 Ending ending_of(const ReportInput& input, std::size_t gate) {
   const GateResult& result = input.gates[gate];
-  if (input.exit_code == 3) return Ending::Error;
+  if (conclusion_of(input) == Conclusion::EngineFault) return Ending::Error;
   const bool tested = result.counts.cells > 0 && !result.counts.met_nobody;
   if (!input.evidence.gates()[gate].decides || (!tested && result.verdict != Verdict::Violated)) return Ending::Skipped;
   return result.verdict == Verdict::Demonstrated ? Ending::Passed : Ending::Failed;
@@ -144,7 +144,8 @@ std::string audit_properties(const AuditTally& audits) {
 std::string properties(const ReportInput& input) {
   const CampaignRecord& campaign = input.campaign;
   return "    <properties>\n" + property("verdict", name_of(overall_verdict(input.evidence, input.gates))) +
-         property("exit_code", std::to_string(input.exit_code)) + property("archive", input.archive_path) +
+         (input.exit_code ? property("exit_code", std::to_string(*input.exit_code)) : "") +
+         property("archive", input.archive_path) +
          property("replicates", fmt::format("{} of {}", input.evidence.complete_replicates(), campaign.replicates)) +
          property("simulated_agv_hours", fmt::format("{:.1f}", all_agv_hours(input.evidence))) +
          property("engine_errors", std::to_string(input.evidence.engine_errors())) + audit_properties(input.audits) +

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "core/outcome/trace_records.hpp"
 #include "reports/replay_page/message_numbers.hpp"
 
 namespace fleetproof::web {
 
 FilmTalk::FilmTalk(const Film& film) : sent_by_(film.bodies.size()), restarts_(film.bodies.size()) {
   for (const Happening& h : film.happenings) {
-    const bool is_new_agent = h.is_fault ? h.what.ends_with(" over") && h.details == "restart"
+    const bool is_new_agent = h.is_fault ? h.what.ends_with(" over") && h.details == name_of(Fault::Kind::Restart)
                                          : h.details.find("restarts the agent") != h.details.npos;
     if (is_new_agent) restarts_[h.body].push_back({h.at_us, h.order});
   }

@@ -9,6 +9,8 @@
 
 namespace fleetproof {
 
+static_assert(kHazardousSpeed_um_s == 300'000, "kFailureColumns says it in words");
+
 Remark worst_of(const ReportInput& input, const FailureGroup& group) {
   Remark remark = describe(input, group.worst);
   if (!group.worst.factors.in_contract()) remark.text += " (outside the contract)";

@@ -152,7 +152,7 @@ Remark remark_of(const ReportInput& input, std::size_t index) {
 std::string worst_run_text(const GateResult& result) {
   const bool known = !result.optimistic || result.optimistic->failing > 0;
   return fmt::format("{} is {} ({}):", known ? "Its most serious run" : "The most serious of the unknown runs",
-                     result.worst->run_index, name_of(result.worst->severity));
+                     result.worst->run_index, result.worst->severity());
 }
 
 std::string finding_text(const ReportInput& input, std::size_t index) {

@@ -13,9 +13,7 @@ namespace {
 
 bool has_gate_on_progress(const Evidence& evidence, const std::string& agent) {
   return std::ranges::any_of(evidence.gates(), [&](const GateRecord& gate) {
-    return gate.agent == agent && gate.decides &&
-           (gate.end_point == EndPoint::Deadlock || gate.end_point == EndPoint::Livelock ||
-            gate.end_point == EndPoint::Starvation);
+    return gate.agent == agent && gate.decides && is_stall(gate.end_point);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/error.hpp"
 #include "reports/page/wording.hpp"
 
 namespace fleetproof {
@@ -18,8 +19,7 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
                     AuditTally(archive.campaign(), archive.cells()),
                     {},
                     {},
-                    0,
-                    4};
+                    0};
   const auto count = [&](const RunRecord& run) {
     ++input.stored_runs;
     input.audits.add_run(run);
@@ -45,8 +45,20 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
   for (const std::string& agent : archive.campaign().plugin_agents)
     input.audits.add_recordings(agent, archive.recording_count(agent));
   input.gates = input.evidence.judge_all();
-  input.exit_code = input.audits.engine_at_fault() ? 3 : exit_code(input.evidence, input.gates);
   return input;
+}
+
+Conclusion conclusion_of(const ReportInput& input) {
+  if (input.evidence.engine_errors() > 0 || input.audits.engine_at_fault()) return Conclusion::EngineFault;
+  switch (overall_verdict(input.evidence, input.gates)) {
+    case Verdict::Demonstrated:
+      return Conclusion::Demonstrated;
+    case Verdict::Violated:
+      return Conclusion::Violated;
+    case Verdict::NotDemonstrated:
+      return Conclusion::NotDemonstrated;
+  }
+  invariant_violated("a verdict concludes a campaign");
 }
 
 }  // namespace fleetproof

@@ -24,16 +24,20 @@ struct ReportInput {
   Evidence evidence;
   Breakdown breakdown;
   AuditTally audits;
-  FailureGroups failures;         // of the runs before the first gap
-  std::vector<GateResult> gates;  // in the order of evidence.gates()
-  std::uint64_t stored_runs = 0;  // in the file; evidence.runs() of them are before the first gap
-  int exit_code = 4;
+  FailureGroups failures;                      // of the runs before the first gap
+  std::vector<GateResult> gates;               // in the order of evidence.gates()
+  std::uint64_t stored_runs = 0;               // in the file; evidence.runs() of them are before the first gap
   std::vector<BaselineComparison> baseline{};  // empty: the report compares with nothing
-  // Files beside the archive tell these; a caller adds them.
+  // A caller adds these: the exit code of the program, which knows its codes, and what files beside the archive tell.
+  std::optional<int> exit_code{};
   AttemptHistory attempts{};
   SensitivityFile sensitivity{};
   FoundFile findings{};
 };
+
+// What a campaign ends with: the overall verdict, or that the engine made an error, after which no verdict counts.
+enum class Conclusion : std::uint8_t { Demonstrated, Violated, NotDemonstrated, EngineFault };
+Conclusion conclusion_of(const ReportInput& input);
 
 // Reads all runs of the archive and judges the runs before the first gap. `also` gets each of those runs after the
 // evidence did, so that a page that counts more needs no second pass. Throws EngineError if the archive is damaged.

@@ -125,7 +125,7 @@ std::string cause_text(const FailingRun& run, const CellRecord& cell) {
   std::string text;
   const bool leads = run.worst && run.worst->first == cause.at && run.worst->a == cause.a;
   const std::string at = seconds_text(hundredths_s(cause.at));
-  if (run.severity == Severity::Incident) {
+  if (run.end == OutcomeClass::Clean) {
     text = "; at " + at;
   } else if (!leads && cause.a.valid()) {
     text = fmt::format("; first, at {}: {}", at, cause.what);
@@ -140,9 +140,8 @@ std::string cause_text(const FailingRun& run, const CellRecord& cell) {
 
 Remark describe(const ReportInput& input, const FailingRun& run) {
   const auto& cell = input.evidence.cells()[run.cell];
-  auto text =
-      fmt::format("run {}: {}", run.run_index,
-                  run.severity == Severity::Incident ? info_of(run.incident->kind).name : name_of(run.severity));
+  auto text = fmt::format("run {}: {}", run.run_index,
+                          run.end == OutcomeClass::Clean ? info_of(run.incident->kind).name : run.severity());
   if (run.worst && level_of(*run.worst) == ViolationLevel::HazardousContact) {
     text += fmt::format(" at hazardous speed ({:.1f} m/s)",
                         static_cast<double>(run.worst->relative_speed_um_s / 100'000) / 10.0);
@@ -158,7 +157,7 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
   text += cause_text(run, cell);
   if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message, 120));
   const std::string debug = debug_command(input.archive_path, run.run_index);
-  if (run.severity == Severity::Crash || run.severity == Severity::Hang) return {text, debug};
+  if (run.end == OutcomeClass::Crash || run.end == OutcomeClass::Hang) return {text, debug};
   // A worse end point hides no crash.
   if (run.message.starts_with("agent of ")) text += "; in a debugger: " + debug;
   return {text, replay_line(input, run.run_index)};

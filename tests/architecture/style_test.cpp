@@ -38,7 +38,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"campaign/findings/findings_file.hpp KeptFinding", "plain data: all that a findings file says of one"},
     {"campaign/plan/plan.hpp CampaignPlan", "plain data: everything that a campaign file says"},
     {"campaign/batch/task_pool.cpp AnyTaskPool::Impl", "two threads' sides of one pool, under one mutex"},
-    {"generators/worlds/drawn_faults.hpp FaultRates", "plain data: one number for each kind of fault"},
+    {"generators/worlds/fault_rates.hpp FaultRates", "plain data: one number for each kind of fault"},
     {"laws/progress_law.cpp ProgressLaw", "one number for each end point that the law judges"},
     {"reports/evidence/tally.hpp Tally", "plain figures: one number for each kind of run that is counted"},
     {"reports/evidence/evidence.hpp Evidence", "plain figures of one campaign, counted in one pass"},

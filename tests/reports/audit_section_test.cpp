@@ -77,7 +77,7 @@ TEST(AuditSection, SaysThatNothingWasAudited) {
 }
 
 // From the file to the exit code.
-TEST(AuditSection, AnErrorOfTheEngineIsTheExitCodeOfTheReport) {
+TEST(AuditSection, AnErrorOfTheEngineConcludesTheReport) {
   for (const bool same : {true, false}) {
     const samples::TemporaryFolder folder;
     const std::string path = folder / "night.fp";
@@ -89,7 +89,8 @@ TEST(AuditSection, AnErrorOfTheEngineIsTheExitCodeOfTheReport) {
       if (i == 4) writer.add(AuditRecord{i, row_checksum(run) ^ (same ? 0U : 1U)});
     }
     writer.publish(20);
-    EXPECT_EQ(read_report_input(ArchiveReader(path), path).exit_code, same ? 4 : 3);
+    EXPECT_EQ(conclusion_of(read_report_input(ArchiveReader(path), path)),
+              same ? Conclusion::NotDemonstrated : Conclusion::EngineFault);
   }
 }
 

@@ -202,7 +202,7 @@ TEST_F(WeakReport, AListedProbeThatIsMissingLeavesTheVerdictAndSaysWeakBesideIt)
   campaign.required_probes = {"encounter", "head-on", "following"};
   const auto input = report_of(campaign, cells_, gates_);
   EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated);
-  EXPECT_EQ(input.exit_code, 0);
+  EXPECT_EQ(conclusion_of(input), Conclusion::Demonstrated);
   for (const auto* format : {"text", "summary", "markdown"}) {
     const auto page = render(format, input);
     EXPECT_THAT(page, HasSubstr("this campaign is weak evidence for agent sound")) << format;
@@ -238,7 +238,7 @@ TEST_F(WeakReport, AReferenceAgentThatMissesAProbeMakesNothingWeak) {
 TEST_F(WeakReport, AGateWhoseRunsMetNobodyIsNotDemonstrated) {
   const auto input = report_of(campaign_of("claim", 400), cells_, gates_, meet_nobody);
   EXPECT_EQ(input.gates[0].verdict, Verdict::NotDemonstrated);
-  EXPECT_EQ(input.exit_code, 4);
+  EXPECT_EQ(conclusion_of(input), Conclusion::NotDemonstrated);
   EXPECT_THAT(render("text", input), HasSubstr("was never put to the test"));
   EXPECT_THAT(render("text", input), HasSubstr("never met: encounter"));
 }

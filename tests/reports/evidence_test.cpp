@@ -209,50 +209,50 @@ TEST(Evidence, keeps_only_the_worst_few) {
   EXPECT_EQ(worst.back().run_index, 190u);
 }
 
-TEST(ExitCode, engine_error_before_violated_before_not_demonstrated) {
+TEST(Conclusion, engine_error_before_violated_before_not_demonstrated) {
   const auto cells = grid({"sound"}, {0.4}, {2.0});
   const auto gate = gate_of("sound", GateKind::None, Region::WorstCase, 1e-3);
   const auto code = [&](std::uint64_t replicates, const samples::Change& change) {
-    return report_of(campaign_of("claim", replicates), cells, {gate}, change).exit_code;
+    return conclusion_of(report_of(campaign_of("claim", replicates), cells, {gate}, change));
   };
-  EXPECT_EQ(code(2995, {}), 0);
-  EXPECT_EQ(code(100, {}), 4);
-  EXPECT_EQ(code(0, {}), 4);
+  EXPECT_EQ(code(2995, {}), Conclusion::Demonstrated);
+  EXPECT_EQ(code(100, {}), Conclusion::NotDemonstrated);
+  EXPECT_EQ(code(0, {}), Conclusion::NotDemonstrated);
   EXPECT_EQ(code(100,
                  [](RunRecord& run) {
                    if (run.run_index == 7) samples::violate(run);
                  }),
-            1);
+            Conclusion::Violated);
   EXPECT_EQ(code(100,
                  [](RunRecord& run) {
                    if (run.run_index == 7) samples::violate(run);
                    if (run.run_index == 9) run.outcome.engine_error = true;
                  }),
-            3);
-  EXPECT_EQ(report_of(campaign_of("claim", 3000), cells, {}).exit_code, 4);
+            Conclusion::EngineFault);
+  EXPECT_EQ(conclusion_of(report_of(campaign_of("claim", 3000), cells, {})), Conclusion::NotDemonstrated);
 }
 
-TEST(ExitCode, a_campaign_that_is_not_complete_is_not_demonstrated) {
+TEST(Conclusion, a_campaign_that_is_not_complete_is_not_demonstrated) {
   const auto cells = grid({"sound"}, {0.0, 0.4}, {2.0});
   const auto gate = gate_of("sound", GateKind::None, Region::Contract, 1e-3);
   const auto whole = report_of(campaign_of("claim", 3001), cells, {gate});
   EXPECT_TRUE(whole.evidence.complete());
-  EXPECT_EQ(whole.exit_code, 0);
+  EXPECT_EQ(conclusion_of(whole), Conclusion::Demonstrated);
   const auto stopped = report_of(campaign_of("claim", 3001), cells, {gate}, {}, 0, 1);
   EXPECT_FALSE(stopped.evidence.complete());
   EXPECT_EQ(stopped.gates[0].counts.planned, 3001u);
   EXPECT_EQ(stopped.gates[0].counts.units, 3000u);
-  EXPECT_EQ(stopped.exit_code, 4);
+  EXPECT_EQ(conclusion_of(stopped), Conclusion::NotDemonstrated);
   const auto refuted = report_of(
       campaign_of("claim", 3001), cells, {gate},
       [](RunRecord& run) {
         if (run.run_index == 6000) samples::violate(run);
       },
       0, 1);
-  EXPECT_EQ(refuted.exit_code, 1);
+  EXPECT_EQ(conclusion_of(refuted), Conclusion::Violated);
 }
 
-TEST(ExitCode, one_violated_gate_outweighs_many_demonstrated_ones) {
+TEST(Conclusion, one_violated_gate_outweighs_many_demonstrated_ones) {
   const auto cells = grid({"sound", "faulty"}, {0.4}, {2.0});
   const auto input = report_of(campaign_of("claim", 3000), cells,
                                {gate_of("sound", GateKind::None, Region::WorstCase, 1e-3),
@@ -262,7 +262,7 @@ TEST(ExitCode, one_violated_gate_outweighs_many_demonstrated_ones) {
                                });
   EXPECT_EQ(input.gates[0].verdict, Verdict::Demonstrated);
   EXPECT_EQ(input.gates[1].verdict, Verdict::Violated);
-  EXPECT_EQ(input.exit_code, 1);
+  EXPECT_EQ(conclusion_of(input), Conclusion::Violated);
 }
 
 }  // namespace

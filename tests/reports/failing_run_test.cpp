@@ -18,6 +18,23 @@ Violation contact(std::int64_t speed_um_s) {
   return violation;
 }
 
+TEST(FailingRuns, AreSortedByTheSeriousnessOfTheirEnds) {
+  // The order of lists in reports; an error of the simulator stands behind what the software did.
+  const OutcomeClass order[] = {OutcomeClass::Contact, OutcomeClass::Violation,     OutcomeClass::Crash,
+                                OutcomeClass::Hang,    OutcomeClass::Indeterminate, OutcomeClass::EngineError,
+                                OutcomeClass::Stuck};
+  std::uint32_t before = 1000;
+  for (const OutcomeClass id : order) {
+    RunRecord run;
+    for (const RunEnd& end : kRunEnds) run.outcome.*end.flag = end.seriousness <= find_run_end(id)->seriousness;
+    const auto failing = FailingRun::of(run);
+    ASSERT_TRUE(failing.has_value());
+    EXPECT_EQ(failing->end, id);
+    EXPECT_LT(failing->seriousness(), before) << failing->severity();
+    before = failing->seriousness();
+  }
+}
+
 RunRecord run_with(std::uint64_t index, std::vector<Violation> violations) {
   RunRecord run;
   run.run_index = index;

@@ -70,7 +70,7 @@ TEST(JUnitReport, HasWhatAPipelineAsksForAsProperties) {
   std::map<std::string, std::string> properties;
   for (const auto& property : suite.child("properties"))
     properties[property.attribute("name").as_string()] = property.attribute("value").as_string();
-  EXPECT_EQ(properties["exit_code"], "1");
+  EXPECT_EQ(properties["exit_code"], "17") << "as the program says";
   EXPECT_EQ(properties["archive"], "night.fp");
   EXPECT_EQ(properties["simulated_agv_hours"], "100.0");
   EXPECT_EQ(properties["engine_errors"], "0");
@@ -148,7 +148,7 @@ TEST(JUnitReport, SaysHowManyOutcomesStayedUnknown) {
 
 TEST(JUnitReport, AnErrorOfTheEngineIsNoFailure) {
   auto input = four_gates("safe");
-  input.exit_code = 3;
+  input.audits.add_audit(4, false);
   const auto document = parsed(render_junit(input));
   EXPECT_EQ(document.child("testsuites").attribute("errors").as_int(), 4);
 }

@@ -78,13 +78,15 @@ inline void violate(RunRecord& run, std::int64_t clearance_um = 70'000, bool con
 
 using Change = std::function<void(RunRecord&)>;
 
+inline constexpr int kExitCode = 17;  // of no verdict: reports repeat what the program says
+
 // The judged evidence of all planned replicates, each run changed by `change`.
 inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellRecord>& cells,
                              const std::vector<GateRecord>& gates, const Change& change = {},
                              std::uint64_t extra_runs = 0, std::uint64_t missing_runs = 0) {
   ReportInput input{
-      "night.fp", campaign, Evidence({campaign, cells, gates}), Breakdown(cells), AuditTally(campaign, cells), {}, {},
-      0,          4};
+      "night.fp", campaign, Evidence({campaign, cells, gates}), Breakdown(cells), AuditTally(campaign, cells), {},
+      {},         0};
   for (std::uint64_t i = 0; i < campaign.replicates * cells.size() + extra_runs - missing_runs; ++i) {
     auto run = clean_run(i, cells.size());
     run.factors = cells[run.cell].lowest;
@@ -96,7 +98,7 @@ inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellReco
     ++input.stored_runs;
   }
   input.gates = input.evidence.judge_all();
-  input.exit_code = exit_code(input.evidence, input.gates);
+  input.exit_code = kExitCode;
   return input;
 }
 

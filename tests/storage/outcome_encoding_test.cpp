@@ -99,6 +99,24 @@ TEST(OutcomeClass, is_the_worst_end_point) {
   EXPECT_EQ(outcome.outcome_class(), OutcomeClass::EngineError);
 }
 
+TEST(OutcomeClass, follows_the_weights_and_no_two_ends_weigh_the_same) {
+  std::set<std::uint32_t> weights, seriousness;
+  for (const RunEnd& a : kRunEnds) {
+    weights.insert(a.weight);
+    seriousness.insert(a.seriousness);
+    for (const RunEnd& b : kRunEnds) {
+      Outcome outcome;
+      outcome.*a.flag = outcome.*b.flag = true;
+      EXPECT_EQ(outcome.outcome_class(), a.weight > b.weight ? a.id : b.id);
+      EXPECT_EQ(outcome.is_failure(), a.weight > b.weight ? a.is_failure : b.is_failure);
+    }
+  }
+  EXPECT_EQ(weights.size(), kRunEnds.size());
+  EXPECT_EQ(seriousness.size(), kRunEnds.size());
+  EXPECT_EQ(find_run_end(OutcomeClass::Clean), nullptr);
+  EXPECT_FALSE(Outcome().is_failure());
+}
+
 TEST(OutcomeClass, names_are_all_different) {
   std::set<std::string> names;
   for (int i = 0; i <= static_cast<int>(OutcomeClass::Clean); ++i) names.insert(name_of(static_cast<OutcomeClass>(i)));

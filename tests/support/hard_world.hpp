@@ -63,6 +63,9 @@ inline WorldSpec hard_world(double horizon_s) {
   f.freezes_per_agv_hour = 60.0;
   f.power_failures_per_agv_hour = 20.0;
   f.power_back_s = 20.0;
+  for (const RecurringFault& fault : kRecurringFaults) {
+    if (f.*fault.per_agv_hour == 0.0) f.*fault.per_agv_hour = 20.0;  // a kind that nobody has added here
+  }
   f.clock_offset_s = 1.0;
   f.clock_drift_ppm = 500.0;
   f.position_error_m = 0.05;

@@ -1,4 +1,4 @@
-#include "generators/worlds/world_fields.hpp"
+#include "generators/worlds/fault_rates.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/words.hpp"
+
+namespace fleetproof {
+
+// What a run may fail, and what a gate of a campaign counts. Incidents name the end point that they fail
+// (incident.hpp); violations and the flags of an outcome decide the others.
+enum class EndPoint : std::uint8_t {
+  Violation,
+  Contact,
+  HazardousContact,
+  Deadlock,
+  Livelock,
+  Starvation,
+  Standstill,
+  WrongLoad,
+  EmptyBattery,
+  Crash,
+  Hang,
+  Throughput
+};
+constexpr const char* name_of(EndPoint end_point) {
+  switch (end_point) {
+    case EndPoint::Violation:
+      return "violation";
+    case EndPoint::Contact:
+      return "contact";
+    case EndPoint::HazardousContact:
+      return "hazardous-contact";
+    case EndPoint::Deadlock:
+      return "deadlock";
+    case EndPoint::Livelock:
+      return "livelock";
+    case EndPoint::Starvation:
+      return "starvation";
+    case EndPoint::Standstill:
+      return "standstill";
+    case EndPoint::WrongLoad:
+      return "wrong-load";
+    case EndPoint::EmptyBattery:
+      return "empty-battery";
+    case EndPoint::Crash:
+      return "crash";
+    case EndPoint::Hang:
+      return "hang";
+    case EndPoint::Throughput:
+      return "throughput";
+  }
+  return kNoWord;
+}
+
+// Lack: in a run that fails it, AGVs had work and did not get it done.
+// Weight: which one a page tells first if a run fails several of them. Above 0: the fleet stalled, although nothing
+// says that its radio or its AGVs were out of order.
+struct EndPointInfo {
+  EndPoint id;
+  bool is_lack_of_progress;
+  std::uint32_t stall_weight;
+};
+inline constexpr auto kEndPoints = std::to_array<EndPointInfo>({
+    {EndPoint::Violation, false, 0},
+    {EndPoint::Contact, false, 0},
+    {EndPoint::HazardousContact, false, 0},
+    {EndPoint::Deadlock, true, 3},
+    {EndPoint::Livelock, true, 2},
+    {EndPoint::Starvation, true, 1},
+    {EndPoint::Standstill, true, 0},
+    {EndPoint::WrongLoad, false, 0},
+    {EndPoint::EmptyBattery, false, 0},
+    {EndPoint::Crash, false, 0},
+    {EndPoint::Hang, false, 0},
+    {EndPoint::Throughput, false, 0},
+});
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kEndPoints.size(); ++i) {
+        if (kEndPoints[i].id != kValuesOf<EndPoint>[i]) return false;
+      }
+      return kEndPoints.size() == kValuesOf<EndPoint>.size();
+    }(),
+    "each end point has one line, at its own number");
+
+constexpr const EndPointInfo& info_of(EndPoint end_point) { return kEndPoints.at(static_cast<std::size_t>(end_point)); }
+constexpr bool is_stall(EndPoint end_point) { return info_of(end_point).stall_weight > 0; }
+
+}  // namespace fleetproof
