@@ -68,7 +68,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   rooms["reports/sections"] = with(pages, subjects);
   rooms["reports/formats"] = with(pages, {"reports/sections"});
   rooms["reports/campaign_page"] = with(pages, {"reports/sections", "reports/markup"});
-  rooms["reports/replay_page"] = {"core/base", "reports/page", "reports/markup"};
+  rooms["reports/replay_page"] = {"core/base", "core/outcome", "reports/page", "reports/markup"};
   const std::set<std::string> reports =
       with(with(pages, subjects),
            {"reports/sections", "reports/formats", "reports/markup", "reports/campaign_page", "reports/replay_page"});

@@ -14,14 +14,14 @@
 namespace fleetproof {
 namespace {
 
-constexpr long kLongest_s = 1'000'000'000;
+constexpr long kLongestBudget_s = 1'000'000'000;
 
 // The whole number at the beginning of `text`, which it takes away; none if there is no digit, or if it is above
-// kLongest_s.
+// kLongestBudget_s.
 std::optional<long> take_number(std::string_view& text) {
   long value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || value < 0 || value > kLongest_s) return std::nullopt;
+  if (error != std::errc{} || value < 0 || value > kLongestBudget_s) return std::nullopt;
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return value;
 }
@@ -61,7 +61,7 @@ std::optional<std::vector<long>> clock_of(std::string_view text) {
 
 std::chrono::seconds duration_of(const std::string& text, const std::string& where) {
   const auto seconds = seconds_of(text);
-  if (!seconds || *seconds < 1 || *seconds > kLongest_s) {
+  if (!seconds || *seconds < 1 || *seconds > kLongestBudget_s) {
     throw InputError(
         where, fmt::format("{} is no duration of at least 1 s; write it as in 90, 45m or 5h30m", in_quotes(text)));
   }
