@@ -25,7 +25,9 @@ TEST(Incidents, AccuseTheFleetUnlessTheyAreItsCondition) {
   for (const IncidentKindInfo& info : incident_kinds()) {
     EXPECT_EQ(accuses(info.kind), info.role != IncidentRole::Condition) << info.name;
     EXPECT_EQ(is_link(info.kind), info.role == IncidentRole::Link) << info.name;
-    if (info.end_point) EXPECT_EQ(info.role, IncidentRole::Accusation) << info.name << " fails a run";
+    if (info.end_point) {
+      EXPECT_EQ(info.role, IncidentRole::Accusation) << info.name << " fails a run";
+    }
   }
 }
 
@@ -37,7 +39,9 @@ TEST(Incidents, FailTheEndPointsThatNothingElseDecides) {
   std::set<EndPoint> expected{EndPoint::WrongLoad, EndPoint::EmptyBattery};
   for (const EndPointInfo& info : kEndPoints) {
     if (info.is_lack_of_progress) expected.insert(info.id);
-    if (info.stall_weight > 0) EXPECT_TRUE(info.is_lack_of_progress) << name_of(info.id);
+    if (info.stall_weight > 0) {
+      EXPECT_TRUE(info.is_lack_of_progress) << name_of(info.id);
+    }
   }
   EXPECT_EQ(failed, expected);
 }

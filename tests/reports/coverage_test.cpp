@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "reports/formats/report_formats.hpp"
 #include "reports/sections/coverage_section.hpp"
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/support/at_seconds.hpp"

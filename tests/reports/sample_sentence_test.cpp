@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reports/formats/report_formats.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
 namespace fleetproof::sample_sentence_test {
