@@ -54,7 +54,7 @@ TEST(RunOrder, IsWhatWasEncoded) {
   const RunOrder decoded = decode_order(encode(order));
   EXPECT_EQ(decoded.run_index, order.run_index);
   EXPECT_EQ(decoded.known_ends, order.known_ends);
-  EXPECT_TRUE(decoded.record && decoded.run.fates);
+  EXPECT_TRUE(decoded.record && decoded.fates);
   EXPECT_EQ(decoded.scenario.layout_digest, 5U);
   EXPECT_EQ(decoded.scenario.layout, "a plant");
   EXPECT_EQ(decoded.scenario.scenario, "{}");
