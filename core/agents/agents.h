@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* The reference agents by number, from 0 on: first the others, then those with a planted fault. Null after the last. */
+/* The reference agents by number, from 0 on; those with a planted fault come last. Null after the last. */
 const fp_agent_type* fp_reference_agent(uint32_t number);
 /* Those that are hull-lock with a planted fault, from 0 on. Null after the last. */
 const fp_agent_type* fp_faulty_agent(uint32_t number);

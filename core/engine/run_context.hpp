@@ -19,7 +19,7 @@ namespace fleetproof {
 // What the draws of the motion stream are for; each is keyed by topic, AGV and number.
 enum class MotionTopic : std::uint32_t { Speed = 1, Settling, Transfer, Position };
 
-// How long a body for which the floor has no room waits until it tries again; an operator, equally.
+// If the floor has no room for a body or for what an operator does, it is tried again after this time.
 constexpr Duration kBodyTriesAgain = std::chrono::seconds(1);
 
 // What all parts of one run share: scenario, clock, queue, world, trace, counters, and the status of each AGV.
