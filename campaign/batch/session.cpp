@@ -48,9 +48,11 @@ CampaignResult Session::run(SessionPolicy& policy, TaskRange places) {
 }
 
 void Session::simulate(SessionPolicy& policy, TaskRange places) {
+  // Worker threads simulate; this thread alone counts, stores and prints.
   places.workers = options_.workers;
   places.stretch = stretch_;
   TaskPool<RunRecord> pool(std::move(places), [&](std::uint64_t place) { return runs_(policy.run_at(place)); });
+  // Progress names the runs under way by their run index; the pool knows only their places in the task list.
   const UnderWay under_way = [&] {
     std::vector<RunUnderWay> runs;
     for (const TaskUnderWay& task : pool.under_way()) runs.push_back({policy.run_at(task.index), task.since_s});
@@ -68,6 +70,7 @@ void Session::simulate(SessionPolicy& policy, TaskRange places) {
                     look();
                   }
                 });
+  // All runs that were handed out have finished, also after a stop.
   result_.threads = pool.threads_seen();
   result_.progress.elapsed_s = elapsed_s();
 }
@@ -80,6 +83,7 @@ void Session::finish_audits(SessionPolicy& policy) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     tick_if_due(policy, [] { return std::vector<RunUnderWay>(); });
   }
+  // No audit is under way, or a stop left some open. These are counted, and the others are stored.
   result_.progress.audits_open = audits_.open_count();
   audits_.abandon();
   keep_findings(policy);

@@ -115,6 +115,7 @@ bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> byte
   if (sender >= neighbours_.fleet_count()) return false;
   const std::optional<Message> message = decode(bytes, std::as_const(neighbours_).of(sender).way_bytes);
   if (!message) return false;
+  // The message is valid as a whole. Only now may it change what this AGV knows of the sender.
   const Neighbours::News news = neighbours_.note(sender, *message, controller_.now_ns());
   if (news == Neighbours::News::Refused) return false;
   if (news == Neighbours::News::Changed) {
@@ -140,6 +141,7 @@ bool LockProtocol::receive(std::uint32_t sender, std::span<const std::byte> byte
     case MessageKind::Roll:
       break;
   }
+  // All that the message says is known. It may be the consent that was missing.
   if (zones_) zones_->hear(sender, *message);
   note_consent(sender);
   return true;
@@ -282,6 +284,7 @@ bool LockProtocol::settle() {
 bool LockProtocol::all_consent() {
   if (!look_at_all_ && options_.consent.senders_count && options_.consent.silence_consents_after_ns == 0) return false;
   look_at_all_ = false;
+  // Every AGV is judged anew. One that must consent for the first time is asked now, so its consent is missing.
   const std::int64_t now_ns = controller_.now_ns();
   const bool first = !asked_;
   missing_ = 0;
@@ -296,6 +299,7 @@ bool LockProtocol::all_consent() {
     n.request_repeats = {};
     to_ask_.push_back(agv);
   });
+  // `to_ask_` holds the AGVs that have not been asked in this epoch. One message may go to all of them.
   if (first && missing_ == 0) controller_.sometimes("unasked");
   if (first && !to_ask_.empty()) controller_.sometimes("negotiation");
   asked_ = true;

@@ -96,6 +96,8 @@ class Walk {
                       second = motion_from(b_, body_b_, now_, to_, sense_);
     if (measured_) axis_ = Axis(apart_, first, second);
     GapBound bound(first, second, axis_);
+    // An axis from an earlier instant may fit badly by now. Then the bound is near the level although the bodies are
+    // not, and a new measurement pays.
     if (!measured_ && !bound.exact() && bound.now_m() - level_m_ < kWorn * (apart_.clearance_m - level_m_)) {
       measure();
       if (apart_.clearance_m < level_m_) return;

@@ -134,6 +134,7 @@ void ClosestSearch::narrow(Sample left, Sample right, SimTime to) {
   int slow = 0;
   for (int i = 0; i < kMost && !below(0.0); ++i) {
     const double width = seconds_between(left.hit.at, right.hit.at), fall = left.rate_mps, rise = right.rate_mps;
+    // Three guesses for the minimum. The half is safe, the kink is best for two lines, the cubic for smooth curves.
     double x = 0.5 * width;
     if (rise > 0.0) {
       // The clearance is not convex, but nearly. Therefore the point where the tangents meet is a fair estimate of the
@@ -150,6 +151,8 @@ void ClosestSearch::narrow(Sample left, Sample right, SimTime to) {
         x = width - width * (rise + d2 - d1) / (rise - fall + 2.0 * d2);
       }
     }
+    // The sample replaces the end on its side, so the minimum stays between both. If the interval shrinks by less than
+    // half, the next round takes another guess.
     const SimTime t = after(left.hit.at, std::clamp(x, 0.0, width), right.hit.at);
     if (t == left.hit.at || t == right.hit.at) return;
     const Hit hit = measure(t);

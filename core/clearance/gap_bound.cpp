@@ -201,11 +201,13 @@ void GapBound::tighten_by_pivots(const PhaseMotion& frame, const PhaseMotion& ot
   const double w = other.turning_rad_s() - frame.turning_rad_s(), a = other.turning_rad_s2() - frame.turning_rad_s2();
   const double lasts_s = std::min(frame.lasts_s, other.lasts_s),
                top_turn3 = frame.top_turning.rad_s3 + other.top_turning.rad_s3;
+  // The largest turning of the bodies against each other, up to the end of the phase.
   const double top_a = std::abs(a) + top_turn3 * lasts_s;
   const double top_w =
       top_turn3 > 0.0 ? std::abs(w) + top_a * lasts_s : std::max(std::abs(w), std::abs(w + a * lasts_s));
   const TurningBound pivots(frame.top_turning.rad_s, frame.top_turning.rad_s2, frame.top_turning.rad_s3);
   const TurningBound corners(top_w, top_a, top_turn3);
+  // Pivots stand still unless a curvature changes. Then their drift costs the bound something.
   double drift2 = 0.0, drift3 = 0.0;
   if (frame.varies || other.varies) {
     const double v = pivot.top_mps + origin.top_mps, v2 = pivot.top_mps2 + origin.top_mps2;
@@ -213,6 +215,7 @@ void GapBound::tighten_by_pivots(const PhaseMotion& frame, const PhaseMotion& ot
     drift2 = v2 + 2.0 * turning * v + pivots.second * v * lasts_s;
     drift3 = pivot.top_mps3 + origin.top_mps3 + 3.0 * turning * v2 + 3.0 * second * v + pivots.third * v * lasts_s;
   }
+  // Each corner has a bound already. The one through the pivots replaces a part of it only where it is tighter.
   const std::array<Vec2, 4> arms = corner_arms(other.body);
   for (std::size_t i = 0; i < 4; ++i) {
     const double radius_m = (other.body.centre_m + arms[i] - pivot.position_m).norm();

@@ -101,6 +101,7 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   PhaseMotion motion;
   motion.body = body;
   motion.centre_ahead_m = piece.footprint.centre_ahead_m;
+  // A body at rest is the default: it keeps its place up to the limit.
   motion.change = limit;
   motion.lasts_s = to_seconds(Duration{std::abs((limit - t).count())});
   const bool forward = sense == TimeSense::Forward;
@@ -108,6 +109,8 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   const Elapsed arrival = piece.profile.duration().count();
   // At rest, also before it has begun to move (seen backwards) and after it has arrived.
   if (piece.manner == Manner::Rest || (forward ? now >= arrival : now <= 0)) return motion;
+  // The body moves now. Or, seen backwards, it stands after its arrival: then it rests until then. What follows holds
+  // for one phase of the profile and one part of the curve.
   const bool has_arrived = now > arrival;
   const Stretch stretch = has_arrived ? Stretch{arrival} : stretch_from(piece, now, sense);
   const Elapsed change = forward ? std::min(stretch.change, last) : std::max(stretch.change, last);
@@ -120,6 +123,7 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   const double later = piece.profile.speed_in_phase(stretch.phase, to_seconds(Duration{change}));
   motion.top_speed = std::max(std::abs(motion.speed), std::abs(later));
   motion.top_acceleration = std::abs(motion.acceleration);
+  // The motion along the way is known. What is left is how the body turns: on the spot, or with a bend.
   motion.turns_on_spot = piece.manner == Manner::Turn;
   if (motion.turns_on_spot) {
     motion.curvature = 1.0;

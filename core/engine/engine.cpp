@@ -39,6 +39,8 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
   const SimTime end = kStart + run_.scenario.horizon;
   Event event;
   while (true) {
+    // Arrivals and timers are most events: they are taken from the queue without a copy into an Event. An event at the
+    // end of the run still takes place.
     if (run_.queue.arrival_comes_first()) {
       const EventQueue::Arrival& first = run_.queue.first_arrival();
       if (first.at > end) break;
@@ -59,6 +61,7 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
       handle(event);
     }
   }
+  // No event is left before the end. Times that are still open are counted up to the end, before the laws get the rest.
   run_.now = end;
   parts_.declarations.close_books();
   parts_.battery.close_books();
@@ -82,6 +85,7 @@ inline void Engine::goes_on_until(SimTime at) {
     parts_.contacts.predict(agv);
     parts_.battery.predict_empty(agv);
   }
+  // Faults and the operator concern the whole fleet and come last: this order is part of the digest.
   parts_.faults.schedule();
   if (run_.scenario.operator_help.on) run_.queue.push(kStart, EntityId{}, Event::Kind::OperatorLooks);
 }
