@@ -18,14 +18,14 @@ constexpr Duration kCoarseStep = std::chrono::milliseconds(40), kFineStep = std:
 constexpr Duration kBefore = std::chrono::seconds(12), kAfter = std::chrono::seconds(2),
                    kFine = std::chrono::milliseconds(400);
 
-// Two bodies that came close.
-struct Meeting {
+// When two bodies were close to each other.
+struct CloseTimes {
   EntityId a, b;
   SimTime first, closest_at, last;
   std::int64_t clearance_um = 0;  // at closest_at
 };
 
-std::set<SimTime> instants_of(const Meeting& m, SimTime end) {
+std::set<SimTime> instants_of(const CloseTimes& m, SimTime end) {
   std::set<SimTime> instants{m.first, m.closest_at, std::min(m.last, m.closest_at + kAfter)};
   const SimTime from = std::max(kStart, m.first - kBefore);
   const SimTime to = std::min(end, std::max(m.closest_at, std::min(m.last, m.first + kAfter)) + kAfter);
@@ -36,7 +36,7 @@ std::set<SimTime> instants_of(const Meeting& m, SimTime end) {
 }
 
 // Nothing is drawn of bodies that are together on the floor for an instant only.
-void add_curve(web::Film& film, const PiecesOfBodies& bodies, const Meeting& m, SimTime end) {
+void add_curve(web::Film& film, const PiecesOfBodies& bodies, const CloseTimes& m, SimTime end) {
   web::ClearanceCurve curve{m.a.index(), m.b.index(), {}};
   for (const SimTime t : instants_of(m, end)) {
     const Piece *a = piece_at(bodies, m.a, t), *b = piece_at(bodies, m.b, t);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr Duration kShapeStep = std::chrono::milliseconds(1);
 constexpr Duration kAround = std::chrono::seconds(2);  // about a violation, if a size is varied
-constexpr double kAtStation_m = 1e-3;
+constexpr double kSamePlace_m = 1e-3;
 
 // All that a body might have covered at an instant, had one thing been otherwise.
 struct Shapes {
@@ -175,7 +175,7 @@ std::optional<MapPlace> map_place(const Scenario& scenario, const PiecesOfBodies
   const Vec2 position = piece->pose_at(at).position_m;
   if (piece->manner != Manner::Drive) {
     for (std::size_t i = 0; i < stations.size(); ++i) {
-      if ((stations[i].position_m - position).norm() < kAtStation_m)
+      if ((stations[i].position_m - position).norm() < kSamePlace_m)
         return MapPlace{"at " + printable(stations[i].name), {StationId{i}}};
     }
   }

@@ -28,7 +28,7 @@ constexpr Topic kLocationPlaces{
     "{0} locations stand beside the paths ({1}); here an AGV serves them at the linked points"};
 constexpr Topic kOutgoing{"{0} points list outgoing paths that do not start there ({1}); the ends of the paths count"};
 constexpr Topic kProperties{"{0} properties are left out (keys: {1})"};
-constexpr Topic kNumbers{"the numbers (\"id\") of {0} elements are left out ({1})"};
+constexpr Topic kElementIds{"the numbers (\"id\") of {0} elements are left out ({1})"};
 constexpr Topic kEditor{"labels, colours, symbols, layers and other aids of the editor are left out"};
 constexpr Topic kDrawsNothing{"{0} elements draw something that is not in the model ({1}); they are left out"};
 constexpr Topic kSecond{"{0} elements stand there a second time ({1}); the first counts"};
@@ -53,7 +53,7 @@ constexpr OpentcsRule kOpentcsRules[] = {
     {"point", "positionZ", &kPointHeights, "0"},
     {"point", "zPosition", &kPointHeights, "0"},
     {"point", "vehicleOrientationAngle"},
-    {"point", "id", &kNumbers},
+    {"point", "id", &kElementIds},
     {"point/maxVehicleBoundingBox", "*", &kSizes},
     {"point/vehicleEnvelope", "*", &kEnvelopes},
     {"point/property", "*", &kProperties},
@@ -74,7 +74,7 @@ constexpr OpentcsRule kOpentcsRules[] = {
     {"path", "maxVelocity"},
     {"path", "maxReverseVelocity"},
     {"path", "routingCost", &kCosts, "1"},
-    {"path", "id", &kNumbers},
+    {"path", "id", &kElementIds},
     {"path/typeMaxVelocity", "*", &kByType},
     {"path/typeMaxReverseVelocity", "*", &kByType},
     {"path/typeLock", "*", &kByType},
@@ -89,7 +89,7 @@ constexpr OpentcsRule kOpentcsRules[] = {
     {"vehicle", "*", &kVehicles},
     {"vehicleType", "*", &kVehicles},
     {"locationType", "name"},
-    {"locationType", "id", &kNumbers},
+    {"locationType", "id", &kElementIds},
     {"locationType", "locationNamePrefix", &kEditor},
     {"locationType/allowedOperation", "name"},
     {"locationType/allowedOperation/property", "*", &kProperties},
@@ -105,7 +105,7 @@ constexpr OpentcsRule kOpentcsRules[] = {
     {"location", "yPosition", &kLocationPlaces},
     {"location", "positionZ", &kPointHeights, "0"},
     {"location", "zPosition", &kPointHeights, "0"},
-    {"location", "id", &kNumbers},
+    {"location", "id", &kElementIds},
     {"location/link", "point"},
     {"location/link/allowedOperation", "name"},
     {"location/link/allowedOperation/property", "*", &kProperties},
@@ -113,7 +113,7 @@ constexpr OpentcsRule kOpentcsRules[] = {
     {"location/locationLayout", "*", &kEditor},
     {"block", "name"},
     {"block", "type"},
-    {"block", "id", &kNumbers},
+    {"block", "id", &kElementIds},
     {"block/member", "name"},
     {"block/property", "*", &kProperties},
     {"block/blockLayout", "*", &kEditor},
@@ -122,7 +122,7 @@ constexpr OpentcsRule kOpentcsRules[] = {
     {"visualLayout", "scaleX"},
     {"visualLayout", "scaleY"},
     {"visualLayout", "name", &kEditor},
-    {"visualLayout", "id", &kNumbers},
+    {"visualLayout", "id", &kElementIds},
     {"visualLayout/color", "*", &kEditor},
     {"visualLayout/layer", "*", &kEditor},
     {"visualLayout/layerGroup", "*", &kEditor},

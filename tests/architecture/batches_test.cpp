@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <regex>
+#include <set>
 
 #include "tests/architecture/source_outline.hpp"
 #include "tests/architecture/source_tree.hpp"
@@ -45,7 +46,69 @@ std::vector<std::string> used_twice(const std::vector<Source>& files) {
   return found;
 }
 
+// The types and constants of a header that every source can name which sees the header.
+std::vector<std::string> shared_names(const Source& header) {
+  static const std::regex pattern(R"(^inline constexpr .*?\b(k[A-Z]\w*)(\[\w*\])?( =|\{))");
+  std::vector<std::string> found;
+  for (const NamedType& type : outline_of(header.lines).types) found.push_back(type.name);
+  for (const std::string& line : header.lines) {
+    std::smatch match;
+    if (std::regex_search(line, match, pattern)) found.push_back("fleetproof::" + match[1].str());
+  }
+  return found;
+}
+
+// The headers that the files include, and those that these include.
+std::set<const Source*> headers_of(const std::vector<const Source*>& files,
+                                   const std::map<std::string, const Source*>& by_path) {
+  std::set<const Source*> seen;
+  std::vector<const Source*> left = files;
+  while (!left.empty()) {
+    const Source& file = *left.back();
+    left.pop_back();
+    if (!seen.insert(&file).second) continue;
+    for (const std::string& line : file.lines) {
+      if (!line.starts_with("#include \"")) continue;
+      const auto found = by_path.find(line.substr(10, line.rfind('"') - 10));
+      if (found != by_path.end()) left.push_back(found->second);
+    }
+  }
+  std::erase_if(seen, [](const Source* file) { return !file->is_header(); });
+  return seen;
+}
+
+// A local name that is also the name of something in a header: in a batch with a source that includes the header, it
+// means two things.
+std::vector<std::string> hides_a_shared_name(const std::vector<Source>& files) {
+  std::map<std::string, const Source*> by_path;
+  std::map<std::string, std::vector<const Source*>> folders;
+  for (const Source& source : files) {
+    if (source.path.starts_with("tests/")) continue;
+    by_path[source.path] = &source;
+    folders[std::filesystem::path(source.path).parent_path().generic_string()].push_back(&source);
+  }
+  std::vector<std::string> found;
+  for (const auto& [folder, members] : folders) {
+    std::map<std::string, std::string> shared;
+    for (const Source* header : headers_of(members, by_path)) {
+      for (const std::string& name : shared_names(*header)) shared.emplace(name, header->path);
+    }
+    for (const Source* source : members) {
+      if (source->is_header()) continue;
+      for (const std::string& name : local_names(*source)) {
+        const auto at = shared.find(name.starts_with("fleetproof") ? name : "fleetproof::" + name);
+        if (at != shared.end()) found.push_back(name + " in " + source->path + " and in " + at->second);
+      }
+    }
+  }
+  return found;
+}
+
 TEST(Batches, LocalNamesAreUniqueInTheirFolder) { EXPECT_EQ(used_twice(sources()), std::vector<std::string>{}); }
+
+TEST(Batches, ALocalNameIsNoNameOfAHeaderInReach) {
+  EXPECT_EQ(hides_a_shared_name(sources()), std::vector<std::string>{});
+}
 
 // Tests share many short names: each of their files has a namespace of its own.
 TEST(Batches, ATestFileHasANamespaceOfItsOwn) {
@@ -70,6 +133,26 @@ TEST(BatchesFind, ANameOfTwoSources) {
   EXPECT_EQ(find({"namespace {", "class C {", "};", "}"}), 1U);
   EXPECT_EQ(find({"namespace {", "constexpr double kD = kA;", "}"}), 0U);
   EXPECT_EQ(find({"void f() {", "  constexpr double kA = 1;", "}"}), 0U);
+}
+
+TEST(BatchesFind, ALocalNameOfAHeaderInReach) {
+  const Source header{"core/base/a.hpp",
+                      {"namespace fleetproof {", "inline constexpr int kA = 1;", "struct C {", "};", "}"}};
+  const auto find = [&](const std::vector<std::string>& lines, const std::string& include) {
+    return hides_a_shared_name(
+               {header, {"core/motion/a.cpp", lines}, {"core/motion/b.cpp", {"#include \"" + include + "\""}}})
+        .size();
+  };
+  const std::vector<std::string> type{
+      "namespace fleetproof {", "namespace {", "struct C {", "};", "}  // namespace", "}"};
+  const std::vector<std::string> constant{"namespace fleetproof {", "namespace {", "constexpr int kA = 2;",
+                                          "}  // namespace", "}"};
+  EXPECT_EQ(find(type, "core/base/a.hpp"), 1U);
+  EXPECT_EQ(find(constant, "core/base/a.hpp"), 1U);
+  EXPECT_EQ(find(type, "core/base/b.hpp"), 0U);
+  EXPECT_EQ(
+      find({"namespace fleetproof {", "namespace {", "struct D {", "};", "}  // namespace", "}"}, "core/base/a.hpp"),
+      0U);
 }
 
 }  // namespace
