@@ -7,6 +7,7 @@
 
 #include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 
 namespace fleetproof {
 namespace {
@@ -33,9 +34,9 @@ bool has_fixed_gate(const CampaignRecord& campaign) {
                              [](const GateRecord& gate) { return gate.method == GateMethod::Fixed; });
 }
 
-std::string short_text(const nlohmann::json& value) {
+std::string short_text(const SortedJson& value) {
   constexpr std::size_t kLongest = 60;
-  std::string text = value.dump();
+  std::string text = json_text(value);
   if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
   return text;
 }
@@ -44,8 +45,8 @@ std::string short_text(const nlohmann::json& value) {
 
 std::string plan_differences(const CampaignRecord& stored, const CampaignRecord& now) {
   // Read and written again: a key that an older version did not know has its default.
-  const nlohmann::json before = nlohmann::json::parse(plan_text(parse_plan(stored.plan_json))).flatten();
-  const nlohmann::json after = nlohmann::json::parse(now.plan_json).flatten();
+  const SortedJson before = read_sorted_json(plan_text(parse_plan(stored.plan_json))).flatten();
+  const SortedJson after = read_sorted_json(now.plan_json).flatten();
   std::string text;
   std::size_t count = 0;
   const auto differs = [&](const std::string& key, const std::string& was, const std::string& is) {

@@ -13,12 +13,11 @@
 
 #include "campaign/run/engine_identity.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "storage/line_log.hpp"
 
 namespace fleetproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char *kFresh = "fresh", *kFixed = "fixed";
 constexpr std::string_view kFirstWords = "{\"started_utc\":";
@@ -56,7 +55,7 @@ MachineFacts machine_facts() {
   return {cpu_line("model name"), known_instructions(), std::string("glibc ") + gnu_get_libc_version()};
 }
 
-std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string line_of(const Json& json) { return json_text(json) + "\n"; }
 
 Json json_of(const WorkerLoss& loss) {
   return {{"lost_run", loss.run_index},
@@ -71,7 +70,7 @@ Json json_of(const WorkerLoss& loss) {
 
 // The file of an agent in one line of a log; empty: the line has none. The line may be of any kind, or damaged.
 std::string file_in(const std::string& line, const std::string& agent) {
-  const Json json = Json::parse(line, nullptr, false);
+  const Json json = read_json(line);
   const Json* at = &json;
   for (const std::string& key : {std::string("plugins"), agent, std::string("file")}) {
     const auto found = at->find(key);  // the end, if `at` is no object
@@ -148,7 +147,7 @@ std::string last_text(const std::string& archive_path, const char* key) {
   std::ifstream file(session_log_path(archive_path));
   std::string found;
   for (std::string line; std::getline(file, line);) {
-    const Json json = Json::parse(line, nullptr, false);
+    const Json json = read_json(line);
     if (!json.is_object() || !json.contains(key) || !json[key].is_string()) continue;
     found = json[key].get<std::string>();
   }

@@ -15,6 +15,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "reports/formats/csv_tables.hpp"
 #include "reports/formats/report_formats.hpp"
 #include "reports/formats/report_schema.hpp"
@@ -89,22 +90,22 @@ class EvidenceFolder {
 std::string identity_text(const ReportInput& input) {
   const CampaignRecord& campaign = input.campaign;
   const auto& own = input.attempts.own;
-  const nlohmann::ordered_json json{{"campaign", campaign.name},
-                                    {"campaign_file_sha256", sha256_of_file(input.archive_path)},
-                                    {"plan_hash", hex_text(campaign.plan_hash)},
-                                    {"plan_fixed_utc", own ? own->begun_utc : ""},
-                                    {"release", own ? own->release : ""},
-                                    {"seed", campaign.seed},
-                                    {"seed_follows_from_release_and_plan", own && own->fresh_seed},
-                                    {"overrides", input.attempts.overrides},
-                                    {"agents_of_shared_objects", campaign.plugin_agents},
-                                    {"engine",
-                                     {{"version", campaign.engine.version},
-                                      {"program_sha256", campaign.engine.program_sha256},
-                                      {"compiler", campaign.engine.compiler},
-                                      {"flags", campaign.engine.flags},
-                                      {"libraries", campaign.engine.libraries}}}};
-  return printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n";
+  const Json json{{"campaign", campaign.name},
+                  {"campaign_file_sha256", sha256_of_file(input.archive_path)},
+                  {"plan_hash", hex_text(campaign.plan_hash)},
+                  {"plan_fixed_utc", own ? own->begun_utc : ""},
+                  {"release", own ? own->release : ""},
+                  {"seed", campaign.seed},
+                  {"seed_follows_from_release_and_plan", own && own->fresh_seed},
+                  {"overrides", input.attempts.overrides},
+                  {"agents_of_shared_objects", campaign.plugin_agents},
+                  {"engine",
+                   {{"version", campaign.engine.version},
+                    {"program_sha256", campaign.engine.program_sha256},
+                    {"compiler", campaign.engine.compiler},
+                    {"flags", campaign.engine.flags},
+                    {"libraries", campaign.engine.libraries}}}};
+  return shown_json(json);
 }
 
 // The file beside the results file as it is; empty if there is none.

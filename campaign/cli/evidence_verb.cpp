@@ -8,6 +8,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof::cli {
@@ -58,7 +59,7 @@ std::string usage_of(const EvidenceMethod& method) {
 int list_methods(bool json) {
   std::string text =
       "usage: fleetproof evidence METHOD ARGUMENTS [--json]; the arguments: fleetproof evidence --help\n";
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  Json all = Json::array();
   for (const EvidenceMethod& method : evidence_methods()) {
     if (json) {
       all.push_back({{"name", method.name}, {"description", method.description}, {"usage", usage_of(method)}});
@@ -66,7 +67,7 @@ int list_methods(bool json) {
       text += fmt::format("\n{}\n    {}\n    {}\n", method.name, method.description, usage_of(method));
     }
   }
-  put_text(json ? nlohmann::ordered_json{{"schema_version", 1}, {"methods", all}}.dump(2) + "\n" : text);
+  put_text(json ? json_text({{"schema_version", 1}, {"methods", all}}, 2) + "\n" : text);
   return kDemonstrated;
 }
 
@@ -113,7 +114,7 @@ int evidence(const EvidenceWords& words) {
   }
   put_text(
       printable_json(fmt::format("{{\n  \"schema_version\": 1,\n  \"method\": \"{}\",\n  \"arguments\": {},\n{}\n}}\n",
-                                 method.name, nlohmann::json(given).dump(), figures.json_members("  "))));
+                                 method.name, json_text(SortedJson(given)), figures.json_members("  "))));
   return kDemonstrated;
 }
 

@@ -14,6 +14,7 @@
 #include "campaign/explain/sentences.hpp"
 #include "campaign/shrink/shrink.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 
 namespace fleetproof::cli {
@@ -32,13 +33,13 @@ std::string file_in(const std::string& folder, const std::string& name) {
 std::string name_of_claim(std::size_t number) { return fmt::format("{:03}", number); }
 
 // The drives that the AGVs of the failure were on, and the numbers of the runs in which each begins as it did, or not.
-nlohmann::ordered_json set_offs_json(const Explanation& explanation) {
+Json set_offs_json(const Explanation& explanation) {
   const auto claims = claims_of(explanation);
   const auto number_of = [&](const Claim& claim) { return std::ranges::find(claims, &claim) - claims.begin() + 1; };
   const auto& map = *explanation.small.scenario.map;
-  auto all = nlohmann::ordered_json::array();
+  auto all = Json::array();
   for (const SetOff& set_off : explanation.set_offs) {
-    auto held = nlohmann::ordered_json::array(), begins = held;
+    auto held = Json::array(), begins = held;
     for (const Leave& leave : set_off.leaves) {
       for (const Claim& claim : leave.claims) held.push_back(number_of(claim));
       if (leave.without_others) begins.push_back(number_of(*leave.without_others));
@@ -54,15 +55,15 @@ nlohmann::ordered_json set_offs_json(const Explanation& explanation) {
   return all;
 }
 
-nlohmann::ordered_json to_json(const Explanation& explanation) {
+Json to_json(const Explanation& explanation) {
   const Scenario& small = explanation.small.scenario;
-  nlohmann::ordered_json json = {{"schema_version", 1},
-                                 {"failure", text_of(explanation.pattern.kind)},
-                                 {"telling_words", explanation.pattern.words.telling},
-                                 {"at_s", to_seconds(explanation.original.failure.at - kStart)},
-                                 {"small_at_s", to_seconds(explanation.small.failure.at - kStart)},
-                                 {"sentences", sentences_of(explanation)}};
-  json["messages"] = nlohmann::ordered_json::array();
+  Json json = {{"schema_version", 1},
+               {"failure", text_of(explanation.pattern.kind)},
+               {"telling_words", explanation.pattern.words.telling},
+               {"at_s", to_seconds(explanation.original.failure.at - kStart)},
+               {"small_at_s", to_seconds(explanation.small.failure.at - kStart)},
+               {"sentences", sentences_of(explanation)}};
+  json["messages"] = Json::array();
   for (const MessageNeed& need : explanation.messages) {
     const GivenFate& fate = need.message.fate;
     json["messages"].push_back({{"number", need.message.number},
@@ -79,17 +80,17 @@ nlohmann::ordered_json to_json(const Explanation& explanation) {
     json["messages"].back()["saves_delay_s"] = to_seconds(need.latest->in_time);
     json["messages"].back()["too_late_delay_s"] = to_seconds(need.latest->too_late);
   }
-  json["runs"] = nlohmann::ordered_json::array();
+  json["runs"] = Json::array();
   for (const Claim* claim : claims_of(explanation))
     json["runs"].push_back(
         {{"number", json["runs"].size() + 1}, {"what", claim->sentence}, {"outcome", claim->outcome}});
   json["set_offs"] = set_offs_json(explanation);
-  json["shares"] = nlohmann::ordered_json::array();
+  json["shares"] = Json::array();
   for (const Share& share : explanation.shares)
     json["shares"].push_back(
         {{"if", share.what}, {"failing", share.failing()}, {"of", share.of}, {"failing_lucks", share.failing_lucks}});
   json["branches_each"] = kBranches;
-  json["curve_of_no_return"] = nlohmann::ordered_json::array();
+  json["curve_of_no_return"] = Json::array();
   for (const Branching& branching : explanation.no_return.curve)
     json["curve_of_no_return"].push_back({{"at_s", to_seconds(branching.at - kStart)},
                                           {"failing", branching.failing()},
@@ -153,9 +154,7 @@ int explain_case(const ExplainWords& words) {
   const Explanation explanation = explain(host, original, small.best, pattern);
   save_runs(words, source, host, explanation);
   if (words.json) {
-    put_text(
-        printable_json(to_json(explanation).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) +
-        "\n");
+    put_text(shown_json(to_json(explanation)));
     return kDemonstrated;
   }
   put("{}: {}\n", source.name, text_of(pattern.kind));

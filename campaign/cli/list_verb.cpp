@@ -9,6 +9,7 @@
 #include "campaign/plan/field_rows.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/families/mutated_import.hpp"
 #include "generators/formats/importer.hpp"
@@ -61,7 +62,7 @@ constexpr std::array kinds = {
 // Every key of campaign files and scenario files.
 int list_fields(bool json) {
   std::string text;
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  Json all = Json::array();
   for (const FieldRow& row : field_rows()) {
     if (json) {
       all.push_back({{"name", row.key},
@@ -75,7 +76,7 @@ int list_fields(bool json) {
                           row.expected, row.text);
     }
   }
-  if (json) text = nlohmann::ordered_json{{"schema_version", 1}, {"fields", all}}.dump(2) + "\n";
+  if (json) text = json_text({{"schema_version", 1}, {"fields", all}}, 2) + "\n";
   put_text(text);
   return kDemonstrated;
 }
@@ -92,7 +93,7 @@ int list(const std::string& what, bool json) {
     names.push_back(kind.name);
     if (kind.name != what) continue;
     std::string text;
-    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    Json all = Json::array();
     for (const Row& row : kind.rows()) {
       if (json) {
         all.push_back({{"name", row.name}, {"description", row.description}});
@@ -100,7 +101,7 @@ int list(const std::string& what, bool json) {
         text += fmt::format("{:<18} {}\n", row.name, row.description);
       }
     }
-    if (json) text = nlohmann::ordered_json{{"schema_version", 1}, {what, all}}.dump(2) + "\n";
+    if (json) text = json_text({{"schema_version", 1}, {what, all}}, 2) + "\n";
     put_text(text);
     return kDemonstrated;
   }

@@ -10,6 +10,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/shards/merge.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
@@ -85,13 +86,13 @@ int missing(const MissingWords& words) {
     shards = shards_of(numbers, chunks.grid(), count);
   }
   if (words.json) {
-    const nlohmann::ordered_json json = {{"schema_version", 1},
-                                         {"chunks", chunks.grid().count()},
-                                         {"chunk_runs", chunks.grid().chunk_runs()},
-                                         {"missing", numbers},
-                                         {"shards", count},
-                                         {"run_again", shards}};
-    put_text(json.dump(2) + "\n");
+    const Json json = {{"schema_version", 1},
+                       {"chunks", chunks.grid().count()},
+                       {"chunk_runs", chunks.grid().chunk_runs()},
+                       {"missing", numbers},
+                       {"shards", count},
+                       {"run_again", shards}};
+    put_text(json_text(json, 2) + "\n");
   } else if (words.array) {
     put("{}\n", ranges_text(shards, ","));
   } else if (numbers.empty()) {

@@ -11,6 +11,7 @@
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "core/base/json_text.hpp"
 #include "reports/evidence/evidence.hpp"
 #include "reports/evidence/gate_bounds.hpp"
 #include "reports/evidence/rounding.hpp"
@@ -183,22 +184,20 @@ void print_text(const PlanWords& words, const Forecast& forecast) {
   print_costs(forecast);
 }
 
-nlohmann::ordered_json json_of(const Reach& reach) {
-  return {{"replicates", reach.replicates}, {"time_s", reach.time_s}};
-}
+Json json_of(const Reach& reach) { return {{"replicates", reach.replicates}, {"time_s", reach.time_s}}; }
 
-nlohmann::ordered_json json_of(const std::vector<Cost>& costs) {
-  auto list = nlohmann::ordered_json::array();
+Json json_of(const std::vector<Cost>& costs) {
+  auto list = Json::array();
   for (const Cost& cost : costs) list.push_back({{"what", cost.what}, {"cells", cost.cells}, {"share", cost.share}});
   return list;
 }
 
-nlohmann::ordered_json json_of_gate(const Forecast& forecast, std::size_t index) {
+Json json_of_gate(const Forecast& forecast, std::size_t index) {
   const GateRecord& gate = forecast.plan.gates[index];
-  nlohmann::ordered_json json = {{"name", gate.name},
-                                 {"cells", forecast.gates[index].size()},
-                                 {"limit", gate.limit},
-                                 {"confidence", gate.confidence}};
+  Json json = {{"name", gate.name},
+               {"cells", forecast.gates[index].size()},
+               {"limit", gate.limit},
+               {"confidence", gate.confidence}};
   if (forecast.gates[index].empty() || counts_only(forecast)) return json;
   json["bound_of_file"] = bound_without_failure(forecast, index, forecast.file.replicates);
   if (forecast.budget) json["bound_in_time"] = bound_without_failure(forecast, index, forecast.budget->replicates);
@@ -209,14 +208,14 @@ nlohmann::ordered_json json_of_gate(const Forecast& forecast, std::size_t index)
 
 void print_json(const Forecast& forecast) {
   const Pilot& pilot = forecast.pilot;
-  nlohmann::ordered_json json = {{"schema_version", 1},
-                                 {"cells", pilot.cells.size()},
-                                 {"workers", pilot.workers},
-                                 {"pilot", {{"runs", pilot.runs}, {"elapsed_s", pilot.elapsed_s}}},
-                                 {"runs_per_s", pilot.runs_per_s()},
-                                 {"file", json_of(forecast.file)}};
+  Json json = {{"schema_version", 1},
+               {"cells", pilot.cells.size()},
+               {"workers", pilot.workers},
+               {"pilot", {{"runs", pilot.runs}, {"elapsed_s", pilot.elapsed_s}}},
+               {"runs_per_s", pilot.runs_per_s()},
+               {"file", json_of(forecast.file)}};
   if (forecast.budget) json["in_time"] = json_of(*forecast.budget);
-  json["gates"] = nlohmann::ordered_json::array();
+  json["gates"] = Json::array();
   for (std::size_t gate = 0; gate < forecast.gates.size(); ++gate)
     json["gates"].push_back(json_of_gate(forecast, gate));
   for (const CostTable& table : cost_tables(forecast)) json["costs"][table.factor] = json_of(table.costs);
@@ -225,7 +224,7 @@ void print_json(const Forecast& forecast) {
     const auto spare = cells_of_no_gate(forecast);
     json["costs"]["in_no_gate"] = {{"cells", spare.size()}, {"share", share_of(forecast, spare)}};
   }
-  put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+  put_text(shown_json(json));
 }
 
 int plan(const PlanWords& words) {

@@ -15,6 +15,7 @@
 #include "campaign/watch/run_text.hpp"
 #include "campaign/workers/run_host.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "reports/page/wording.hpp"
 
@@ -31,20 +32,20 @@ struct ReplayVerbWords {
 
 void print_json(const ReplayResult& result, const CellRecord& cell) {
   const Outcome& outcome = result.recomputed.outcome;
-  nlohmann::ordered_json json = {{"schema_version", 1},
-                                 {"verdict", name_of(result.verdict)},
-                                 {"explanation", result.explanation},
-                                 {"from_recording", result.from_recording},
-                                 {"run", result.recomputed.run_index},
-                                 {"agent", cell.agent},
-                                 {"layout", cell.layout},
-                                 {"fleet_size", cell.fleet_size}};
+  Json json = {{"schema_version", 1},
+               {"verdict", name_of(result.verdict)},
+               {"explanation", result.explanation},
+               {"from_recording", result.from_recording},
+               {"run", result.recomputed.run_index},
+               {"agent", cell.agent},
+               {"layout", cell.layout},
+               {"fleet_size", cell.fleet_size}};
   for (const FactorInfo& factor : kFactors) json[std::string(factor.key)] = result.recomputed.factors[factor.id];
   json["outcome"] = name_of(outcome.outcome_class());
   json["violations"] = outcome.violations.size();
   json["digest_stored"] = fmt::format("{:016x}", result.stored.outcome.digest);
   json["digest_recomputed"] = fmt::format("{:016x}", outcome.digest);
-  put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+  put_text(shown_json(json));
 }
 
 // A plug-in that crashes does so in a worker process, as it did in the campaign.

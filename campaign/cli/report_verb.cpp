@@ -13,6 +13,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "reports/attempts/looks.hpp"
 #include "reports/campaign_page/html_report.hpp"
 
@@ -33,16 +34,16 @@ void print_digest(const ArchiveReader& archive, bool json) {
         engine.compiler, engine.flags, engine.libraries);
     return;
   }
-  const nlohmann::ordered_json object = {{"schema_version", 1},
-                                         {"results_digest", fmt::format("{:016x}", digest)},
-                                         {"runs", archive.run_count()},
-                                         {"engine",
-                                          {{"version", engine.version},
-                                           {"program_sha256", engine.program_sha256},
-                                           {"compiler", engine.compiler},
-                                           {"flags", engine.flags},
-                                           {"libraries", engine.libraries}}}};
-  put_text(printable_json(object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+  const Json object = {{"schema_version", 1},
+                       {"results_digest", fmt::format("{:016x}", digest)},
+                       {"runs", archive.run_count()},
+                       {"engine",
+                        {{"version", engine.version},
+                         {"program_sha256", engine.program_sha256},
+                         {"compiler", engine.compiler},
+                         {"flags", engine.flags},
+                         {"libraries", engine.libraries}}}};
+  put_text(shown_json(object));
 }
 
 // The comparison with the baseline, if there is one to compare with.

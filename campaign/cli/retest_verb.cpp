@@ -12,6 +12,7 @@
 #include "campaign/findings/findings_file.hpp"
 #include "campaign/findings/retest.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
@@ -89,19 +90,19 @@ void put_line(const Retested& retested) {
   if (!result.standing.empty()) put("  the fleets drive {}\n", result.standing);
 }
 
-nlohmann::ordered_json shares_of_worlds(const NeighbourCounts& now, const NeighbourCounts& before) {
+Json shares_of_worlds(const NeighbourCounts& now, const NeighbourCounts& before) {
   return {{"neighbours", now.of_world},
           {"failing", now.alike_of_world},
           {"failing_before", before.alike_of_world},
           {"neighbours_before", before.of_world}};
 }
-nlohmann::ordered_json shares_of_runs(const NeighbourCounts& now, const NeighbourCounts& before) {
+Json shares_of_runs(const NeighbourCounts& now, const NeighbourCounts& before) {
   return {{"runs", now.of}, {"failing", now.alike}, {"failing_before", before.alike}, {"runs_before", before.of}};
 }
 
 void put_json(const std::vector<Retested>& all) {
-  nlohmann::ordered_json json = {{"schema_version", 1}};
-  json["findings"] = nlohmann::ordered_json::array();
+  Json json = {{"schema_version", 1}};
+  json["findings"] = Json::array();
   for (const auto& [finding, result] : all)
     json["findings"].push_back({{"id", finding.id},
                                 {"verdict", name_of(result.verdict)},
@@ -116,7 +117,7 @@ void put_json(const std::vector<Retested>& all) {
                                 {"neighbours_before", finding.neighbours.of},
                                 {"of_worlds", shares_of_worlds(result.now, finding.neighbours)},
                                 {"of_runs", shares_of_runs(result.whole_runs, finding.whole.counts)}});
-  put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+  put_text(shown_json(json));
 }
 
 // One for all findings with one configuration of the agent that are judged alike. Made before any thread.

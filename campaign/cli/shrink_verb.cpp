@@ -15,6 +15,7 @@
 #include "campaign/shrink/shrink.hpp"
 #include "campaign/shrink/trial_file.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "reports/page/wording.hpp"
 
@@ -39,14 +40,14 @@ std::string size_text(const CaseSize& size) {
   return text + fmt::format(", {}, {:.2f} s", count_text(size.segments, "segment"), to_seconds(size.horizon));
 }
 
-nlohmann::ordered_json to_json(const CaseSize& size) {
-  nlohmann::ordered_json json = {{"agvs", size.agvs},
-                                 {"transports", size.transports},
-                                 {"faults", size.faults},
-                                 {"obstacles", size.obstacles},
-                                 {"segments", size.segments},
-                                 {"fates", nullptr},
-                                 {"horizon_s", to_seconds(size.horizon)}};
+Json to_json(const CaseSize& size) {
+  Json json = {{"agvs", size.agvs},
+               {"transports", size.transports},
+               {"faults", size.faults},
+               {"obstacles", size.obstacles},
+               {"segments", size.segments},
+               {"fates", nullptr},
+               {"horizon_s", to_seconds(size.horizon)}};
   if (!size.fates_are_drawn) json["fates"] = size.fates;
   return json;
 }
@@ -64,16 +65,16 @@ std::string minimal_text(const ShrinkWords& words, const ShrinkResult& result) {
 void put_result(const ShrinkWords& words, const FailingCase& original, const ShrinkResult& result,
                 const CaseSource& source) {
   if (words.json) {
-    const nlohmann::ordered_json json = {{"schema_version", 1},
-                                         {"failure", text_of(original.failure.kind)},
-                                         {"at_s", to_seconds(result.best.failure.at - kStart)},
-                                         {"before", to_json(result.before)},
-                                         {"after", to_json(result.after)},
-                                         {"trials", result.trials},
-                                         {"one_minimal", result.one_minimal},
-                                         {"why_not", result.why_not},
-                                         {"case", words.out}};
-    return put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+    const Json json = {{"schema_version", 1},
+                       {"failure", text_of(original.failure.kind)},
+                       {"at_s", to_seconds(result.best.failure.at - kStart)},
+                       {"before", to_json(result.before)},
+                       {"after", to_json(result.after)},
+                       {"trials", result.trials},
+                       {"one_minimal", result.one_minimal},
+                       {"why_not", result.why_not},
+                       {"case", words.out}};
+    return put_text(shown_json(json));
   }
   put("{}\n", text_of(original.failure.kind));
   put("  before: {}\n", size_text(result.before));

@@ -18,6 +18,7 @@
 #include "campaign/shrink/other_luck.hpp"
 #include "campaign/watch/run_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/engine/simulation.hpp"
 #include "generators/formats/purpose_words.hpp"
@@ -42,7 +43,7 @@ struct SimulateWords {
 // Divided, not multiplied: the double nearest to the decimal number.
 double millionths(std::int64_t value) { return static_cast<double>(value) / 1e6; }
 
-nlohmann::ordered_json to_json(const Violation& violation, const Scenario& scenario) {
+Json to_json(const Violation& violation, const Scenario& scenario) {
   return {{"entities", {body_name(scenario, violation.a), body_name(scenario, violation.b)}},
           {"first_s", to_seconds(violation.first)},
           {"first_ns", to_ns(violation.first)},
@@ -65,11 +66,9 @@ nlohmann::ordered_json to_json(const Violation& violation, const Scenario& scena
           {"y_um", violation.y_um}};
 }
 
-nlohmann::ordered_json to_json(const Incident& incident, const Scenario& scenario) {
+Json to_json(const Incident& incident, const Scenario& scenario) {
   const IncidentKindInfo& info = info_of(incident.kind);
-  const auto name = [&](EntityId id) {
-    return id.valid() ? nlohmann::ordered_json(body_name(scenario, id)) : nlohmann::ordered_json(nullptr);
-  };
+  const auto name = [&](EntityId id) { return id.valid() ? Json(body_name(scenario, id)) : Json(nullptr); };
   return {{"kind", info.name},
           {"a", name(incident.a)},
           {"b", name(incident.b)},
@@ -134,8 +133,8 @@ Observers observers_of(const std::string& name, const Scenario& scenario) {
 bool measures_clearance(const SimulateWords& words) { return find_law(words.law) == &judge_of_violations(); }
 
 // What a published law counted for each drive activity, as the paper tells it; empty for all other laws.
-nlohmann::ordered_json drives_json(const Scenario& scenario, const std::vector<DriveChecks>& drives) {
-  auto json = nlohmann::ordered_json::array();
+Json drives_json(const Scenario& scenario, const std::vector<DriveChecks>& drives) {
+  auto json = Json::array();
   for (const auto& [agv, begin, end, perimeter_checks] : drives)
     json.push_back({{"agv", body_name(scenario, agv)},
                     {"begin_s", to_seconds(begin)},
@@ -146,14 +145,14 @@ nlohmann::ordered_json drives_json(const Scenario& scenario, const std::vector<D
 
 void print_json(const Scenario& scenario, const Outcome& outcome, const SimulateWords& words,
                 const Observers& observers, const ExpectedOutcome& found) {
-  nlohmann::ordered_json json;
+  Json json;
   json["schema_version"] = 1;
   json["scenario"] = scenario.name;
   json["agent"] = words.agent;
   json["law"] = find_law(words.law)->name;
   json["exempt_purposes"] = purposes_text(scenario.law.exempt_purposes);
   json["exempt_radius_m"] = scenario.law.exempt_radius_m;
-  json["exempt_pairs"] = nlohmann::ordered_json::array();
+  json["exempt_pairs"] = Json::array();
   for (const auto& [one, other] : scenario.law.exempt_pairs) json["exempt_pairs"].push_back({one, other});
   json["outcome"] = name_of(outcome.outcome_class());
   if (scenario.expected != ExpectedOutcome{}) {
@@ -162,16 +161,16 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
                         {"same_failure", scenario.expected.failure == found.failure},
                         {"same_run", scenario.expected == found}};
   }
-  json["violations"] = nlohmann::ordered_json::array();
+  json["violations"] = Json::array();
   for (const Violation& violation : outcome.violations) json["violations"].push_back(to_json(violation, scenario));
-  json["incidents"] = nlohmann::ordered_json::array();
+  json["incidents"] = Json::array();
   for (const Incident& incident : outcome.incidents) json["incidents"].push_back(to_json(incident, scenario));
-  json["met"] = nlohmann::ordered_json::array();
+  json["met"] = Json::array();
   for (const ProbeCount& probe : outcome.probes)
     json["met"].push_back({{"source", name_of(probe.source)}, {"name", probe.name}, {"count", probe.count}});
   if (observers.compared_with != nullptr) {
     json["compared_with"] = judge_of_violations().name;
-    json["differences"] = nlohmann::ordered_json::array();
+    json["differences"] = Json::array();
     for (const Difference& difference : observers.differences(scenario)) {
       json["differences"].push_back({{"what", difference.missed ? "missed" : "accused wrongly"},
                                      {"cause", name_of(difference.cause)},
@@ -189,7 +188,7 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
   json["drives"] = drives_json(scenario, observers.laws.front()->findings().drives);
   json["digest"] = fmt::format("{:016x}", outcome.digest);
   if (!outcome.message.empty()) json["message"] = outcome.message;
-  put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+  put_text(shown_json(json));
 }
 
 // The command line decides, then the scenario file, then whether it has a script, then the one plug-in.

@@ -10,6 +10,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "reports/page/wording.hpp"
 #include "storage/archive_reader.hpp"
 
@@ -46,11 +47,11 @@ void print_text(const VerifyWords& words, const IntactFile& file, const Verifica
 }
 
 void print_json(const VerifyWords& words, const IntactFile& file, const Verification& verification) {
-  nlohmann::ordered_json json = {{"schema_version", 1},
-                                 {"runs", file.runs},
-                                 {"simulated_again", verification.agreeing + verification.differing.size()},
-                                 {"agree", verification.agreeing},
-                                 {"differ", nlohmann::ordered_json::array()}};
+  Json json = {{"schema_version", 1},
+               {"runs", file.runs},
+               {"simulated_again", verification.agreeing + verification.differing.size()},
+               {"agree", verification.agreeing},
+               {"differ", Json::array()}};
   for (const Disagreement& run : verification.differing) {
     json["differ"].push_back({{"run", run.run_index},
                               {"agent", run.agent},
@@ -59,7 +60,7 @@ void print_json(const VerifyWords& words, const IntactFile& file, const Verifica
                               {"engine_at_fault", run.engine_at_fault},
                               {"replay", replay_command(words.archive, run.run_index)}});
   }
-  put_text(printable_json(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) + "\n");
+  put_text(shown_json(json));
 }
 
 int verify(const VerifyWords& words) {

@@ -6,13 +6,12 @@
 
 #include "campaign/plan/plan_fields.hpp"
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/purpose_words.hpp"
 
 namespace fleetproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 
@@ -25,14 +24,15 @@ std::string json_key(const Field& field) {
 Json layout_json(const LayoutFactor& layout) {
   Json json = {{"name", layout.name}};
   if (layout.mutate) json["mutate"] = true;
-  if (layout.map != nullptr) json["content"] = Json::parse(to_text(layout.map->layout()));
+  if (layout.map != nullptr) json["content"] = read_json(to_text(layout.map->layout()));
   return json;
 }
 
 LayoutFactor layout_from(const Json& json) {
   LayoutFactor layout{json.at("name"), nullptr, json.value("mutate", false)};
   if (json.contains("content"))
-    layout.map = std::make_shared<const LogicalMap>(parse_layout(json.at("content").dump(), "layout " + layout.name));
+    layout.map =
+        std::make_shared<const LogicalMap>(parse_layout(json_text(json.at("content")), "layout " + layout.name));
   return layout;
 }
 
@@ -178,8 +178,8 @@ class PlanReader {
 
  private:
   [[noreturn]] static void refuse(const Field& field, const Json& json, std::string_view sentence) {
-    throw EngineError(
-        fmt::format("the plan in the archive cannot be read: {}: {} is refused: {}", field.key, json.dump(), sentence));
+    throw EngineError(fmt::format("the plan in the archive cannot be read: {}: {} is refused: {}", field.key,
+                                  json_text(json), sentence));
   }
 
   template <PlainValue Plain>
@@ -257,13 +257,15 @@ class PlanReader {
 std::string plan_text(const CampaignPlan& plan) {
   Json json = {{"version", kVersion}};
   json.update(PlanWriter(plan).json(plan));
-  return json.dump(1);
+  return json_text(json, 1);
 }
 
 CampaignPlan parse_plan(const std::string& text) {
   try {
+    const Json json = read_json(text);
+    if (json.is_discarded()) throw EngineError("the plan in the archive cannot be read: it is no JSON");
     CampaignPlan plan;
-    PlanReader().read(Json::parse(text), plan);
+    PlanReader().read(json, plan);
     return plan;
   } catch (const Json::exception& error) {
     throw EngineError(fmt::format("the plan in the archive cannot be read: {}", error.what()));

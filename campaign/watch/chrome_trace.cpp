@@ -7,13 +7,12 @@
 
 #include "campaign/watch/run_text.hpp"
 #include "campaign/watch/trace_details.hpp"
+#include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/outcome/trace_records.hpp"
 
 namespace fleetproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // The rows of a body, from above. Stretches below the safety distance that lie across each other have a row each.
 enum RowNumber : int { kDoes = 1, kSays, kRadio, kHappens, kDistanceRow };
@@ -24,9 +23,7 @@ constexpr std::uint64_t kRowsOfABody = 1'000'000;
 // The format counts in microseconds; three digits more keep the nanosecond.
 double microseconds(SimTime t) { return static_cast<double>(to_ns(t)) / 1e3; }
 
-std::string text_of(const Json& json) {
-  return printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
+std::string text_of(const Json& json) { return printable_json(json_text(json)); }
 
 // A process 0 is the idle one, and a thread with the number of its process is its main thread: none of them is a row.
 Json event(const char* phase, EntityId body, int row, SimTime at, const std::string& name) {

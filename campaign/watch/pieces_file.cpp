@@ -8,13 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/watch/run_text.hpp"
+#include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "reports/formats/csv_tables.hpp"
 
 namespace fleetproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json json_of(const Vec2& v) { return Json::array({v.x(), v.y()}); }
 
@@ -97,7 +96,7 @@ std::string pieces_json(const Scenario& scenario, const std::vector<Piece>& piec
                      {"scenario", scenario.name},
                      {"safety_distance_m", scenario.law.safety_distance_m},
                      {"bodies", std::move(bodies)}};
-  return printable_json(json.dump(1, ' ', false, Json::error_handler_t::replace)) + "\n";
+  return printable_json(json_text(json, 1)) + "\n";
 }
 
 std::string poses_csv(const Scenario& scenario, const std::vector<Piece>& pieces, Duration step) {

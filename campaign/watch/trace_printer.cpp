@@ -7,13 +7,12 @@
 
 #include "campaign/watch/run_text.hpp"
 #include "campaign/watch/trace_details.hpp"
+#include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/base/words.hpp"
 
 namespace fleetproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Notes that stand in the lines of others, or that only pages have.
 bool is_line(TraceKind kind) {
@@ -107,7 +106,7 @@ void TracePrinter::print(const Line& line) {
                {"details", line.details},
                {"motion", motion ? json_of(*motion) : Json(nullptr)}};
   if (line.message) json["message"] = json_of(*line.message, scenario, line.at);
-  print_(printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)) + "\n");
+  print_(printable_json(json_text(json)) + "\n");
 }
 
 std::vector<std::string> trace_kind_words() {

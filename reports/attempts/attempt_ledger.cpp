@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "core/base/random.hpp"
 #include "reports/page/wording.hpp"
 #include "storage/line_log.hpp"
@@ -14,11 +15,9 @@
 namespace fleetproof {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::string_view kFirstWords = "{\"attempt\":";
 
-std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string line_of(const Json& json) { return json_text(json) + "\n"; }
 
 std::string text_in(const Json& json, const char* key) {
   const auto found = json.find(key);
@@ -52,7 +51,7 @@ AttemptLedger::AttemptLedger(std::string path) : path_(std::move(path)) {
 }
 
 void AttemptLedger::take(const std::string& line) {
-  const Json json = Json::parse(line, nullptr, false);
+  const Json json = read_json(line);
   const std::string what = json.is_object() ? text_in(json, "attempt") : "";
   const std::string id = what.empty() ? "" : text_in(json, "id");
   const auto known = std::ranges::find(attempts_, id, &Attempt::id);
@@ -110,11 +109,11 @@ Attempt attempt_of(const CampaignRecord& campaign) {
   Attempt attempt;
   attempt.campaign = campaign.name;
   attempt.software = hex_text(name_hash(campaign.engine.program_sha256 + "\n" + campaign.engine.libraries));
-  auto plan = Json::parse(campaign.plan_json, nullptr, false);
+  auto plan = read_json(campaign.plan_json);
   if (plan.is_object()) {
     for (const char* key : {"name", "replicates"}) plan.erase(key);
   }
-  attempt.worlds = hex_text(name_hash(plan.is_object() ? plan.dump() : campaign.plan_json));
+  attempt.worlds = hex_text(name_hash(plan.is_object() ? json_text(plan) : campaign.plan_json));
   attempt.seed = campaign.seed;
   attempt.plan_hash = campaign.plan_hash;
   return attempt;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/base/json_text.hpp"
 #include "storage/line_log.hpp"
 
 namespace fleetproof {
@@ -18,7 +19,7 @@ std::optional<std::set<std::uint64_t>> looks_in(const std::string& log) {
   if (!file) return std::nullopt;
   std::set<std::uint64_t> looks;
   for (std::string line; std::getline(file, line);) {
-    const auto json = nlohmann::json::parse(line, nullptr, false);
+    const auto json = read_sorted_json(line);
     if (!json.is_object() || !(json.contains("ended_utc") || json.contains("looked_utc"))) continue;
     if (const auto runs = json.find("runs_stored"); runs != json.end() && runs->is_number_unsigned())
       looks.insert(runs->get<std::uint64_t>());

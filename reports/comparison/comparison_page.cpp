@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json_text.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kRunsTold = 10, kCellsTold = 12;
 
@@ -139,7 +138,7 @@ std::string comparison_json(const Comparison& comparison, const ReleaseRuns& old
                              {"only_old", change.only_old},
                              {"only_new", change.only_new}});
   }
-  return printable_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+  return shown_json(json);
 }
 
 }  // namespace fleetproof

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "reports/evidence/exposure.hpp"
 #include "reports/evidence/fisher.hpp"
 
@@ -27,11 +28,9 @@ bool same_conditions(const CellRecord& a, const CellRecord& b) {
   return a.layout == b.layout && a.fleet_size == b.fleet_size && a.lowest == b.lowest && a.highest == b.highest;
 }
 
-using PlainJson = nlohmann::json;
-
 // The part of a plan that shapes worlds and judgement.
-PlainJson part_that_shapes(const std::string& plan_json) {
-  PlainJson plan = PlainJson::parse(plan_json, nullptr, false);
+SortedJson part_that_shapes(const std::string& plan_json) {
+  SortedJson plan = read_sorted_json(plan_json);
   if (!plan.is_object()) return plan_json;
   for (const char* key :
        {"name", "replicates", "gates", "default_gates", "limits", "audit", "agent_config", "coverage"})
@@ -46,7 +45,7 @@ PlainJson part_that_shapes(const std::string& plan_json) {
 std::string world_difference(const CampaignRecord& one, const CampaignRecord& other) {
   if (one.engine.version != other.engine.version) return "the versions of fleetproof differ";
   if (one.seed != other.seed) return "the seeds differ";
-  const PlainJson patch = PlainJson::diff(part_that_shapes(one.plan_json), part_that_shapes(other.plan_json));
+  const SortedJson patch = SortedJson::diff(part_that_shapes(one.plan_json), part_that_shapes(other.plan_json));
   return patch.empty() ? "" : "the plans differ in " + patch.front().at("path").get<std::string>();
 }
 

@@ -7,14 +7,13 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "reports/page/wording.hpp"
 #include "storage/beside.hpp"
 
 namespace fleetproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kSchemaVersion = 2;
 constexpr const char* kEnding = ".findings.json";
@@ -67,11 +66,11 @@ std::string findings_text(const FoundRecord& record) {
                {"looked_at", record.looked_at},     {"not_again", record.not_again},
                {"findings", Json::array()}};
   for (const FoundFinding& finding : record.findings) json["findings"].push_back(json_of(finding));
-  return printable_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+  return shown_json(json);
 }
 
 std::optional<FoundRecord> parse_findings(const std::string& text) {
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = read_json(text);
   if (!json.is_object() || json.value("schema_version", Json()) != kSchemaVersion) return std::nullopt;
   try {
     return record_from(json);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json_text.hpp"
 #include "reports/evidence/exposure.hpp"
 #include "reports/page/wording.hpp"
 #include "reports/sections/condition_table.hpp"
@@ -14,8 +15,6 @@
 
 namespace fleetproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kReportSchemaVersion = 1;
 
@@ -365,9 +364,9 @@ std::string render_json(const ReportInput& input) {
   json["coverage"] = coverage_json(input);
   json["incidents"] = incidents_json(input);
   const auto& sensitivity = input.sensitivity.record;
-  json["sensitivity"] = sensitivity ? Json::parse(sensitivity_text(*sensitivity)) : Json(nullptr);
+  json["sensitivity"] = sensitivity ? read_json(sensitivity_text(*sensitivity)) : Json(nullptr);
   const auto& found = input.findings.record;
-  json["findings"] = found ? Json::parse(findings_text(*found)) : Json(nullptr);
+  json["findings"] = found ? read_json(findings_text(*found)) : Json(nullptr);
   const auto& audits = input.audits.agents();
   json["audits"] = list_of(audits.size(), [&](std::size_t i) { return audit_json(audits[i]); });
   json["weak_points"] = weak_points(input);
@@ -382,7 +381,7 @@ std::string render_json(const ReportInput& input) {
                     {"flags", engine.flags},
                     {"libraries", engine.libraries}};
   // A name or a message from outside may hold bytes that are no UTF-8: they are replaced, not refused.
-  return printable_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+  return shown_json(json);
 }
 
 }  // namespace fleetproof

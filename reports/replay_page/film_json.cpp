@@ -8,14 +8,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof::web {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string in_json(const std::string& text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string in_json(const std::string& text) { return json_text(Json(text)); }
 
 // Cut, as every instant of the page: what is said to have happened at an instant has happened by then.
 std::int64_t milliseconds(std::int64_t us) { return us / 1000; }
@@ -136,7 +135,7 @@ void add_failure(Members& members, const Film& film) {
                        {"relative_speed_um_s", v.relative_speed_um_s},
                        {"contact", v.contact},
                        {"level", v.level}};
-    return json.dump();
+    return json_text(json);
   });
   members.add("nearest", film.nearest
                              ? fmt::format(R"({{"a":{},"b":{},"at_us":{},"clearance_um":{}}})", film.nearest->a,

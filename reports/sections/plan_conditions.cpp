@@ -7,13 +7,12 @@
 #include <set>
 #include <utility>
 
+#include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostListed = 40;
 
@@ -34,7 +33,7 @@ std::string word(const Json& value) {
   if (value.is_object() && value.contains("from"))
     return fmt::format("{} to {}", word(part(value, "from")), word(part(value, "to")));
   if (value.is_object() && value.contains("name")) return word(value.at("name"));
-  return printable(value.dump(-1, ' ', false, Json::error_handler_t::replace), 60);
+  return printable(json_text(value), 60);
 }
 
 std::string list(const Json& values, double scale = 1.0) {
@@ -176,18 +175,18 @@ void shorten(Json& value) {
 }  // namespace
 
 std::optional<double> safety_distance_m(const std::string& plan_json) {
-  const auto plan = nlohmann::json::parse(plan_json, nullptr, false);
-  const nlohmann::json::json_pointer place("/law/safety_distance_m");
+  const auto plan = read_sorted_json(plan_json);
+  const SortedJson::json_pointer place("/law/safety_distance_m");
   if (plan.is_discarded() || !plan.contains(place) || !plan.at(place).is_number()) return std::nullopt;
   return plan.at(place).get<double>();
 }
 
 std::optional<RecordingFacts> recorded_radio(const std::string& plan_json) {
-  const auto plan = nlohmann::json::parse(plan_json, nullptr, false);
-  const nlohmann::json::json_pointer place("/radio/trace");
+  const auto plan = read_sorted_json(plan_json);
+  const SortedJson::json_pointer place("/radio/trace");
   if (plan.is_discarded() || !plan.contains(place) || !plan.at(place).is_array()) return std::nullopt;
   RecordingFacts radio;
-  std::set<std::pair<nlohmann::json, nlohmann::json>> pairs;
+  std::set<std::pair<SortedJson, SortedJson>> pairs;
   for (const auto& message : plan.at(place)) {  // [sender, receiver, sent_ns, delay_ns]; lost: without the delay
     if (!message.is_array() || message.size() < 3) continue;
     pairs.emplace(message[0], message[1]);
@@ -199,7 +198,7 @@ std::optional<RecordingFacts> recorded_radio(const std::string& plan_json) {
 }
 
 std::vector<Fact> plan_conditions(const std::string& plan_json) {
-  const Json plan = Json::parse(plan_json, nullptr, false);
+  const Json plan = read_json(plan_json);
   if (!plan.is_object() || !plan.contains("factors")) return {};
   const Json &factors = part(plan, "factors"), &law = part(plan, "law");
   std::vector<Fact> facts;
@@ -242,10 +241,10 @@ std::vector<Fact> campaign_conditions(const ReportInput& input) {
 }
 
 std::string plan_listing(const std::string& plan_json, std::size_t most_bytes) {
-  Json plan = Json::parse(plan_json, nullptr, false);
+  Json plan = read_json(plan_json);
   if (plan.is_discarded()) return "";
   shorten(plan);
-  std::string text = printable_lines(plan.dump(1, ' ', false, Json::error_handler_t::replace));
+  std::string text = printable_lines(json_text(plan, 1));
   if (text.size() <= most_bytes) return text;
   text.resize(text.rfind('\n', most_bytes));
   return text + "\n... (the rest stands in the results file)";

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
 #include "reports/page/wording.hpp"
@@ -12,8 +13,6 @@
 
 namespace fleetproof {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kSchemaVersion = 3;
 constexpr const char* kEnding = ".sensitivity.json";
@@ -79,13 +78,13 @@ std::uint64_t SensitivityRecord::detected() const {
 }
 
 std::string worlds_of(const std::string& plan_json) {
-  auto plan = nlohmann::json::parse(plan_json, nullptr, false);
+  auto plan = read_sorted_json(plan_json);
   if (!plan.is_object()) return hex_text(name_hash(plan_json));
   for (const char* key :
        {"name", "kind", "seed", "replicates", "agent_config", "coverage", "limits", "audit", "default_gates", "gates"})
     plan.erase(key);
   if (plan.contains("factors") && plan["factors"].is_object()) plan["factors"].erase("agents");
-  return hex_text(name_hash(plan.dump()));
+  return hex_text(name_hash(json_text(plan)));
 }
 
 std::string sensitivity_text(const SensitivityRecord& record) {
@@ -101,11 +100,11 @@ std::string sensitivity_text(const SensitivityRecord& record) {
       {"detected", record.detected()},
       {"faults", Json::array()}};
   for (const PlantedFault& fault : record.faults) json["faults"].push_back(json_of(fault, record));
-  return printable_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+  return shown_json(json);
 }
 
 std::optional<SensitivityRecord> parse_sensitivity(const std::string& text) {
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = read_json(text);
   if (!json.is_object() || json.value("schema_version", Json()) != kSchemaVersion) return std::nullopt;
   try {
     return record_from(json);
