@@ -22,7 +22,7 @@ class BatteryLaw final : public Law {
   ActivityKinds reads_about() const override { return {ActivityKind::Charge}; }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
-  LawFindings findings() const override;
+  LawResults findings() const override;
 
  private:
   std::int64_t to_nearest_charger_um(const Vec2& position_m) const;
@@ -55,8 +55,8 @@ void BatteryLaw::finish(SimTime end) {
   for (const auto& [agv, incident] : standing_) incidents_[incident].last = end;
 }
 
-LawFindings BatteryLaw::findings() const {
-  LawFindings findings;
+LawResults BatteryLaw::findings() const {
+  LawResults findings;
   findings.incidents = incidents_;
   return findings;
 }

@@ -125,7 +125,7 @@ const char* name_of(DifferenceCause cause) {
   invariant_violated("a cause has a name");
 }
 
-std::vector<Difference> compare(const Scenario& scenario, const LawFindings& published, const LawFindings& judge,
+std::vector<Difference> compare(const Scenario& scenario, const LawResults& published, const LawResults& judge,
                                 const TimelineKeeper& timelines) {
   const Explainer why(scenario, timelines);
   const Duration step = seconds(scenario.law.snapshot_s);

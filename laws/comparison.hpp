@@ -14,7 +14,7 @@ class TimelineKeeper final : public Law {
   explicit TimelineKeeper(const Scenario& scenario) : timelines_(scenario.body_count()) {}
 
   void piece_ended(const Piece& piece) override { timelines_[piece.entity.index()].push_back(piece); }
-  LawFindings findings() const override { return {}; }
+  LawResults findings() const override { return {}; }
   const std::vector<Piece>& of(EntityId entity) const { return timelines_[entity.index()]; }
 
  private:
@@ -44,7 +44,7 @@ struct Difference {
 // The violations of `judge` that `published` misses, and the accusations that only `published` makes; together in the
 // order of (first, a, b). A violation of one law counts as found by the other law if the other law files the same pair
 // at an overlapping time. For an accusation, the times may also be up to one snapshot apart.
-std::vector<Difference> compare(const Scenario& scenario, const LawFindings& published, const LawFindings& judge,
+std::vector<Difference> compare(const Scenario& scenario, const LawResults& published, const LawResults& judge,
                                 const TimelineKeeper& timelines);
 
 }  // namespace fleetproof

@@ -32,8 +32,8 @@ class CongestionLaw final : public Law {
     if (interference_ || bytes_matter_ || !stays_calm(part)) look_at_all(part);
   }
   void finish(SimTime end) override { windows_before(end + kWindow); }
-  LawFindings findings() const override {
-    LawFindings findings;
+  LawResults findings() const override {
+    LawResults findings;
     findings.incidents = incidents_;
     return findings;
   }

@@ -10,7 +10,7 @@
 namespace fleetproof {
 namespace {
 
-struct Booked {
+struct TrackedLoad {
   Holder holder;
   std::optional<TransportId> transport;
   std::optional<std::size_t> misplaced;  // its open incident
@@ -37,13 +37,13 @@ class ContainmentLaw final : public Law {
   ActivityKinds reads_about() const override { return {ActivityKind::Pick, ActivityKind::Drop}; }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
-  LawFindings findings() const override;
+  LawResults findings() const override;
 
  private:
   // `owner` is the AGV of the load's transport.
-  void appears(EntityId owner, LoadId number, Booked& load, const Holder& where, SimTime at);
-  void moves(EntityId owner, LoadId number, Booked& load, const Holder& to, SimTime at);
-  void check_put_down(EntityId owner, LoadId number, Booked& load, StationId station, SimTime at);
+  void appears(EntityId owner, LoadId number, TrackedLoad& load, const Holder& where, SimTime at);
+  void moves(EntityId owner, LoadId number, TrackedLoad& load, const Holder& to, SimTime at);
+  void check_put_down(EntityId owner, LoadId number, TrackedLoad& load, StationId station, SimTime at);
   void handling_ends(const TraceRecord& record);
   void transport_done(const TraceRecord& record);
   // Whether `agv` is handling the load in this way, at this station.
@@ -56,7 +56,7 @@ class ContainmentLaw final : public Law {
   Whereabouts bodies_;
   std::vector<const TransportOrder*> orders_;  // by number of the transport
   std::optional<TransportId> released_;        // its load is about to appear
-  std::map<LoadId, Booked> loads_;
+  std::map<LoadId, TrackedLoad> loads_;
   std::map<EntityId, Handling> handling_;
   std::vector<Incident> incidents_;
 };
@@ -102,7 +102,7 @@ void ContainmentLaw::happened(const TraceRecord& record) {
   }
 }
 
-void ContainmentLaw::appears(EntityId owner, LoadId number, Booked& load, const Holder& where, SimTime at) {
+void ContainmentLaw::appears(EntityId owner, LoadId number, TrackedLoad& load, const Holder& where, SimTime at) {
   load.holder = where;
   load.transport = std::exchange(released_, std::nullopt);
   if (!load.transport || load.transport->index() >= orders_.size() || where.kind != Holder::Kind::Station) {
@@ -111,7 +111,7 @@ void ContainmentLaw::appears(EntityId owner, LoadId number, Booked& load, const 
   check_put_down(owner, number, load, StationId{where.index}, at);
 }
 
-void ContainmentLaw::moves(EntityId owner, LoadId number, Booked& load, const Holder& to, SimTime at) {
+void ContainmentLaw::moves(EntityId owner, LoadId number, TrackedLoad& load, const Holder& to, SimTime at) {
   if (load.misplaced) incidents_[*load.misplaced].last = at;
   load.misplaced.reset();
   const Holder from = std::exchange(load.holder, to);
@@ -138,7 +138,7 @@ void ContainmentLaw::moves(EntityId owner, LoadId number, Booked& load, const Ho
     handling->second.moved = true;
 }
 
-void ContainmentLaw::check_put_down(EntityId owner, LoadId number, Booked& load, StationId station, SimTime at) {
+void ContainmentLaw::check_put_down(EntityId owner, LoadId number, TrackedLoad& load, StationId station, SimTime at) {
   if (!load.transport || load.transport->index() >= orders_.size()) return;
   const TransportOrder& order = *orders_[load.transport->index()];
   if (station == order.from || station == order.to) return;
@@ -175,8 +175,8 @@ bool ContainmentLaw::handles(EntityId agv, ActivityKind kind, LoadId load, Stati
 }
 
 bool ContainmentLaw::carries_another(EntityId agv, LoadId load) const {
-  for (const auto& [number, booked] : loads_) {
-    if (number != load && booked.holder == Holder{Holder::Kind::Agv, agv.value}) return true;
+  for (const auto& [number, tracked] : loads_) {
+    if (number != load && tracked.holder == Holder{Holder::Kind::Agv, agv.value}) return true;
   }
   return false;
 }
@@ -187,8 +187,8 @@ void ContainmentLaw::finish(SimTime end) {
   }
 }
 
-LawFindings ContainmentLaw::findings() const {
-  LawFindings findings;
+LawResults ContainmentLaw::findings() const {
+  LawResults findings;
   findings.incidents = incidents_;
   return findings;
 }

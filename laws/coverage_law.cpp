@@ -33,7 +33,7 @@ class CoverageLaw final : public Law {
   TraceKinds reads() const override { return {TraceKind::FaultStrikes}; }
   void happened(const TraceRecord& record) override { ++faults_[read<traced::FaultStrikes>(record).fault]; }
   void finish(SimTime end) override;
-  LawFindings findings() const override;
+  LawResults findings() const override;
 
  private:
   // The nearness of a pair under way, or the last one.
@@ -87,8 +87,8 @@ void CoverageLaw::finish(SimTime) {
   for (const auto& [pair, near] : near_) close(near);
 }
 
-LawFindings CoverageLaw::findings() const {
-  LawFindings findings;
+LawResults CoverageLaw::findings() const {
+  LawResults findings;
   findings.met.reserve(kEncounterKinds + kSceneKinds + 1 + faults_.size());
   const auto met = [&](std::string name, std::uint64_t count) {
     findings.met.push_back({ProbeSource::World, std::move(name), count});

@@ -117,7 +117,7 @@ class ExactLaw final : public Law {
   void had_company(const Piece& piece, std::span<const Piece* const> others) override;
   void piece_ended(const Piece& piece) override;
   void finish(SimTime end) override;
-  LawFindings findings() const override;
+  LawResults findings() const override;
 
  private:
   void settle(const Piece& a, const Piece& b, Interval within);
@@ -239,8 +239,8 @@ void ExactLaw::finish(SimTime) {
     confirm_clearance(stretch.body_a, stretch.body_b, stretch.closest.clearance_m);
 }
 
-LawFindings ExactLaw::findings() const {
-  LawFindings findings;
+LawResults ExactLaw::findings() const {
+  LawResults findings;
   findings.violations = filed(stretches_);
   if (smallest_m_ < kMeasuredBelow_m) findings.min_clearance_m = std::max(0.0, smallest_m_);
   findings.distance_evaluations = evaluations_.distance;

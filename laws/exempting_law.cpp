@@ -33,8 +33,8 @@ class ExemptingLaw final : public Law {
     timelines_.piece_ended(piece);
   }
   void finish(SimTime end) override { exact_->finish(end); }
-  LawFindings findings() const override {
-    LawFindings findings = exact_->findings();
+  LawResults findings() const override {
+    LawResults findings = exact_->findings();
     std::erase_if(findings.violations,
                   [&](const Violation& v) { return !v.contact && (is_exempt_pair(v) || is_at_exempt_place(v)); });
     return findings;

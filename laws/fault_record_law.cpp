@@ -48,8 +48,8 @@ class FaultRecordLaw final : public Law {
     for (const auto& [key, place] : under_way_) incidents_[place].last = end;
     under_way_.clear();
   }
-  LawFindings findings() const override {
-    LawFindings findings;
+  LawResults findings() const override {
+    LawResults findings;
     findings.incidents = incidents_;
     return findings;
   }

@@ -55,7 +55,7 @@ class NormalOperationLaw final : public Law {
   }
   void hears_from(TraceSource& source) override { source_ = &source; }
   void finish(SimTime end) override;
-  LawFindings findings() const override;
+  LawResults findings() const override;
 
  private:
   void make_room(SimTime t);
@@ -234,8 +234,8 @@ void NormalOperationLaw::finish(SimTime end) {
   }
 }
 
-LawFindings NormalOperationLaw::findings() const {
-  LawFindings findings;
+LawResults NormalOperationLaw::findings() const {
+  LawResults findings;
   findings.incidents = incidents_;
   return findings;
 }

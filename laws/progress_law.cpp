@@ -94,7 +94,7 @@ class ProgressLaw final : public Law {
   }
   void happened(const TraceRecord& record) override;
   void finish(SimTime end) override;
-  LawFindings findings() const override;
+  LawResults findings() const override;
 
  private:
   using Key = std::pair<IncidentKind, EntityId>;
@@ -421,8 +421,8 @@ void ProgressLaw::finish(SimTime end) {
   for (const auto& [wait, deadlock] : deadlock_of_wait_) incidents_[wait].last = incidents_[deadlock].last;
 }
 
-LawFindings ProgressLaw::findings() const {
-  LawFindings findings;
+LawResults ProgressLaw::findings() const {
+  LawResults findings;
   findings.incidents = incidents_;
   return findings;
 }

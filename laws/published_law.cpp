@@ -44,8 +44,8 @@ void PublishedLaw::finish(SimTime) {
   stretches_ = joined(std::move(stretches_), step_);
 }
 
-LawFindings PublishedLaw::findings() const {
-  LawFindings findings;
+LawResults PublishedLaw::findings() const {
+  LawResults findings;
   findings.violations = filed(stretches_);
   findings.perimeter_checks = perimeter_checks_;
   findings.distance_evaluations = distance_evaluations_;

@@ -24,7 +24,7 @@ class PublishedLaw : public Law {
 
   void piece_ended(const Piece& piece) final;
   void finish(SimTime end) final;
-  LawFindings findings() const final;
+  LawResults findings() const final;
 
  protected:
   virtual void inspect(const Piece& drive) = 0;

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "campaign/batch/audit_book.hpp"
+#include "campaign/batch/audit_counts.hpp"
 #include "campaign/batch/same_campaign.hpp"
 #include "campaign/batch/stop_rules.hpp"
 #include "campaign/batch/stored_plan.hpp"
@@ -27,12 +27,12 @@ class CampaignPolicy final : public SessionPolicy {
   CampaignPolicy(Session& session, const CampaignPlan& plan, const AgentPrograms& programs, const StoredPlan& stored,
                  const std::string& path)
       : session_(session),
-        audit_book_(plan, programs),
+        audit_counts_(plan, programs),
         verdict_(stored),
         archive_(path, stored, session.options().overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
     session_.progress().planned = plan.run_count();
-    for (std::size_t agent = 0; agent < audit_book_.agent_count(); ++agent)
-      session_.runs().record(agent, audit_book_.needs_recordings(agent));
+    for (std::size_t agent = 0; agent < audit_counts_.agent_count(); ++agent)
+      session_.runs().record(agent, audit_counts_.needs_recordings(agent));
   }
 
   TaskRange runs_to_do() const {
@@ -47,7 +47,7 @@ class CampaignPolicy final : public SessionPolicy {
     archive_.add(run);
   }
 
-  void keep(const AuditFinding& finding) override {
+  void keep(const AuditedRun& finding) override {
     archive_.add(finding.audit);
     count(finding);
   }
@@ -93,10 +93,10 @@ class CampaignPolicy final : public SessionPolicy {
     if (session_.options().until_verdict) verdict_.add(run);
   }
 
-  void count(const AuditFinding& finding) {
-    audit_book_.add(finding);
-    const std::size_t agent = audit_book_.agent_of(finding.audit.run_index);
-    session_.runs().record(agent, audit_book_.needs_recordings(agent));
+  void count(const AuditedRun& finding) {
+    audit_counts_.add(finding);
+    const std::size_t agent = audit_counts_.agent_of(finding.audit.run_index);
+    session_.runs().record(agent, audit_counts_.needs_recordings(agent));
   }
 
   // How many runs the campaign keeps if its failures or its verdict end it.
@@ -110,7 +110,7 @@ class CampaignPolicy final : public SessionPolicy {
   Session& session_;
   RunLedger ledger_;
   bool stored_runs_are_ours_ = true;
-  AuditBook audit_book_;
+  AuditCounts audit_counts_;
   VerdictWatch verdict_;
   ArchiveWriter archive_;
   Clock::time_point last_commit_ = Clock::now();

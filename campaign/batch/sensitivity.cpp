@@ -58,7 +58,7 @@ std::string rarest_probe(const RunRecord& record, const std::map<std::string, st
 }
 
 // The finding of the accused runs in which the fault shows.
-void tell_first_run(FaultFinding& finding, const AccusedRuns& shows, const AgentTally& sound,
+void tell_first_run(FaultDetection& finding, const AccusedRuns& shows, const AgentTally& sound,
                     const std::vector<CellRecord>& cells) {
   const RunRecord& first = shows.first.at(finding.seen_as);
   if (!finding.by_rate) finding.runs = first.run_index + 1;
@@ -67,8 +67,8 @@ void tell_first_run(FaultFinding& finding, const AccusedRuns& shows, const Agent
   if (!finding.by_rate && first.outcome.contact) finding.seen_as = name_of(OutcomeClass::Contact);
 }
 
-FaultFinding finding_of(AgentTally tally, const AgentTally& sound, const CampaignPlan& plan) {
-  FaultFinding finding;
+FaultDetection finding_of(AgentTally tally, const AgentTally& sound, const CampaignPlan& plan) {
+  FaultDetection finding;
   finding.runs = tally.all.runs;
   finding.tried = !std::ranges::includes(sound.traces, tally.traces);
   if (tally.all.with(kAccusedOfViolation) > 0 && sound.all.with(kAccusedOfViolation) == 0) {
@@ -88,7 +88,7 @@ FaultFinding finding_of(AgentTally tally, const AgentTally& sound, const Campaig
 
 std::uint64_t Sensitivity::detected() const {
   return static_cast<std::uint64_t>(
-      std::ranges::count_if(faults, [](const FaultFinding& finding) { return !finding.seen_as.empty(); }));
+      std::ranges::count_if(faults, [](const FaultDetection& finding) { return !finding.seen_as.empty(); }));
 }
 
 std::vector<std::string> faulty_agent_names() {
@@ -99,7 +99,7 @@ std::vector<std::string> faulty_agent_names() {
 
 Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& programs,
                                 const SensitivityOptions& options,
-                                const std::function<void(const FaultFinding&)>& told) {
+                                const std::function<void(const FaultDetection&)>& told) {
   const std::vector<std::string> faulty = faulty_agent_names();
   for (const std::string& agent : options.agents) {
     if (std::ranges::find(faulty, agent) == faulty.end())

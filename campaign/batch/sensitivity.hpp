@@ -14,7 +14,7 @@
 namespace fleetproof {
 
 // How a planted fault shows in the worlds of a plan.
-struct FaultFinding {
+struct FaultDetection {
   AgentTally tally;
   // What the fault was accused of; empty: it was missed.
   std::string seen_as;
@@ -29,7 +29,7 @@ struct FaultFinding {
 
 struct Sensitivity {
   AgentTally sound;
-  std::vector<FaultFinding> faults;  // in the order of the catalogue
+  std::vector<FaultDetection> faults;  // in the order of the catalogue
   std::uint64_t detected() const;
 };
 
@@ -47,7 +47,7 @@ struct SensitivityOptions {
 // hears each finding.
 Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& programs,
                                 const SensitivityOptions& options,
-                                const std::function<void(const FaultFinding&)>& told = {});
+                                const std::function<void(const FaultDetection&)>& told = {});
 
 // The names of the faulty agents, in the order of the catalogue.
 std::vector<std::string> faulty_agent_names();

@@ -126,7 +126,7 @@ void Session::tick_if_due(SessionPolicy& policy, const UnderWay& under_way) {
 }
 
 void Session::keep_findings(SessionPolicy& policy) {
-  for (const AuditFinding& finding : audits_.take_findings()) {
+  for (const AuditedRun& finding : audits_.take_findings()) {
     policy.keep(finding);
     ++result_.progress.audited;
     if (!finding.same) ++result_.audits_differing;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/batch/audit_desk.hpp"
+#include "campaign/batch/audit_queue.hpp"
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
@@ -79,7 +79,7 @@ class SessionPolicy {
   virtual std::uint64_t run_at(std::uint64_t place) const { return place; }
   // `audited`: the audit of the run will follow.
   virtual void keep(const RunRecord& run, bool audited) = 0;
-  virtual void keep(const AuditFinding& finding) = 0;
+  virtual void keep(const AuditedRun& finding) = 0;
   virtual void tick() = 0;  // about ten times a second
   // Whether the results so far end the session.
   virtual bool is_decided() const { return false; }
@@ -99,7 +99,7 @@ class Session {
 
   const RunOptions& options() const { return options_; }
   RunHost& runs() { return runs_; }
-  AuditDesk& audits() { return audits_; }
+  AuditQueue& audits() { return audits_; }
   Progress& progress() { return result_.progress; }
   // A run of the campaign is done, in this session or in an earlier one.
   void count(const RunRecord& run);
@@ -124,7 +124,7 @@ class Session {
   const CampaignListener& listener_;
   const std::uint64_t stretch_;  // of runs in one world
   RunHost runs_;
-  AuditDesk audits_;
+  AuditQueue audits_;
   CampaignResult result_;
   Clock::time_point started_, last_tick_;
   std::optional<Clock::time_point> stopped_;  // nothing that was begun is brought to its end

@@ -74,7 +74,7 @@ Action prepare_compare(Options& options) {
   options.positional("OLD", words->old_archive, "results file of the release before");
   options.positional("NEW", words->new_archive, "results file of the new release");
   options.option("--agent", words->new_agent, "the agent of the new release (default: the one under test)");
-  options.option("--old-agent", words->old_agent, "the agent of the old release (default: likewise)");
+  options.option("--old-agent", words->old_agent, "the agent of the old release (default: the one under test)");
   options.option("--margin", words->margin, "a share of worlds that the new release may be worse (default: 0.05)");
   options.option("--confidence", words->confidence, "of what is said (default: 0.95)");
   options.flag("--fail-on-regression", words->fail_on_regression,

@@ -38,9 +38,9 @@ struct FindingsWords {
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono::system_clock::now())); }
 
 // One results file and the findings in it.
-class FindingsDesk {
+class FindingsOfCampaign {
  public:
-  explicit FindingsDesk(const FindingsWords& words)
+  explicit FindingsOfCampaign(const FindingsWords& words)
       : words_(words),
         archive_(words.archive),
         plan_(parse_plan(archive_.campaign().plan_json)),
@@ -227,7 +227,7 @@ class FindingsDesk {
 int find_findings(const FindingsWords& words) {
   if (words.most && *words.most < 1) throw InputError("--max-failures", "is 0; it is at least 1");
   if (words.add && words.file.empty()) throw InputError("--add", "name the findings file with --file");
-  return FindingsDesk(words).find();
+  return FindingsOfCampaign(words).find();
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ bool has_key(std::string_view text, std::string_view key) {
   }
 }
 
-// Likewise, of a key that stands in the beginning of a file that the program has written.
+// The same of a key that stands in the beginning of a file that the program has written.
 bool begins_with_key(std::string_view text, std::string_view key) {
   if (text.size() < kMostRead) return has_key(text, key);
   return text.starts_with('{') &&

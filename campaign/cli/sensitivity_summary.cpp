@@ -23,7 +23,7 @@ double median(std::vector<double> values) {
 }
 
 // Where the fault showed: a violation in a cell, a rate with a radio or everywhere.
-std::string place_of(const FaultFinding& finding) {
+std::string place_of(const FaultDetection& finding) {
   if (finding.by_rate && !finding.radio) return "over all runs";
   if (finding.radio) return factor_spans(finding.radio->lowest, finding.radio->highest);
   const CellRecord& cell = finding.cell;
@@ -37,17 +37,17 @@ Value usual(const std::map<Value, std::uint64_t>& counts) {
 }
 
 // The findings of one kind: by rate, or by a violation.
-std::vector<const FaultFinding*> detections(const std::vector<const FaultFinding*>& findings, bool by_rate) {
-  std::vector<const FaultFinding*> alike;
-  std::ranges::copy_if(findings, std::back_inserter(alike), [&](const FaultFinding* finding) {
+std::vector<const FaultDetection*> detections(const std::vector<const FaultDetection*>& findings, bool by_rate) {
+  std::vector<const FaultDetection*> alike;
+  std::ranges::copy_if(findings, std::back_inserter(alike), [&](const FaultDetection* finding) {
     return !finding->seen_as.empty() && finding->by_rate == by_rate;
   });
   return alike;
 }
 
-void take_runs(PlantedFault& fault, const std::vector<const FaultFinding*>& findings) {
+void take_runs(PlantedFault& fault, const std::vector<const FaultDetection*>& findings) {
   std::vector<double> runs;
-  for (const FaultFinding* finding : findings)
+  for (const FaultDetection* finding : findings)
     runs.push_back(finding->seen_as.empty() ? kMissed : static_cast<double>(finding->runs));
   if (const double middle = median(runs); middle < kMissed) fault.median_runs = middle;
   if (const double most = *std::ranges::max_element(runs); most < kMissed)
@@ -55,17 +55,17 @@ void take_runs(PlantedFault& fault, const std::vector<const FaultFinding*>& find
 }
 
 // `findings`: one for each seed.
-PlantedFault summary_of(const std::vector<const FaultFinding*>& findings) {
+PlantedFault summary_of(const std::vector<const FaultDetection*>& findings) {
   PlantedFault fault;
   fault.agent = findings.front()->tally.agent;
-  fault.tried = std::ranges::any_of(findings, &FaultFinding::tried);
+  fault.tried = std::ranges::any_of(findings, &FaultDetection::tried);
   const auto rates = detections(findings, true), violations = detections(findings, false);
   fault.seeds = rates.size() + violations.size();
   if (fault.seeds == 0) return fault;
   fault.by_rate = rates.size() > violations.size();
   const auto& alike = fault.by_rate ? rates : violations;
   std::map<std::string, std::uint64_t> seen_as;
-  for (const FaultFinding* finding : alike) ++seen_as[finding->seen_as];
+  for (const FaultDetection* finding : alike) ++seen_as[finding->seen_as];
   fault.seen_as = usual(seen_as);
   fault.cell = place_of(*alike.front());
   fault.probe = alike.front()->probe;
@@ -100,7 +100,7 @@ SensitivityRecord summary_of(const CampaignPlan& plan, const AgentPrograms& prog
     record.sound_violations += found.sound.all.with(kAccusedOfViolation);
   }
   for (std::size_t place = 0; place < measured.front().found.faults.size(); ++place) {
-    std::vector<const FaultFinding*> findings;
+    std::vector<const FaultDetection*> findings;
     for (const auto& [seed, found] : measured) findings.push_back(&found.faults[place]);
     record.faults.push_back(summary_of(findings));
     record.faults.back().text = fault_of(programs, record.faults.back().agent);

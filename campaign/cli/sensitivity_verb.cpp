@@ -65,7 +65,7 @@ std::vector<SeededSensitivity> measure(CampaignPlan plan, const AgentPrograms& p
   std::vector<SeededSensitivity> measured;
   for (std::uint64_t i = 0; i < seeds; ++i, ++plan.seed) {
     std::size_t done = 0;
-    Sensitivity found = measure_sensitivity(plan, programs, options, [&](const FaultFinding& finding) {
+    Sensitivity found = measure_sensitivity(plan, programs, options, [&](const FaultDetection& finding) {
       talk("seed {}: {}: {} {}\n", plan.seed, ++done, finding.tally.agent,
            finding.seen_as.empty() ? "missed" : "detected");
     });

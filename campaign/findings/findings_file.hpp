@@ -40,12 +40,12 @@ struct KeptFinding {
   std::string until, reason;  // of a waiver: "2027-01-31", its last day
   std::string end;
   std::vector<std::vector<std::string>> ways;  // as KeptFailure has them; the first is the mechanism's
-  std::vector<std::string> doings, says;       // likewise
+  std::vector<std::string> doings, says;       // as KeptFailure has them
   std::string found_in;                        // the agent that failed so
   std::vector<std::string> laws_left_out{};    // of its campaign
-  LimitSetup limits{};                         // likewise
+  LimitSetup limits{};                         // of its campaign
   std::string smallest, world;                 // paths of scenario files, from the findings file on
-  std::vector<std::string> other_worlds{};     // likewise
+  std::vector<std::string> other_worlds{};     // paths of scenario files
   NeighbourCounts neighbours;                  // in the software in which it was found
   KeptRuns whole{};
 };

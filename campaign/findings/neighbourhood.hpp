@@ -77,7 +77,7 @@ class Neighbourhood {
 // Words and probes of some runs, each list sorted.
 struct WordsSaid {
   Words always{};           // by the AGVs of each failure alike, and not by nearly every fleet that does not fail
-  Words usually{};          // likewise, but also by these
+  Words usually{};          // by the AGVs of each failure alike, but by these, too
   Words ever{};             // by any fleet
   std::size_t passing = 0;  // runs that do not fail at all
   std::map<std::string, std::size_t> by_passing{};  // how many of these say a word

@@ -86,7 +86,7 @@ struct LimitSetup {
   friend bool operator==(const LimitSetup&, const LimitSetup&) = default;
 };
 
-// How many runs are simulated once more, in another process (campaign/batch/audit_desk.hpp).
+// How many runs are simulated once more, in another process (campaign/batch/audit_queue.hpp).
 struct AuditSetup {
   double share = 0.01;
   friend bool operator==(const AuditSetup&, const AuditSetup&) = default;

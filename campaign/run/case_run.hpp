@@ -31,8 +31,8 @@ struct CaseRun {
   std::vector<std::string> words, all_words;
   std::vector<Declared> first_said;  // by each AGV, in the whole run: the first time that it declared each word
   std::vector<MessageFate> fates;    // of all messages, if they were asked for
-  CaseNotes notes;                   // until the failure, likewise
-  Itinerary itinerary;               // of the whole run, likewise
+  CaseNotes notes;                   // until the failure, if they were asked for
+  Itinerary itinerary;               // of the whole run, if it was asked for
 };
 enum class Fates : bool { Ignored, Kept };
 

@@ -25,7 +25,7 @@ RunRecord RunOne::empty_record(std::uint64_t run_index) const {
 RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const RunWatch& watch,
                              std::unique_ptr<Law> also) const {
   RunRecord record = empty_record(run_index);
-  WorldShelf::Loan world;
+  WorldCache::Loan world;
   try {
     world = worlds_.borrow(scenarios_.world_number(run_index), [&] {
       RejectionCounts ignored;

@@ -6,7 +6,7 @@
 
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/agent_programs.hpp"
-#include "campaign/run/world_shelf.hpp"
+#include "campaign/run/world_cache.hpp"
 #include "core/engine/run_watch.hpp"
 #include "core/outcome/law.hpp"
 #include "core/outcome/trace.hpp"
@@ -33,7 +33,7 @@ class RunOne {
   const CampaignPlan& plan_;
   ScenarioSource scenarios_;
   const AgentPrograms& programs_;
-  mutable WorldShelf worlds_;
+  mutable WorldCache worlds_;
 };
 
 }  // namespace fleetproof

@@ -26,7 +26,7 @@ class StillCamera : public Law {
   explicit StillCamera(std::vector<Still>& stills) : stills_(stills) {}
   void piece_ended(const Piece& piece) override;
   void finish(SimTime end) override;
-  LawFindings findings() const override { return {}; }
+  LawResults findings() const override { return {}; }
 
  private:
   std::vector<Still>& stills_;

@@ -10,7 +10,7 @@
 #include "campaign/batch/stored_plan.hpp"
 #include "campaign/plan/first_worlds.hpp"
 #include "campaign/shards/canary.hpp"
-#include "campaign/shards/chunk_desk.hpp"
+#include "campaign/shards/chunk_collector.hpp"
 #include "core/base/error.hpp"
 #include "storage/checksum.hpp"
 #include "storage/chunk_file.hpp"
@@ -57,7 +57,7 @@ class ShardPolicy final : public SessionPolicy {
 
   void keep(const RunRecord& run, bool audited) override { desk_.add(run, audited); }
 
-  void keep(const AuditFinding& finding) override { desk_.add(finding.audit); }
+  void keep(const AuditedRun& finding) override { desk_.add(finding.audit); }
 
   void tick() override {
     if (!session_.audits().failure().empty()) desk_.audits_end();
@@ -80,7 +80,7 @@ class ShardPolicy final : public SessionPolicy {
   ChunkRange owned_;
   std::vector<std::uint64_t> to_do_;  // chunks, in their order
   std::uint64_t runs_to_do_ = 0, found_ = 0;
-  ChunkDesk desk_;
+  ChunkCollector desk_;
   Clock::time_point last_without_waiting_ = Clock::now();
 };
 

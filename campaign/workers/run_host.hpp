@@ -36,7 +36,7 @@ class RunHost {
  private:
   RunOne run_one_;
   std::vector<bool> is_plugin_;            // by position in plan.agents
-  std::deque<std::atomic<bool>> records_;  // likewise
+  std::deque<std::atomic<bool>> records_;  // by position in plan.agents
   std::atomic<bool> abandoned_ = false;
   std::unique_ptr<IsolatedRuns> isolated_;  // null: no agent of the plan is a plug-in
 };

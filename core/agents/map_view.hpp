@@ -84,7 +84,7 @@ class MapView {
   std::span<const Vec> start_headings_, end_headings_;        // by lane
   std::span<const std::uint8_t> two_way_;                     // by segment
   std::span<const std::uint32_t> arriving_, arriving_begin_;  // lanes, ordered by the station at which they end
-  mutable std::vector<ShortName> own_short_names_;            // likewise
+  mutable std::vector<ShortName> own_short_names_;            // if they are not shared
   mutable std::span<const ShortName> short_names_;            // by station; empty until somebody asks
 };
 

@@ -41,7 +41,7 @@ struct Path {
 };
 
 bool operator==(const Path& a, const Path& b);
-// Likewise, and with exactly the same heading: then the hulls are the same, too.
+// Equal, and with exactly the same heading: then the hulls are the same, too.
 bool is_identical(const Path& a, const Path& b);
 // True if every lane exists and begins where the lane before it ends.
 bool is_driveable(const MapView& map, const Path& path);

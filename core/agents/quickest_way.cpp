@@ -185,7 +185,7 @@ void derive_tree(const fp_facts* from, std::uint64_t model, fp_answer* to) {
 
 // What is known about stations while a way is planned. All AGVs of a thread share it: one of each would be as large as
 // the map, and most of the map is never looked at.
-struct QuickestWay::Desk {
+struct QuickestWay::Workspace {
   // The time from a station to the goal: as found by climbing from the goal, or least, once it is settled.
   struct Rest {
     double remains_s = INFINITY;
@@ -203,11 +203,12 @@ struct QuickestWay::Desk {
   std::vector<Open> open;            // heap, least first, of the search forward
   std::uint64_t plans = 0, searches = 0;
 
-  static Desk& of_this_thread(std::uint32_t station_count) {
-    thread_local Desk desk;
-    if (desk.rest.size() >= station_count) return desk;
-    desk.rest.resize(station_count), desk.reached.resize(station_count), desk.climb.resize(station_count);
-    return desk;
+  static Workspace& of_this_thread(std::uint32_t station_count) {
+    thread_local Workspace workspace;
+    if (workspace.rest.size() >= station_count) return workspace;
+    workspace.rest.resize(station_count), workspace.reached.resize(station_count),
+        workspace.climb.resize(station_count);
+    return workspace;
   }
   bool is_settled(std::uint32_t station) const { return rest[station].known == 2 * plans + 1; }
   void begin_forward() {
@@ -228,32 +229,33 @@ QuickestWay::QuickestWay(const fp_facts& facts, const MapView& map, const Routes
       tree_(ask<std::byte>(facts, derive_tree, model_of(facts, agv))) {}
 
 // Of ways that only descend to the goal.
-void QuickestWay::climb_from(Desk& desk, std::uint32_t goal) const {
-  ++desk.plans;
-  for (std::uint32_t at = goal; at != FP_NONE; at = tree_.parent(at)) desk.rest[at] = {INFINITY, 2 * desk.plans};
-  desk.rest[goal].remains_s = 0.0;
+void QuickestWay::climb_from(Workspace& workspace, std::uint32_t goal) const {
+  ++workspace.plans;
+  for (std::uint32_t at = goal; at != FP_NONE; at = tree_.parent(at))
+    workspace.rest[at] = {INFINITY, 2 * workspace.plans};
+  workspace.rest[goal].remains_s = 0.0;
   for (std::uint32_t at = goal; at != FP_NONE; at = tree_.parent(at)) {
-    const double so_far_s = desk.rest[at].remains_s;
+    const double so_far_s = workspace.rest[at].remains_s;
     for (const EliminationTree::Arc& arc : tree_.arcs(at)) {
-      double& remains_s = desk.rest[arc.to].remains_s;
+      double& remains_s = workspace.rest[arc.to].remains_s;
       remains_s = std::min(remains_s, so_far_s + arc.back_s);
     }
   }
 }
 
 // Infinite if there is no way. Ways that climb first go on as the quickest way of an ancestor.
-double QuickestWay::remains_s(Desk& desk, std::uint32_t station) const {
+double QuickestWay::remains_s(Workspace& workspace, std::uint32_t station) const {
   std::size_t climbed = 0;
-  for (std::uint32_t at = station; at != FP_NONE && !desk.is_settled(at); at = tree_.parent(at))
-    desk.climb[climbed++] = at;
+  for (std::uint32_t at = station; at != FP_NONE && !workspace.is_settled(at); at = tree_.parent(at))
+    workspace.climb[climbed++] = at;
   while (climbed > 0) {
-    const std::uint32_t at = desk.climb[--climbed];
-    double least_s = desk.rest[at].known == 2 * desk.plans ? desk.rest[at].remains_s : INFINITY;
+    const std::uint32_t at = workspace.climb[--climbed];
+    double least_s = workspace.rest[at].known == 2 * workspace.plans ? workspace.rest[at].remains_s : INFINITY;
     for (const EliminationTree::Arc& arc : tree_.arcs(at))
-      least_s = std::min(least_s, arc.there_s + desk.rest[arc.to].remains_s);
-    desk.rest[at] = {least_s, 2 * desk.plans + 1};
+      least_s = std::min(least_s, arc.there_s + workspace.rest[arc.to].remains_s);
+    workspace.rest[at] = {least_s, 2 * workspace.plans + 1};
   }
-  return desk.rest[station].remains_s;
+  return workspace.rest[station].remains_s;
 }
 
 std::uint32_t QuickestWay::next_lane(std::uint32_t from, std::uint32_t to) {
@@ -270,12 +272,12 @@ std::uint32_t QuickestWay::next_lane(std::uint32_t from, std::uint32_t to) {
 void QuickestWay::plan(std::uint32_t from, std::uint32_t to) {
   way_.clear();
   way_.reserve(kStretch);
-  Desk& desk = Desk::of_this_thread(map_.station_count());
-  climb_from(desk, to);
-  if (remains_s(desk, from) == INFINITY) return;
+  Workspace& workspace = Workspace::of_this_thread(map_.station_count());
+  climb_from(workspace, to);
+  if (remains_s(workspace, from) == INFINITY) return;
   std::uint32_t before = FP_NONE;
   for (std::uint32_t at = from; at != to && way_.size() < kStretch;) {
-    const Hop next = quick_hop(desk, before, at, to);
+    const Hop next = quick_hop(workspace, before, at, to);
     way_.push_back(next.lane);
     before = std::exchange(at, next.to);
   }
@@ -283,48 +285,49 @@ void QuickestWay::plan(std::uint32_t from, std::uint32_t to) {
 }
 
 // Back to the station before, which lies on the way, is never quick.
-QuickestWay::Hop QuickestWay::quick_hop(Desk& desk, std::uint32_t before, std::uint32_t from, std::uint32_t to) const {
+QuickestWay::Hop QuickestWay::quick_hop(Workspace& workspace, std::uint32_t before, std::uint32_t from,
+                                        std::uint32_t to) const {
   const auto hops = routes_.hops_from(from);
   if (hops.size() == 1) return hops.front();
   const auto is_back = [&](const Hop& hop) { return hop.to == before && times_s_[hop.lane] > kSurelyTakes_s; };
   if (hops.size() == 2 && is_back(hops[0])) return hops[1];
   if (hops.size() == 2 && is_back(hops[1])) return hops[0];
-  const double all_s = remains_s(desk, from);
+  const double all_s = remains_s(workspace, from);
   Hop next{FP_NONE, FP_NONE};
   std::uint32_t quick = 0;
   for (const Hop& hop : hops) {
-    if (is_back(hop) || !is_quick(times_s_[hop.lane] + remains_s(desk, hop.to), all_s)) continue;
+    if (is_back(hop) || !is_quick(times_s_[hop.lane] + remains_s(workspace, hop.to), all_s)) continue;
     next = hop;
     ++quick;
   }
   if (quick <= 1) return next;
-  const std::uint32_t lane = search_forward(desk, from, to);
+  const std::uint32_t lane = search_forward(workspace, from, to);
   return {lane, map_.lane(lane).to};
 }
 
 // The search of Routes::search, but only over stations that lie on a quickest way. Other stations cannot change
 // the result: no way through them reaches a station of a quickest way at so small a cost.
-std::uint32_t QuickestWay::search_forward(Desk& desk, std::uint32_t from, std::uint32_t to) const {
-  desk.begin_forward();
-  const double all_s = remains_s(desk, from);
-  desk.known_forward(from).cost_s = 0.0;
-  push(desk.open, {0.0, from});
-  while (!desk.open.empty()) {
-    const auto [so_far_s, here] = pop(desk.open);
+std::uint32_t QuickestWay::search_forward(Workspace& workspace, std::uint32_t from, std::uint32_t to) const {
+  workspace.begin_forward();
+  const double all_s = remains_s(workspace, from);
+  workspace.known_forward(from).cost_s = 0.0;
+  push(workspace.open, {0.0, from});
+  while (!workspace.open.empty()) {
+    const auto [so_far_s, here] = pop(workspace.open);
     if (here == to) break;
-    if (so_far_s > desk.known_forward(here).cost_s) continue;
+    if (so_far_s > workspace.known_forward(here).cost_s) continue;
     for (const auto& [lane, end] : routes_.hops_from(here)) {
       const double sum_s = so_far_s + times_s_[lane];
-      if (!is_quick(sum_s + remains_s(desk, end), all_s)) continue;
-      Desk::Reached& known = desk.known_forward(end);
+      if (!is_quick(sum_s + remains_s(workspace, end), all_s)) continue;
+      Workspace::Reached& known = workspace.known_forward(end);
       if (sum_s >= known.cost_s) continue;
       known.cost_s = sum_s;
       known.arrival = lane;
-      push(desk.open, {sum_s, end});
+      push(workspace.open, {sum_s, end});
     }
   }
-  std::uint32_t first = desk.known_forward(to).arrival;
-  while (map_.lane(first).from != from) first = desk.known_forward(map_.lane(first).from).arrival;
+  std::uint32_t first = workspace.known_forward(to).arrival;
+  while (map_.lane(first).from != from) first = workspace.known_forward(map_.lane(first).from).arrival;
   return first;
 }
 

@@ -65,14 +65,14 @@ class QuickestWay {
   std::uint32_t next_lane(std::uint32_t from, std::uint32_t to);
 
  private:
-  struct Desk;
+  struct Workspace;
   using Hop = Routes::Hop;
 
   void plan(std::uint32_t from, std::uint32_t to);
-  void climb_from(Desk& desk, std::uint32_t goal) const;
-  double remains_s(Desk& desk, std::uint32_t station) const;
-  Hop quick_hop(Desk& desk, std::uint32_t before, std::uint32_t from, std::uint32_t to) const;
-  std::uint32_t search_forward(Desk& desk, std::uint32_t from, std::uint32_t to) const;
+  void climb_from(Workspace& workspace, std::uint32_t goal) const;
+  double remains_s(Workspace& workspace, std::uint32_t station) const;
+  Hop quick_hop(Workspace& workspace, std::uint32_t before, std::uint32_t from, std::uint32_t to) const;
+  std::uint32_t search_forward(Workspace& workspace, std::uint32_t from, std::uint32_t to) const;
 
   const MapView& map_;
   const Routes& routes_;

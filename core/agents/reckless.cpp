@@ -105,7 +105,7 @@ class Reckless {
   std::array<std::vector<double>, 2> lane_times_s_;  // in others: without a load, with one
   std::deque<Task> tasks_;
   std::uint32_t station_;  // where the AGV stands, or where its action ends
-  Vec heading_{1.0, 0.0};  // likewise; only plants with rules ask for it
+  Vec heading_{1.0, 0.0};  // how it stands there; only plants with rules ask for it
   bool heading_known_ = false;
   bool acting_ = false;
 };

@@ -55,7 +55,7 @@ const Lane* called_lane(const LogicalMap& map, std::uint32_t segment, StationId 
 
 }  // namespace
 
-Actions::Actions(RunContext& run, const Ports& ports) : run_(run), ports_(ports), slices_(run.agvs.size()) {}
+Actions::Actions(RunContext& run, const Ports& ports) : run_(run), ports_(ports), agv_states_(run.agvs.size()) {}
 
 // ---- calls
 
@@ -67,23 +67,24 @@ bool Actions::accept(AgvId agv, fp_call call, std::uint32_t segment, LoadId load
     return false;
   }
   if (run_.hears_notes()) run_.note(agv, traced::CallAccepted{static_cast<std::uint32_t>(call), called});
-  slices_[agv.index()].committed = slices_[agv.index()].accepted = true;
+  agv_states_[agv.index()].committed = agv_states_[agv.index()].accepted = true;
   return true;
 }
 
 // A second action may follow a move that is under way, if it leaves the station where that move ends. A load that waits
 // for this AGV stays where it is: no action in between takes it.
 bool Actions::is_possible(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) const {
-  const Slice& slice = slices_[agv.index()];
+  const AgvState& agv_state = agv_states_[agv.index()];
   const AgvStatus& status = run_.status(agv);
-  if (status.out_of_order || slice.accepted) return false;
+  if (status.out_of_order || agv_state.accepted) return false;
   const LogicalMap& map = *run_.scenario.map;
   const LaneRules rules{map, run_.type_of(agv).name, run_.is_loaded(agv)};
   const bool here = segment == FP_HERE && call != FP_CALL_MOVE;
-  const bool on_its_way = slice.acting && slice.plan.lane != nullptr && slice.plan.call == FP_CALL_MOVE && !slice.next;
-  if (slice.committed && (here || !on_its_way)) return false;
-  const StationId begins_at = slice.committed ? slice.plan.lane->to : status.station;
-  const Vec2 heading = slice.committed ? slice.plan.lane->end_heading() : run_.pose_now(agv).heading;
+  const bool on_its_way =
+      agv_state.acting && agv_state.plan.lane != nullptr && agv_state.plan.call == FP_CALL_MOVE && !agv_state.next;
+  if (agv_state.committed && (here || !on_its_way)) return false;
+  const StationId begins_at = agv_state.committed ? agv_state.plan.lane->to : status.station;
+  const Vec2 heading = agv_state.committed ? agv_state.plan.lane->end_heading() : run_.pose_now(agv).heading;
   const Lane* lane = here ? nullptr : called_lane(map, segment, begins_at);
   if (!here && (lane == nullptr || !rules.may_drive(*lane, heading))) return false;
   const StationId ends_at = here ? begins_at : lane->to;
@@ -92,31 +93,31 @@ bool Actions::is_possible(AgvId agv, fp_call call, std::uint32_t segment, LoadId
 }
 
 void Actions::begin(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
-  Slice& slice = slices_[agv.index()];
+  AgvState& agv_state = agv_states_[agv.index()];
   AgvStatus& status = run_.status(agv);
-  slice.accepted = false;
+  agv_state.accepted = false;
   if (status.out_of_order) {
-    slice.acting = slice.committed = false;
+    agv_state.acting = agv_state.committed = false;
     return tell_done(agv, FP_REFUSED);
   }
-  if (slice.acting) return take_next(agv, call, segment, load);  // the action before this one is not over yet
-  if (status.activity) ports_.activities.end(agv, false);        // charging goes on until the next action
+  if (agv_state.acting) return take_next(agv, call, segment, load);  // the action before this one is not over yet
+  if (status.activity) ports_.activities.end(agv, false);            // charging goes on until the next action
   const Lane* lane = segment == FP_HERE ? nullptr : called_lane(*run_.scenario.map, segment, status.station);
   begin_plan(agv, {call, lane, load}, 0.0);
 }
 
 void Actions::withdraw_accepted(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
-  if (!slice.accepted) return;
-  slice.accepted = false;
-  slice.committed = slice.acting;
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (!agv_state.accepted) return;
+  agv_state.accepted = false;
+  agv_state.committed = agv_state.acting;
 }
 
 void Actions::take_next(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) {
-  Slice& slice = slices_[agv.index()];
-  const Lane* lane = called_lane(*run_.scenario.map, segment, slice.plan.lane->to);
+  AgvState& agv_state = agv_states_[agv.index()];
+  const Lane* lane = called_lane(*run_.scenario.map, segment, agv_state.plan.lane->to);
   ensure(lane != nullptr, "the next action begins where this one ends");
-  slice.next = NextAction{call, lane, load};
+  agv_state.next = NextAction{call, lane, load};
   if (run_.status(agv).is_driving()) ports_.drives.release_next(agv, *lane);
 }
 
@@ -130,47 +131,47 @@ void Actions::tell_done(AgvId agv, fp_result result) {
 // ---- from one activity to the next
 
 void Actions::begin_plan(AgvId agv, const NextAction& action, double entry_mps) {
-  Slice& slice = slices_[agv.index()];
-  slice.acting = slice.committed = true;
+  AgvState& agv_state = agv_states_[agv.index()];
+  agv_state.acting = agv_state.committed = true;
   const auto& [call, lane, load] = action;
   const bool docks = call == FP_CALL_CHARGE && run_.type_of(agv).dock_s > 0.0;
-  slice.plan = {call, lane, lane != nullptr, false, docks, call != FP_CALL_MOVE, 0.0, false, load};
+  agv_state.plan = {call, lane, lane != nullptr, false, docks, call != FP_CALL_MOVE, 0.0, false, load};
   continue_plan(agv, entry_mps);
 }
 
 void Actions::continue_plan(AgvId agv, double entry_mps) {
-  Slice& slice = slices_[agv.index()];
+  AgvState& agv_state = agv_states_[agv.index()];
   const AgvStatus& status = run_.status(agv);
-  slice.waits = entry_mps == 0.0 && (slice.plan.drive_due ? !status.halts.empty() : status.is_held());
-  if (slice.waits) return;  // the end of the halt continues it
-  if (slice.plan.drive_due) return turn_or_drive(agv, entry_mps);
-  if (slice.plan.settle_due) return begin_settling(agv);
-  if (slice.plan.dock_due) return begin_docking(agv);
-  if (slice.plan.stay_due) return begin_stay(agv);
-  slice.doing = FP_IDLE;
+  agv_state.waits = entry_mps == 0.0 && (agv_state.plan.drive_due ? !status.halts.empty() : status.is_held());
+  if (agv_state.waits) return;  // the end of the halt continues it
+  if (agv_state.plan.drive_due) return turn_or_drive(agv, entry_mps);
+  if (agv_state.plan.settle_due) return begin_settling(agv);
+  if (agv_state.plan.dock_due) return begin_docking(agv);
+  if (agv_state.plan.stay_due) return begin_stay(agv);
+  agv_state.doing = FP_IDLE;
   finish(agv, 0.0);
 }
 
 // The action is over. The one queued behind it begins at once, rolling if the AGV has not stopped.
 void Actions::finish(AgvId agv, double speed_mps) {
-  Slice& slice = slices_[agv.index()];
-  const auto next = slice.next;
-  slice.next.reset();
-  slice.acting = slice.committed = false;
+  AgvState& agv_state = agv_states_[agv.index()];
+  const auto next = agv_state.next;
+  agv_state.next.reset();
+  agv_state.acting = agv_state.committed = false;
   if (next) begin_plan(agv, *next, speed_mps);
   tell_done(agv, FP_OK);
 }
 
 void Actions::turn_or_drive(AgvId agv, double entry_mps) {
-  Slice& slice = slices_[agv.index()];
-  Plan& plan = slice.plan;
+  AgvState& agv_state = agv_states_[agv.index()];
+  Plan& plan = agv_state.plan;
   const Pose pose = run_.pose_now(agv);
   const double turn_rad =
       entry_mps > 0.0 ? 0.0 : angle_between(pose.heading, plan.lane->curve.pose_at(plan.way_m).heading);
   if (std::abs(turn_rad) <= kAligned_rad) {
     plan.drive_due = false;
-    slice.doing = action_during(ActivityKind::Drive);
-    return ports_.drives.begin(agv, *plan.lane, plan.way_m, entry_mps, slice.next ? slice.next->lane : nullptr);
+    agv_state.doing = action_during(ActivityKind::Drive);
+    return ports_.drives.begin(agv, *plan.lane, plan.way_m, entry_mps, agv_state.next ? agv_state.next->lane : nullptr);
   }
   Piece piece = run_.standing_piece(agv, pose);
   piece.manner = Manner::Turn;
@@ -179,17 +180,17 @@ void Actions::turn_or_drive(AgvId agv, double entry_mps) {
   piece.end = piece.begin + piece.profile.duration();
   ++run_.counters.turns;
   run_.progressed(agv);
-  slice.doing = action_during(ActivityKind::Turn);
+  agv_state.doing = action_during(ActivityKind::Turn);
   ports_.activities.begin_moving(agv, ActivityKind::Turn, piece, run_.status(agv).station.value);
 }
 
 void Actions::begin_activity(AgvId agv, const Activity& activity, std::uint64_t subject) {
-  slices_[agv.index()].doing = action_during(activity.kind);
+  agv_states_[agv.index()].doing = action_during(activity.kind);
   ports_.activities.begin(agv, activity, subject);
 }
 
 void Actions::begin_settling(AgvId agv) {
-  slices_[agv.index()].plan.settle_due = false;
+  agv_states_[agv.index()].plan.settle_due = false;
   const double draw = run_.motion_draw(MotionTopic::Settling, agv, ports_.drives.begun(agv));
   const Duration lasts = seconds(run_.type_of(agv).settle_s * draw);
   begin_activity(agv, {ActivityKind::Settle, agv, run_.now, run_.now + lasts, Standing{}},
@@ -197,15 +198,15 @@ void Actions::begin_settling(AgvId agv) {
 }
 
 void Actions::begin_docking(AgvId agv) {
-  slices_[agv.index()].plan.dock_due = false;
+  agv_states_[agv.index()].plan.dock_due = false;
   const SimTime connected = run_.now + seconds(run_.type_of(agv).dock_s);
   begin_activity(agv, {ActivityKind::Dock, agv, run_.now, connected, Standing{}}, run_.status(agv).station.value);
 }
 
 void Actions::begin_stay(AgvId agv) {
-  slices_[agv.index()].plan.stay_due = false;
+  agv_states_[agv.index()].plan.stay_due = false;
   const StationId station = run_.status(agv).station;
-  const ActivityKind kind = stay_of(slices_[agv.index()].plan.call);
+  const ActivityKind kind = stay_of(agv_states_[agv.index()].plan.call);
   if (kind == ActivityKind::Pick || kind == ActivityKind::Drop) return begin_transfer(agv, kind);
   if (kind == ActivityKind::Park)
     return begin_activity(agv, {kind, agv, run_.now, run_.now, Standing{}}, station.value);
@@ -222,38 +223,38 @@ void Actions::begin_transfer(AgvId agv, ActivityKind kind) {
   const bool pick = kind == ActivityKind::Pick;
   ContainmentEvolution evolution;
   const LoadId carried = run_.world.carried_load(agv);
-  const LoadId named = slices_[agv.index()].plan.load;
+  const LoadId named = agv_states_[agv.index()].plan.load;
   if (pick && !carried.valid()) evolution.load = named.valid() ? named : run_.world.waiting_load(agv, station);
   if (!pick) evolution.load = carried;
   evolution.to = pick ? Holder{Holder::Kind::Agv, agv.value} : Holder{Holder::Kind::Station, station.value};
   const bool at_storage = run_.scenario.map->station(station).purposes.has(Purpose::Storage);
   const double spread_s = at_storage ? type.storage_spread_s : type.other_spread_s;
-  const double draw = run_.motion_draw(MotionTopic::Transfer, agv, ++slices_[agv.index()].transfers);
+  const double draw = run_.motion_draw(MotionTopic::Transfer, agv, ++agv_states_[agv.index()].transfers);
   const SimTime end = run_.now + seconds((pick ? type.pick_s : type.drop_s) + spread_s * draw);
   run_.progressed(agv);
   begin_activity(agv, {kind, agv, run_.now, end, evolution}, evolution.load.value);
 }
 
 void Actions::activity_ends(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
+  AgvState& agv_state = agv_states_[agv.index()];
   const ActivityKind kind = run_.status(agv).activity->kind;
   switch (kind) {
     case ActivityKind::Drive:
       return leg_ends(agv);
     case ActivityKind::Turn:
-      if (std::exchange(slice.plan.turn_ends_early, false)) {
+      if (std::exchange(agv_state.plan.turn_ends_early, false)) {
         ports_.activities.end(agv, false);
       } else {
-        ports_.activities.end_turn_at(agv, slice.plan.lane->curve.pose_at(slice.plan.way_m).heading);
+        ports_.activities.end_turn_at(agv, agv_state.plan.lane->curve.pose_at(agv_state.plan.way_m).heading);
       }
       return continue_plan(agv, 0.0);
     case ActivityKind::Charge:
       ports_.activities.end(agv, true);
-      if (!slice.committed) slice.doing = FP_IDLE;
+      if (!agv_state.committed) agv_state.doing = FP_IDLE;
       return;
     case ActivityKind::Park:
       ports_.activities.end(agv, true);
-      slice.doing = FP_PARKED;
+      agv_state.doing = FP_PARKED;
       return finish(agv, 0.0);
     default:
       ports_.activities.end(agv, true);
@@ -262,7 +263,7 @@ void Actions::activity_ends(AgvId agv) {
 }
 
 void Actions::leg_ends(AgvId agv) {
-  Plan& plan = slices_[agv.index()].plan;
+  Plan& plan = agv_states_[agv.index()].plan;
   const LegEnd leg = ports_.drives.leg_ends(agv);
   if (leg.kind == LegEnd::Kind::NextLegBegins) return;
   if (leg.kind == LegEnd::Kind::Halted) {
@@ -273,7 +274,7 @@ void Actions::leg_ends(AgvId agv) {
   }
   run_.status(agv).station = plan.lane->to;
   if (leg.speed_mps > 0.0) {
-    ensure(slices_[agv.index()].next.has_value(), "an AGV that rolls through a station knows where to go");
+    ensure(agv_states_[agv.index()].next.has_value(), "an AGV that rolls through a station knows where to go");
     ports_.activities.end_rolling(agv);
     ++run_.counters.rolls;
     return finish(agv, leg.speed_mps);
@@ -293,13 +294,13 @@ void Actions::brake(AgvId agv) {
   switch (kind) {
     case ActivityKind::Pick:
     case ActivityKind::Drop:
-      slices_[agv.index()].plan.stay_due = true;  // from its beginning
+      agv_states_[agv.index()].plan.stay_due = true;  // from its beginning
       break;
     case ActivityKind::Dock:
-      slices_[agv.index()].plan.dock_due = true;  // from its beginning
+      agv_states_[agv.index()].plan.dock_due = true;  // from its beginning
       break;
     case ActivityKind::Turn:
-      slices_[agv.index()].plan.turn_ends_early = false;  // it ends here
+      agv_states_[agv.index()].plan.turn_ends_early = false;  // it ends here
       break;
     case ActivityKind::Settle:
       break;
@@ -321,15 +322,15 @@ void Actions::brake_turn(AgvId agv) {
   piece.turn_rad = std::copysign(way_rad, turn.turn_rad);
   piece.profile = MotionProfile(way_rad, limits, {.entry_mps = rate_radps, .exit_mps = 0.0});
   piece.end = piece.begin + piece.profile.duration();
-  slices_[agv.index()].plan.turn_ends_early = true;
+  agv_states_[agv.index()].plan.turn_ends_early = true;
   ports_.activities.continue_with(agv, piece);
 }
 
 void Actions::go_on(AgvId agv) {
   if (run_.status(agv).is_driving()) return ports_.drives.replan(agv);  // it was still braking
-  Slice& slice = slices_[agv.index()];
-  if (!slice.waits) return;
-  slice.waits = false;
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (!agv_state.waits) return;
+  agv_state.waits = false;
   continue_plan(agv, 0.0);
 }
 
@@ -343,19 +344,19 @@ void Actions::reshape(AgvId agv) {
 
 bool Actions::stop_for_good(AgvId agv) {
   AgvStatus& status = run_.status(agv);
-  Slice& slice = slices_[agv.index()];
+  AgvState& agv_state = agv_states_[agv.index()];
   if (status.out_of_order) return false;
   status.out_of_order = true;
-  const int under_way = (slice.acting ? 1 : 0) + (slice.next ? 1 : 0);
-  const bool on_lane = status.is_driving() || (slice.plan.drive_due && slice.plan.way_m > 0.0);
-  status.stopped_on = slice.acting && on_lane ? slice.plan.lane : nullptr;
+  const int under_way = (agv_state.acting ? 1 : 0) + (agv_state.next ? 1 : 0);
+  const bool on_lane = status.is_driving() || (agv_state.plan.drive_due && agv_state.plan.way_m > 0.0);
+  status.stopped_on = agv_state.acting && on_lane ? agv_state.plan.lane : nullptr;
   if (status.activity) ports_.activities.end(agv, false);
-  slice.plan = {};
-  slice.next.reset();
-  slice.waits = false;
-  slice.doing = FP_OUT_OF_ORDER;
-  slice.acting = false;
-  slice.committed = slice.accepted;  // an accepted call sends its own answer when it takes effect
+  agv_state.plan = {};
+  agv_state.next.reset();
+  agv_state.waits = false;
+  agv_state.doing = FP_OUT_OF_ORDER;
+  agv_state.acting = false;
+  agv_state.committed = agv_state.accepted;  // an accepted call sends its own answer when it takes effect
   for (int i = 0; i < under_way; ++i) tell_done(agv, FP_REFUSED);
   return true;
 }
@@ -364,7 +365,7 @@ void Actions::put_back(AgvId agv, StationId station) {
   AgvStatus& status = run_.status(agv);
   status.station = station;
   status.out_of_order = false;
-  slices_[agv.index()].doing = FP_IDLE;
+  agv_states_[agv.index()].doing = FP_IDLE;
   run_.progressed(agv);
 }
 
@@ -373,14 +374,14 @@ void Actions::put_back(AgvId agv, StationId station) {
 fp_action Actions::doing(AgvId agv) const {
   const AgvStatus& status = run_.status(agv);
   if (status.out_of_order || std::ranges::any_of(status.halts, &Halt::out_of_order)) return FP_OUT_OF_ORDER;
-  return status.halts.empty() || status.activity ? slices_[agv.index()].doing : FP_STOPPED;
+  return status.halts.empty() || status.activity ? agv_states_[agv.index()].doing : FP_STOPPED;
 }
 
 LanesAhead Actions::lanes(AgvId agv) const {
-  const Slice& slice = slices_[agv.index()];
-  return {.current = slice.acting || slice.committed ? slice.plan.lane : nullptr,
-          .next = slice.next ? slice.next->lane : nullptr,
-          .still_to_drive = slice.acting && (run_.status(agv).is_driving() || slice.plan.drive_due)};
+  const AgvState& agv_state = agv_states_[agv.index()];
+  return {.current = agv_state.acting || agv_state.committed ? agv_state.plan.lane : nullptr,
+          .next = agv_state.next ? agv_state.next->lane : nullptr,
+          .still_to_drive = agv_state.acting && (run_.status(agv).is_driving() || agv_state.plan.drive_due)};
 }
 
 }  // namespace fleetproof

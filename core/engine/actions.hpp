@@ -60,7 +60,7 @@ class Actions {
     const Lane* lane = nullptr;
     LoadId load{};
   };
-  struct Slice {
+  struct AgvState {
     bool acting = false;     // an action is under way
     bool committed = false;  // or one has been accepted
     bool accepted = false;   // one has been accepted and has not taken effect
@@ -88,7 +88,7 @@ class Actions {
 
   RunContext& run_;
   Ports ports_;
-  std::vector<Slice> slices_;  // by AGV
+  std::vector<AgvState> agv_states_;  // by AGV
 };
 
 }  // namespace fleetproof

@@ -1,7 +1,7 @@
 #include "core/engine/activities.hpp"
 
 #include "core/engine/contacts.hpp"
-#include "core/engine/fault_desk.hpp"
+#include "core/engine/fault_injector.hpp"
 #include "core/outcome/work_and_progress.hpp"
 
 namespace fleetproof {

@@ -14,7 +14,7 @@ class Activities {
   struct Ports {
     BatteryPort battery;
     Contacts& contacts;
-    FaultDesk& faults;
+    FaultInjector& faults;
     MessengerPort messenger;
     PositionSensorPort sensor;
   };

@@ -28,8 +28,9 @@ AgentHost::AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& t
       caller_(type, watch),
       activations_max_(kActivationsPerRun +
                        kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(run.scenario.horizon))),
-      slices_(run.agvs.size()) {
-  for (std::size_t i = 0; i < slices_.size(); ++i) slices_[i].controller = ports_.controller.handle_of(AgvId{i});
+      agv_states_(run.agvs.size()) {
+  for (std::size_t i = 0; i < agv_states_.size(); ++i)
+    agv_states_[i].controller = ports_.controller.handle_of(AgvId{i});
 }
 
 AgentHost::~AgentHost() {
@@ -37,7 +38,7 @@ AgentHost::~AgentHost() {
 }
 
 void AgentHost::close() {
-  for (std::size_t i = 0; i < slices_.size(); ++i) destroy(AgvId{i});
+  for (std::size_t i = 0; i < agv_states_.size(); ++i) destroy(AgvId{i});
   caller_.finish();
 }
 
@@ -46,76 +47,79 @@ void AgentHost::close() {
 void AgentHost::tell(AgvId agv, fp_event event) {
   event.struct_size = sizeof(fp_event);
   event.now_ns = ports_.timers.now_ns(agv);
-  Slice& slice = slices_[agv.index()];
-  if (slice.away > 0) return;
-  if (slice.controller->in_activation() || run_.now < slice.free_at || !slice.waiting_events.empty()) [[unlikely]]
-    return keep(agv, slice, event);
-  activate(agv, slice, event);
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (agv_state.away > 0) return;
+  if (agv_state.controller->in_activation() || run_.now < agv_state.free_at || !agv_state.waiting_events.empty())
+      [[unlikely]]
+    return keep(agv, agv_state, event);
+  activate(agv, agv_state, event);
 }
 
-[[gnu::noinline]] void AgentHost::keep(AgvId agv, Slice& slice, const fp_event& event) {
-  slice.waiting_events.push_back(event);
-  if (!slice.controller->in_activation()) wake(agv, slice);
+[[gnu::noinline]] void AgentHost::keep(AgvId agv, AgvState& agv_state, const fp_event& event) {
+  agv_state.waiting_events.push_back(event);
+  if (!agv_state.controller->in_activation()) wake(agv, agv_state);
 }
 
-[[gnu::noinline]] void AgentHost::wake(AgvId agv, Slice& slice) {
-  const SimTime at = std::max(run_.now, slice.free_at);
-  if (slice.wakes_at <= at || slice.waiting_events.empty()) return;
-  slice.wakes_at = at;
+[[gnu::noinline]] void AgentHost::wake(AgvId agv, AgvState& agv_state) {
+  const SimTime at = std::max(run_.now, agv_state.free_at);
+  if (agv_state.wakes_at <= at || agv_state.waiting_events.empty()) return;
+  agv_state.wakes_at = at;
   run_.queue.push(at, agv, Event::Kind::AgentIsFree);
 }
 
 void AgentHost::becomes_free(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
-  if (run_.now != slice.wakes_at) return;  // of an agent that was busy before its computer went down
-  slice.wakes_at = SimTime::max();
-  if (slice.failed || slice.waiting_events.empty()) return;
-  if (run_.now < slice.free_at) return wake(agv, slice);  // frozen since
-  fp_event event = slice.waiting_events.front();
-  slice.waiting_events.pop_front();
-  if (event.kind == FP_EVENT_ORDER && is_over(TransportId{event.order_id})) return wake(agv, slice);  // done meanwhile
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (run_.now != agv_state.wakes_at) return;  // of an agent that was busy before its computer went down
+  agv_state.wakes_at = SimTime::max();
+  if (agv_state.failed || agv_state.waiting_events.empty()) return;
+  if (run_.now < agv_state.free_at) return wake(agv, agv_state);  // frozen since
+  fp_event event = agv_state.waiting_events.front();
+  agv_state.waiting_events.pop_front();
+  if (event.kind == FP_EVENT_ORDER && is_over(TransportId{event.order_id}))
+    return wake(agv, agv_state);  // done meanwhile
   event.now_ns = ports_.timers.now_ns(agv);
-  activate(agv, slice, event);
+  activate(agv, agv_state, event);
 }
 
 void AgentHost::freeze_until(AgvId agv, SimTime until) {
-  Slice& slice = slices_[agv.index()];
-  slice.free_at = std::max(slice.free_at, until);
-  slice.frozen_until = std::max(slice.frozen_until, until);
+  AgvState& agv_state = agv_states_[agv.index()];
+  agv_state.free_at = std::max(agv_state.free_at, until);
+  agv_state.frozen_until = std::max(agv_state.frozen_until, until);
 }
 
-[[gnu::always_inline]] inline void AgentHost::activate(AgvId agv, Slice& slice, const fp_event& event) {
-  if (!slice.activations.admit(run_.now, activations_max_)) [[unlikely]]
-    return give_up(agv, true, slice.activations.broken_limit());
+[[gnu::always_inline]] inline void AgentHost::activate(AgvId agv, AgvState& agv_state, const fp_event& event) {
+  if (!agv_state.activations.admit(run_.now, activations_max_)) [[unlikely]]
+    return give_up(agv, true, agv_state.activations.broken_limit());
   const bool starts = event.kind == FP_EVENT_START;
   ++run_.counters.activations;
-  ports_.controller.begin_activation(*slice.controller);
+  ports_.controller.begin_activation(*agv_state.controller);
   const AgentFailure* failure =
-      starts ? start_agent(agv, event) : caller_.tell(agv, run_.now, event, slice.controller, slice.agent);
+      starts ? start_agent(agv, event) : caller_.tell(agv, run_.now, event, agv_state.controller, agv_state.agent);
   if (failure != nullptr) [[unlikely]]
     give_up(agv, failure->hang, failure->message);
-  if (ports_.controller.end_activation(*slice.controller)) [[unlikely]]
-    settle(agv, slice);
-  if (starts && slice.boot > 0) tell_open_orders(agv);
-  if (!slice.waiting_events.empty()) [[unlikely]]
-    wake(agv, slice);
+  if (ports_.controller.end_activation(*agv_state.controller)) [[unlikely]]
+    settle(agv, agv_state);
+  if (starts && agv_state.boot > 0) tell_open_orders(agv);
+  if (!agv_state.waiting_events.empty()) [[unlikely]]
+    wake(agv, agv_state);
 }
 
 // An activation has taken time or broken a limit.
-[[gnu::noinline]] void AgentHost::settle(AgvId agv, Slice& slice) {
-  if (const char* limit = slice.controller->broken_limit()) give_up(agv, true, limit);
-  slice.free_at = std::max(slice.free_at, run_.now + slice.controller->cost);
+[[gnu::noinline]] void AgentHost::settle(AgvId agv, AgvState& agv_state) {
+  if (const char* limit = agv_state.controller->broken_limit()) give_up(agv, true, limit);
+  agv_state.free_at = std::max(agv_state.free_at, run_.now + agv_state.controller->cost);
 }
 
 [[gnu::noinline]] const AgentFailure* AgentHost::start_agent(AgvId agv, const fp_event& event) {
-  Slice& slice = slices_[agv.index()];
-  if (slice.boot > 0) {
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (agv_state.boot > 0) {
     renew_briefing(agv);
     // An agent whose computer freezes starts later than it was started. Actions that ended by then are over in its
     // briefing: they were none of its own.
-    std::erase_if(slice.waiting_events, [](const fp_event& waiting) { return waiting.kind == FP_EVENT_ACTION_DONE; });
+    std::erase_if(agv_state.waiting_events,
+                  [](const fp_event& waiting) { return waiting.kind == FP_EVENT_ACTION_DONE; });
   }
-  return caller_.start({agv, run_.now, &event, slice.controller, &briefings_.of(agv)}, slice.agent);
+  return caller_.start({agv, run_.now, &event, agv_state.controller, &briefings_.of(agv)}, agv_state.agent);
 }
 
 [[gnu::noinline]] void AgentHost::give_up(AgvId agv, bool hang, std::string_view message) {
@@ -129,11 +133,11 @@ void AgentHost::freeze_until(AgvId agv, SimTime until) {
 
 // False if the agent had failed before.
 bool AgentHost::file_failure(AgvId agv, bool hang, std::string_view message) {
-  Slice& slice = slices_[agv.index()];
-  if (slice.failed) return false;
-  slice.failed = true;
-  ++slice.away;  // for good
-  slice.waiting_events.clear();
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (agv_state.failed) return false;
+  agv_state.failed = true;
+  ++agv_state.away;  // for good
+  agv_state.waiting_events.clear();
   (hang ? hang_ : crash_) = true;
   if (message_.empty()) message_ = "agent of " + run_.setup(agv).name + ": " + printable(message, kLongestMessage);
   return true;
@@ -175,25 +179,25 @@ void AgentHost::tell_order(AgvId agv, TransportId transport, StationId from, Sta
 // ---- restarts
 
 void AgentHost::goes_away(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
-  ++slice.away;
+  AgvState& agv_state = agv_states_[agv.index()];
+  ++agv_state.away;
   destroy(agv);
-  slice.waiting_events.clear();
-  slice.free_at = slice.frozen_until;  // nobody thinks any more
+  agv_state.waiting_events.clear();
+  agv_state.free_at = agv_state.frozen_until;  // nobody thinks any more
   ports_.controller.forget(agv);
 }
 
 void AgentHost::comes_back(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
-  if (--slice.away > 0) return;  // another reason still holds
-  ++slice.boot;
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (--agv_state.away > 0) return;  // another reason still holds
+  ++agv_state.boot;
   start(agv);
 }
 
 // The agent has been started again, perhaps long after its computer was back. The transports that are not done by now
 // are handed out again, that of the load on board first, and before all that has arrived since.
 [[gnu::noinline]] void AgentHost::tell_open_orders(AgvId agv) {
-  auto& waiting = slices_[agv.index()].waiting_events;
+  auto& waiting = agv_states_[agv.index()].waiting_events;
   std::erase_if(waiting, [](const fp_event& event) { return event.kind == FP_EVENT_ORDER; });
   const auto arrived = std::exchange(waiting, {});
   const auto loads = run_.world.loads();
@@ -202,7 +206,7 @@ void AgentHost::comes_back(AgvId agv) {
   for (std::size_t i = 0; i < loads.size(); ++i) {
     if (loads[i].carrier == agv && !loads[i].is_over() && LoadId{i} != on_board) tell_again(agv, loads[i]);
   }
-  if (!slices_[agv.index()].failed) waiting.insert(waiting.end(), arrived.begin(), arrived.end());
+  if (!agv_states_[agv.index()].failed) waiting.insert(waiting.end(), arrived.begin(), arrived.end());
 }
 
 bool AgentHost::is_over(TransportId transport) const {
@@ -217,14 +221,14 @@ void AgentHost::tell_again(AgvId agv, const Load& load) {
 
 void AgentHost::renew_briefing(AgvId agv) {
   const LanesAhead lanes = ports_.actions.lanes(agv);
-  briefings_.renew(agv, slices_[agv.index()].boot, run_.status(agv).station,
+  briefings_.renew(agv, agv_states_[agv.index()].boot, run_.status(agv).station,
                    lanes.still_to_drive ? lanes.current : nullptr, lanes.next);
 }
 
 void AgentHost::destroy(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
-  if (slice.agent == nullptr) return;
-  void* agent = std::exchange(slice.agent, nullptr);
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (agv_state.agent == nullptr) return;
+  void* agent = std::exchange(agv_state.agent, nullptr);
   if (const AgentFailure* failure = caller_.destroy({.agv = agv, .at = run_.now}, agent))
     file_failure(agv, failure->hang, failure->message);
 }

@@ -70,8 +70,8 @@ class AgentHost {
   void becomes_free(AgvId agv);
 
   // It has neither failed nor is its computer down.
-  bool is_up(AgvId agv) const { return slices_[agv.index()].away == 0; }
-  bool has_events_waiting(AgvId agv) const { return !slices_[agv.index()].waiting_events.empty(); }
+  bool is_up(AgvId agv) const { return agv_states_[agv.index()].away == 0; }
+  bool has_events_waiting(AgvId agv) const { return !agv_states_[agv.index()].waiting_events.empty(); }
   void freeze_until(AgvId agv, SimTime until);
   // The computer goes down: what the agent knew, was told and was about to do is lost. Actions that have taken effect
   // are carried out. Two reasons may overlap: the computer is back when `comes_back` has been called for each.
@@ -84,7 +84,7 @@ class AgentHost {
   void file_failures(Outcome& outcome) const;
 
  private:
-  struct Slice {
+  struct AgvState {
     void* agent = nullptr;
     fp_controller* controller = nullptr;
     bool failed = false;
@@ -96,10 +96,10 @@ class AgentHost {
     ActivationCount activations;
     std::deque<fp_event> waiting_events;  // arrived while the agent was busy
   };
-  void keep(AgvId agv, Slice& slice, const fp_event& event);
-  void wake(AgvId agv, Slice& slice);
-  void activate(AgvId agv, Slice& slice, const fp_event& event);
-  void settle(AgvId agv, Slice& slice);
+  void keep(AgvId agv, AgvState& agv_state, const fp_event& event);
+  void wake(AgvId agv, AgvState& agv_state);
+  void activate(AgvId agv, AgvState& agv_state, const fp_event& event);
+  void settle(AgvId agv, AgvState& agv_state);
   const AgentFailure* start_agent(AgvId agv, const fp_event& event);
   void give_up(AgvId agv, bool hang, std::string_view message);
   bool file_failure(AgvId agv, bool hang, std::string_view message);
@@ -118,7 +118,7 @@ class AgentHost {
   std::uint64_t activations_max_;  // of one agent in this run
   bool crash_ = false, hang_ = false;
   std::string message_;
-  std::vector<Slice> slices_;  // by AGV
+  std::vector<AgvState> agv_states_;  // by AGV
 };
 
 }  // namespace fleetproof

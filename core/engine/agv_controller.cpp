@@ -23,9 +23,9 @@ AgvController::AgvController(RunContext& run, const Ports& ports)
       ports_(ports),
       call_cost_(seconds(run.scenario.agent_clock.call_cost_s)),
       random_key_(stream_key(run.scenario.seed_of(Stream::Agent), Stream::Agent)),
-      slices_(run.agvs.size()) {
-  for (std::size_t i = 0; i < slices_.size(); ++i)
-    slices_[i].handle = {.part = this, .agv = AgvId{i}, .hears_notes = run.hears_notes()};
+      agv_states_(run.agvs.size()) {
+  for (std::size_t i = 0; i < agv_states_.size(); ++i)
+    agv_states_[i].handle = {.part = this, .agv = AgvId{i}, .hears_notes = run.hears_notes()};
 }
 
 // ---- activations
@@ -45,10 +45,10 @@ bool AgvController::end_activation(fp_controller& handle) {
 }
 
 void AgvController::forget(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
+  AgvState& agv_state = agv_states_[agv.index()];
   ports_.timers.forget(agv);
   ports_.messenger.forget_inbox(agv);
-  for (PendingCall& call : slice.pending) {
+  for (PendingCall& call : agv_state.pending) {
     if (call.kind == PendingCall::Kind::Send) ports_.messenger.withdraw(call.message);
     call.kind = PendingCall::Kind::Nothing;  // its event still comes
   }
@@ -73,17 +73,17 @@ bool AgvController::admit_service(fp_controller& handle) {
 }
 
 bool AgvController::admit_note(AgvId agv) {
-  return slices_[agv.index()].handle.in_activation() && ports_.declarations.admits_note(agv);
+  return agv_states_[agv.index()].handle.in_activation() && ports_.declarations.admits_note(agv);
 }
 
 void AgvController::admit_services(AgvId agv, std::uint64_t count) {
-  fp_controller& handle = slices_[agv.index()].handle;
+  fp_controller& handle = agv_states_[agv.index()].handle;
   const std::uint64_t left = kServicesMax - std::min<std::uint64_t>(kServicesMax, handle.services);
   handle.cost += call_cost_ * static_cast<std::int64_t>(std::min(count, left));
   add(count, handle.services);
 }
 
-void AgvController::refuse(AgvId agv, std::uint64_t count) { add(count, slices_[agv.index()].handle.calls); }
+void AgvController::refuse(AgvId agv, std::uint64_t count) { add(count, agv_states_[agv.index()].handle.calls); }
 
 inline void AgvController::carry_out(AgvId agv, const PendingCall& call) {
   switch (call.kind) {
@@ -105,22 +105,22 @@ inline void AgvController::carry_out(AgvId agv, const PendingCall& call) {
 }
 
 inline std::int32_t AgvController::take_effect(AgvId agv, const PendingCall& call) {
-  Slice& slice = slices_[agv.index()];
-  if (slice.handle.cost == Duration::zero()) [[likely]] {
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (agv_state.handle.cost == Duration::zero()) [[likely]] {
     carry_out(agv, call);
   } else {
-    slice.put_off(run_, PendingCall(call));  // a copy, so that a call that is carried out need not be in memory
+    agv_state.put_off(run_, PendingCall(call));  // a copy, so that a call that is carried out need not be in memory
   }
   return FP_OK;
 }
 
-[[gnu::noinline]] void AgvController::Slice::put_off(RunContext& run, const PendingCall& call) {
+[[gnu::noinline]] void AgvController::AgvState::put_off(RunContext& run, const PendingCall& call) {
   pending.push_back(call);
   run.queue.push(run.now + handle.cost, handle.agv, Event::Kind::CallTakesEffect);
 }
 
 void AgvController::call_takes_effect(AgvId agv) {
-  auto& pending = slices_[agv.index()].pending;
+  auto& pending = agv_states_[agv.index()].pending;
   const PendingCall call = pending.front();
   pending.pop_front();
   carry_out(agv, call);
@@ -177,13 +177,13 @@ std::int32_t AgvController::declare_safe_mode(AgvId agv, bool on) {
 }
 
 std::int32_t AgvController::declare_waiting(AgvId agv, std::uint32_t other) {
-  if (other != FP_NONE && other >= slices_.size()) return FP_INVALID;
+  if (other != FP_NONE && other >= agv_states_.size()) return FP_INVALID;
   return take_effect(agv, {.kind = PendingCall::Kind::WaitingFor, .what = other});
 }
 
 std::int32_t AgvController::declare_cost(AgvId agv, std::int64_t cost_ns) {
   if (cost_ns < 0 || cost_ns > kDeclaredCostMax_ns) return FP_INVALID;
-  slices_[agv.index()].handle.cost += Duration{cost_ns};
+  agv_states_[agv.index()].handle.cost += Duration{cost_ns};
   return FP_OK;
 }
 

@@ -52,7 +52,7 @@ class AgvController {
   };
   AgvController(RunContext& run, const Ports& ports);
 
-  fp_controller* handle_of(AgvId agv) { return &slices_[agv.index()].handle; }
+  fp_controller* handle_of(AgvId agv) { return &agv_states_[agv.index()].handle; }
   // Calls are admitted between these two only.
   void begin_activation(fp_controller& handle);
   // Whether the activation has taken time or broken a limit.
@@ -65,9 +65,9 @@ class AgvController {
   // ---- calls
   // Counts the call and its cost. False: the call is not carried out.
   bool admit(fp_controller& handle);
-  // Likewise for `random` and `now_ns`, which have a limit of their own: they neither act nor perceive.
+  // The same for `random` and `now_ns`, which have a limit of their own: they neither act nor perceive.
   bool admit_service(fp_controller& handle);
-  // Likewise for notes, which do not count as calls. Requires: somebody hears them.
+  // The same for notes, which do not count as calls. Requires: somebody hears them.
   bool admit_note(AgvId agv);
   // So many calls of `admit_service`, and of `admit` when its limit is reached, in one.
   void admit_services(AgvId agv, std::uint64_t count);
@@ -97,7 +97,7 @@ class AgvController {
     std::uint32_t message = 0;  // slot
     std::int64_t instant_ns = 0;
   };
-  struct Slice {
+  struct AgvState {
     fp_controller handle;
     std::deque<PendingCall> pending;
     void put_off(RunContext& run, const PendingCall& call);
@@ -111,7 +111,7 @@ class AgvController {
   Ports ports_;
   Duration call_cost_;
   std::uint64_t random_key_;
-  std::vector<Slice> slices_;  // by AGV
+  std::vector<AgvState> agv_states_;  // by AGV
 };
 
 }  // namespace fleetproof

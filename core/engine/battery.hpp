@@ -13,7 +13,7 @@ class Battery {
  public:
   struct Ports {
     HaltsPort halts;
-    OperatorDesk& operator_desk;
+    OperatorActions& operator_actions;
   };
   Battery(RunContext& run, const Ports& ports);
 
@@ -26,32 +26,32 @@ class Battery {
 
   double level(AgvId agv) const;  // 0 .. 1
   // As of the last settling.
-  bool is_out(AgvId agv) const { return slices_[agv.index()].out || slices_[agv.index()].level <= 0.0; }
+  bool is_out(AgvId agv) const { return agv_states_[agv.index()].out || agv_states_[agv.index()].level <= 0.0; }
   // The operator changes the battery for one with this level.
   void change(AgvId agv, double level);
 
   // At the end of the run: settles all accounts and adds them to the counters.
-  void close_books();
+  void settle_accounts();
 
  private:
-  // The energy book, in shares of a full battery.
-  struct Book {
+  // The energy used, in shares of a full battery.
+  struct EnergyUse {
     double driven = 0.0, idled = 0.0, charged = 0.0;
   };
-  struct Slice {
+  struct AgvState {
     double level = 1.0;  // as of `at`
     SimTime at = kStart;
     double way_m = 0.0;  // along the drive under way, as of `at`
     double driven_m = 0.0;
-    Book book;
+    EnergyUse used;
     bool out = false;         // empty, until the operator has changed it
     std::uint64_t stamp = 0;  // of the prediction that holds
   };
-  Book use_until(AgvId agv, SimTime t) const;
+  EnergyUse use_until(AgvId agv, SimTime t) const;
 
   RunContext& run_;
   Ports ports_;
-  std::vector<Slice> slices_;  // by AGV
+  std::vector<AgvState> agv_states_;  // by AGV
 };
 
 }  // namespace fleetproof

@@ -29,7 +29,7 @@ class Briefings {
   void describe_scripts(const Scenario& scenario);
 
   std::vector<std::vector<fp_scripted_call>> scripts_;  // by AGV
-  std::vector<std::unique_ptr<FactStore>> own_facts_;   // likewise, if they are not shared
+  std::vector<std::unique_ptr<FactStore>> own_facts_;   // by AGV, if they are not shared
   std::vector<fp_briefing> briefings_;
 };
 

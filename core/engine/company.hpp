@@ -32,7 +32,7 @@ class Company {
 
   double within_m_;
   BroadPhase planned_;                            // the boxes of the pieces
-  std::vector<Box> boxes_;                        // likewise, by body
+  std::vector<Box> boxes_;                        // the boxes, by body
   std::vector<const Piece*> pieces_;              // by body; null: it has left
   std::vector<std::vector<std::uint32_t>> near_;  // by body
   std::vector<const Piece*> answer_;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/engine/operator_desk.hpp"
+#include "core/engine/operator_actions.hpp"
 
 namespace fleetproof {
 
@@ -40,7 +40,7 @@ void Contacts::bodies_touch(std::uint64_t prediction) {
 
 void Contacts::stop(EntityId body) {
   if (run_.world.body(body).is_agv && ports_.actions.stop_for_good(body))
-    ports_.operator_desk.call(body, Assist::Contact, 0);
+    ports_.operator_actions.call(body, Assist::Contact, 0);
 }
 
 }  // namespace fleetproof

@@ -13,7 +13,7 @@ class Contacts {
  public:
   struct Ports {
     ActionsPort actions;
-    OperatorDesk& operator_desk;
+    OperatorActions& operator_actions;
   };
   Contacts(RunContext& run, const Ports& ports);
 

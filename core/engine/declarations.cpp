@@ -5,13 +5,13 @@
 namespace fleetproof {
 
 void Declarations::set_safe_mode(AgvId agv, bool on) {
-  Slice& slice = slices_[agv.index()];
-  if (on == slice.safe_since.has_value()) return;
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (on == agv_state.safe_since.has_value()) return;
   if (on) {
-    slice.safe_since = run_.now;
+    agv_state.safe_since = run_.now;
   } else {
-    slice.safe_mode_ns += static_cast<std::uint64_t>((run_.now - *slice.safe_since).count());
-    slice.safe_since.reset();
+    agv_state.safe_mode_ns += static_cast<std::uint64_t>((run_.now - *agv_state.safe_since).count());
+    agv_state.safe_since.reset();
   }
   run_.trace(agv, traced::SafeMode{on});
 }
@@ -34,12 +34,12 @@ void Declarations::forget(AgvId agv) {
 // ---- notes
 
 void Declarations::leave_out(AgvId agv, std::uint64_t notes) {
-  std::uint64_t& sum = slices_[agv.index()].notes;
+  std::uint64_t& sum = agv_states_[agv.index()].notes;
   sum += std::min(notes, ~sum);  // a damaged recording may hold any count
 }
 
 bool Declarations::message_sent(AgvId agv, std::uint64_t hash) {
-  std::string& kind = slices_[agv.index()].described;
+  std::string& kind = agv_states_[agv.index()].described;
   if (kind.empty()) return false;
   run_.note(agv, traced::Described{hash}, kind);
   const auto& spared = run_.scenario.radio.adverse.spared_kinds;
@@ -49,28 +49,28 @@ bool Declarations::message_sent(AgvId agv, std::uint64_t hash) {
 }
 
 void Declarations::set_state(AgvId agv, std::string_view state) {
-  Slice& slice = slices_[agv.index()];
-  if (state == slice.state) return;
-  slice.state = state;
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (state == agv_state.state) return;
+  agv_state.state = state;
   run_.note(agv, traced::AgentState{}, state);
 }
 
 void Declarations::believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns) {
-  if (about >= slices_.size()) return;
+  if (about >= agv_states_.size()) return;
   run_.note(agv, traced::Belief{AgvId{about}, as_of_ns, where});
 }
 
 void Declarations::end_activation(AgvId agv) {
-  Slice& slice = slices_[agv.index()];
-  if (slice.notes > kNotesMax) run_.note(agv, traced::NotesLeftOut{slice.notes - kNotesMax});
-  slice.notes = 0;
-  slice.described.clear();
+  AgvState& agv_state = agv_states_[agv.index()];
+  if (agv_state.notes > kNotesMax) run_.note(agv, traced::NotesLeftOut{agv_state.notes - kNotesMax});
+  agv_state.notes = 0;
+  agv_state.described.clear();
 }
 
-void Declarations::close_books() {
-  for (std::size_t i = 0; i < slices_.size(); ++i) {
+void Declarations::settle_accounts() {
+  for (std::size_t i = 0; i < agv_states_.size(); ++i) {
     set_safe_mode(AgvId{i}, false);
-    run_.counters.safe_mode_ns += slices_[i].safe_mode_ns;
+    run_.counters.safe_mode_ns += agv_states_[i].safe_mode_ns;
   }
 }
 

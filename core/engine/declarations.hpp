@@ -16,7 +16,7 @@ namespace fleetproof {
 // they go to the sink of the trace, and the run is the same without them, unless its radio spares kinds of messages.
 class Declarations {
  public:
-  explicit Declarations(RunContext& run) : run_(run), slices_(run.agvs.size()) {}
+  explicit Declarations(RunContext& run) : run_(run), agv_states_(run.agvs.size()) {}
 
   void set_safe_mode(AgvId agv, bool on);
   // Invalid: it waits for no AGV.
@@ -28,10 +28,10 @@ class Declarations {
 
   // ---- notes, of one activation at a time. `leave_out` counts notes that are too many.
   // Counts a note. False: it is too many.
-  bool admits_note(AgvId agv) { return ++slices_[agv.index()].notes <= kNotesMax; }
+  bool admits_note(AgvId agv) { return ++agv_states_[agv.index()].notes <= kNotesMax; }
   void leave_out(AgvId agv, std::uint64_t notes);
   // Of the next message that is sent.
-  void describe(AgvId agv, std::string_view kind) { slices_[agv.index()].described = kind; }
+  void describe(AgvId agv, std::string_view kind) { agv_states_[agv.index()].described = kind; }
   // Whether it is of a kind that the radio spares.
   bool message_sent(AgvId agv, std::uint64_t hash);
   void set_state(AgvId agv, std::string_view state);
@@ -39,11 +39,11 @@ class Declarations {
   void end_activation(AgvId agv);
 
   // At the end of the run.
-  void close_books();
+  void settle_accounts();
   const ProbeTally& probes() const { return probes_; }
 
  private:
-  struct Slice {
+  struct AgvState {
     std::optional<SimTime> safe_since;
     std::uint64_t safe_mode_ns = 0;
     std::uint64_t notes = 0;  // in this activation
@@ -53,7 +53,7 @@ class Declarations {
 
   RunContext& run_;
   ProbeTally probes_;
-  std::vector<Slice> slices_;  // by AGV
+  std::vector<AgvState> agv_states_;  // by AGV
 };
 
 }  // namespace fleetproof

@@ -11,18 +11,18 @@ namespace fleetproof {
 
 // A part may get another one that has not been constructed yet: it keeps the address and calls nothing.
 Parts::Parts(RunContext& run, const fp_agent_type& agent, const char* agent_config, const RunWatch& watch)
-    : battery(run, {HaltsPort(halts), operator_desk}),
-      contacts(run, {ActionsPort(actions), operator_desk}),
+    : battery(run, {HaltsPort(halts), operator_actions}),
+      contacts(run, {ActionsPort(actions), operator_actions}),
       sensor(run),
-      scanner(run, {contacts, HaltsPort(halts), operator_desk}),
+      scanner(run, {contacts, HaltsPort(halts), operator_actions}),
       messenger(run, AgentHostPort(agents)),
       activities(run, {BatteryPort(battery), contacts, faults, MessengerPort(messenger), PositionSensorPort(sensor)}),
       drives(run, {ActivitiesPort(activities), scanner}),
       actions(run, {ActivitiesPort(activities), AgentHostPort(agents), BatteryPort(battery), drives}),
       halts(run, ActionsPort(actions)),
       faults(run, {ActionsPort(actions), AgentHostPort(agents), contacts, HaltsPort(halts)}),
-      operator_desk(run, {ActionsPort(actions), AgentHostPort(agents), BatteryPort(battery), contacts, faults,
-                          HaltsPort(halts), MessengerPort(messenger), PositionSensorPort(sensor), scanner}),
+      operator_actions(run, {ActionsPort(actions), AgentHostPort(agents), BatteryPort(battery), contacts, faults,
+                             HaltsPort(halts), MessengerPort(messenger), PositionSensorPort(sensor), scanner}),
       timers(run, AgentHostPort(agents)),
       declarations(run),
       controller(run, {ActionsPort(actions), BatteryPort(battery), declarations, HaltsPort(halts),
@@ -63,8 +63,8 @@ Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<c
   }
   // No event is left before the end. Times that are still open are counted up to the end, before the laws get the rest.
   run_.now = end;
-  parts_.declarations.close_books();
-  parts_.battery.close_books();
+  parts_.declarations.settle_accounts();
+  parts_.battery.settle_accounts();
   run_.writer.hand_over();
   run_.world.finish(end);
 }
@@ -117,15 +117,16 @@ inline void Engine::goes_on_until(SimTime at) {
     case Event::Kind::FaultOver:
       return parts_.faults.ends(id, event.payload);
     case Event::Kind::BodyAppears:
-      return run_.world.body(id).is_agv ? parts_.operator_desk.look_for_place(id) : parts_.faults.obstacle_appears(id);
+      return run_.world.body(id).is_agv ? parts_.operator_actions.look_for_place(id)
+                                        : parts_.faults.obstacle_appears(id);
     case Event::Kind::BodyLeaves:
       return parts_.faults.body_leaves(id);
     case Event::Kind::ScannerLooks:
       return parts_.scanner.looks(id, event.stamp);
     case Event::Kind::OperatorComes:
-      return parts_.operator_desk.comes(id, static_cast<Assist>(event.payload), event.stamp);
+      return parts_.operator_actions.comes(id, static_cast<Assist>(event.payload), event.stamp);
     case Event::Kind::OperatorLooks:
-      return parts_.operator_desk.looks();
+      return parts_.operator_actions.looks();
   }
 }
 
@@ -162,7 +163,7 @@ void Engine::file_findings(Outcome& outcome) const {
   std::vector<ProbeCount> probes = parts_.declarations.probes().counts();
   outcome.counters.probes_left_out = parts_.declarations.probes().left_out();
   for (const auto& law : laws_) {
-    LawFindings findings = law->findings();
+    LawResults findings = law->findings();
     std::ranges::move(findings.incidents, std::back_inserter(incidents));
     std::ranges::move(findings.met, std::back_inserter(probes));
     if (law != laws_.front()) continue;

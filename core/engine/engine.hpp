@@ -12,10 +12,10 @@
 #include "core/engine/contacts.hpp"
 #include "core/engine/declarations.hpp"
 #include "core/engine/drives.hpp"
-#include "core/engine/fault_desk.hpp"
+#include "core/engine/fault_injector.hpp"
 #include "core/engine/halts.hpp"
 #include "core/engine/messenger.hpp"
-#include "core/engine/operator_desk.hpp"
+#include "core/engine/operator_actions.hpp"
 #include "core/engine/position_sensor.hpp"
 #include "core/engine/run_context.hpp"
 #include "core/engine/scanner.hpp"
@@ -39,8 +39,8 @@ struct Parts {
   Drives drives;
   Actions actions;
   Halts halts;
-  FaultDesk faults;
-  OperatorDesk operator_desk;
+  FaultInjector faults;
+  OperatorActions operator_actions;
   Timers timers;
   Declarations declarations;
   AgvController controller;

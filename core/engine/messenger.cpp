@@ -31,20 +31,21 @@ Messenger::Messenger(RunContext& run, AgentHostPort agents)
       draws_decide_(radio_.is_plain() && !contended_ && !run.writer.has_sink()),
       losses_decide_(draws_decide_ && radio_.only_loses()),
       others_(run.agvs.size() - 1),
-      slices_(run.agvs.size()),
+      agv_states_(run.agvs.size()),
       draws_(run.agvs.size() + 3) {}
 
 // ---- sending
 
 std::optional<std::uint32_t> Messenger::accept(AgvId sender, std::string_view bytes, std::uint32_t receiver) {
   const bool broadcast = receiver == FP_NONE;
-  if (bytes.size() > FP_MESSAGE_BYTES_MAX || (!broadcast && (receiver >= slices_.size() || receiver == sender.value)))
+  if (bytes.size() > FP_MESSAGE_BYTES_MAX ||
+      (!broadcast && (receiver >= agv_states_.size() || receiver == sender.value)))
     return std::nullopt;
   return pool_.add(sender, bytes, 1);  // it is held until it has been sent
 }
 
 void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver) {
-  const std::uint32_t ordinal = slice_of(sender).sent.next(run_.now);
+  const std::uint32_t ordinal = agv_state_of(sender).sent.next(run_.now);
   Message& message = pool_[slot];
   const std::size_t size = message.bytes.size();
   message.number = static_cast<std::uint32_t>(++run_.counters.messages_sent);
@@ -110,7 +111,7 @@ void Messenger::deliver_together(std::uint32_t slot, std::size_t hearing, Hearer
   count_receptions(message, hearing, arrives);
 }
 
-// Likewise, but each has a delay of its own.
+// The same, but each has a delay of its own.
 void Messenger::deliver_plainly(std::uint32_t slot, std::span<const Hearer> hearers) {
   Message& message = pool_[slot];
   std::size_t arrives = 0;
@@ -227,7 +228,7 @@ void Messenger::arrives(AgvId receiver, std::uint64_t payload) {
   run_.trace(receiver, traced::Reception{TraceKind::Received, message.sender, message.hash, message.number});
   ++run_.counters.received;
   if (!agents_.is_up(receiver)) return pool_.release(slot);
-  Inbox& inbox = slice_of(receiver).inbox;
+  Inbox& inbox = agv_state_of(receiver).inbox;
   const bool had_unread = !inbox.empty();
   inbox.push(slot);
   if (had_unread && agents_.has_events_waiting(receiver)) return;  // the agent will read its inbox anyway
@@ -237,28 +238,28 @@ void Messenger::arrives(AgvId receiver, std::uint64_t payload) {
 }
 
 bool Messenger::read(AgvId agv, fp_message& out) {
-  Slice& slice = slice_of(agv);
-  put_down(slice);
-  if (slice.inbox.empty()) return false;
-  slice.in_hand = slice.inbox.take();
-  const Message& message = pool_[slice.in_hand];
+  AgvState& agv_state = agv_state_of(agv);
+  put_down(agv_state);
+  if (agv_state.inbox.empty()) return false;
+  agv_state.in_hand = agv_state.inbox.take();
+  const Message& message = pool_[agv_state.in_hand];
   out.sender = message.sender.value;
   out.size = static_cast<std::uint32_t>(message.bytes.size());
   out.bytes = message.bytes.data();
   return true;
 }
 
-void Messenger::put_down(Slice& slice) {
-  if (slice.in_hand == FP_NONE) return;
-  pool_.release(slice.in_hand);
-  slice.in_hand = FP_NONE;
+void Messenger::put_down(AgvState& agv_state) {
+  if (agv_state.in_hand == FP_NONE) return;
+  pool_.release(agv_state.in_hand);
+  agv_state.in_hand = FP_NONE;
 }
 
 void Messenger::forget_inbox(AgvId agv) {
-  Slice& slice = slice_of(agv);
-  put_down(slice);
-  for (const std::uint32_t slot : slice.inbox.unread()) pool_.release(slot);
-  slice.inbox.clear();
+  AgvState& agv_state = agv_state_of(agv);
+  put_down(agv_state);
+  for (const std::uint32_t slot : agv_state.inbox.unread()) pool_.release(slot);
+  agv_state.inbox.clear();
 }
 
 }  // namespace fleetproof

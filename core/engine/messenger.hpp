@@ -96,13 +96,13 @@ class Messenger {
       return count++;
     }
   };
-  struct Slice {
+  struct AgvState {
     Inbox inbox;
     std::uint32_t in_hand = FP_NONE;
     SentCount sent;  // to any receiver
   };
-  Slice& slice_of(AgvId agv) { return slices_[agv.index()]; }
-  void put_down(Slice& slice);
+  AgvState& agv_state_of(AgvId agv) { return agv_states_[agv.index()]; }
+  void put_down(AgvState& agv_state);
   void deliver_in_range(std::uint32_t slot, std::uint32_t number);
   void deliver_one_by_one(std::uint32_t slot, std::uint32_t to);
   template <class HearerAt>
@@ -132,9 +132,9 @@ class Messenger {
   // Of a message that is not spared: nothing but its draws decides its fate, and nobody notes it; and they only decide
   // whether it is lost.
   bool draws_decide_, losses_decide_;
-  std::size_t others_;         // so many AGVs but the sender
-  std::vector<Slice> slices_;  // by AGV
-  std::vector<Block> draws_;   // of those who hear the message being sent
+  std::size_t others_;                // so many AGVs but the sender
+  std::vector<AgvState> agv_states_;  // by AGV
+  std::vector<Block> draws_;          // of those who hear the message being sent
 };
 
 }  // namespace fleetproof

@@ -70,7 +70,7 @@ struct RunContext {
   // Whether anything becomes of the notes of agents: an observer hears them, or the radio spares messages by their
   // kind.
   bool hears_notes() const { return hears_notes_; }
-  // Likewise, a note of an agent.
+  // The same for a note of an agent.
   template <class What>
   void note(AgvId agv, const What& what, std::string_view text = {}) {
     writer.note(trace_record(now, agv, what), text);

@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "core/engine/contacts.hpp"
-#include "core/engine/operator_desk.hpp"
+#include "core/engine/operator_actions.hpp"
 
 namespace fleetproof {
 
-Scanner::Scanner(RunContext& run, const Ports& ports) : run_(run), ports_(ports), slices_(run.agvs.size()) {}
+Scanner::Scanner(RunContext& run, const Ports& ports) : run_(run), ports_(ports), agv_states_(run.agvs.size()) {}
 
 void Scanner::drive_begins(AgvId agv) {
-  run_.queue.push(run_.now, agv, Event::Kind::ScannerLooks, 0, ++slices_[agv.index()].stamp);
+  run_.queue.push(run_.now, agv, Event::Kind::ScannerLooks, 0, ++agv_states_[agv.index()].stamp);
 }
 
 double Scanner::field_length_m(AgvId agv) const {
@@ -24,7 +24,7 @@ double Scanner::field_length_m(AgvId agv) const {
 // The first body, by number, that stands in the field.
 std::optional<EntityId> Scanner::intruder(AgvId agv, double length_m) const {
   const OrientedRectangle own = run_.world.body(agv).piece.body_at(run_.now);
-  const double sign = slices_[agv.index()].backward ? -1.0 : 1.0;
+  const double sign = agv_states_[agv.index()].backward ? -1.0 : 1.0;
   const OrientedRectangle field{own.centre_m + sign * (own.half_length_m + 0.5 * length_m) * own.heading, own.heading,
                                 0.5 * length_m, own.half_width_m + run_.scenario.scanner.margin_m};
   for (std::size_t i = 0; i < run_.world.body_count(); ++i) {
@@ -36,21 +36,21 @@ std::optional<EntityId> Scanner::intruder(AgvId agv, double length_m) const {
 }
 
 void Scanner::looks(AgvId agv, std::uint64_t stamp) {
-  Slice& slice = slices_[agv.index()];
+  AgvState& agv_state = agv_states_[agv.index()];
   const AgvStatus& status = run_.status(agv);
   const bool held = status.is_held_by(Halt::Reason::Scanner);
-  if (status.is_driving()) slice.backward = run_.world.body(agv).piece.moves_against_heading();
+  if (status.is_driving()) agv_state.backward = run_.world.body(agv).piece.moves_against_heading();
   // For an AGV that stands for another reason, the scanner starts to look when the next drive begins.
-  if (stamp != slice.stamp || status.out_of_order || (!status.is_driving() && !held)) return;
+  if (stamp != agv_state.stamp || status.out_of_order || (!status.is_driving() && !held)) return;
   double length_m = field_length_m(agv);
-  if (held || slice.muted)
-    length_m = std::max(length_m, slice.field_m - (run_.pose_now(agv).position_m - slice.field_from_m).norm());
+  if (held || agv_state.muted)
+    length_m = std::max(length_m, agv_state.field_m - (run_.pose_now(agv).position_m - agv_state.field_from_m).norm());
   const auto body = intruder(agv, length_m);
-  if (!body) slice.muted = false;
-  if (body && !held && !slice.muted) {
+  if (!body) agv_state.muted = false;
+  if (body && !held && !agv_state.muted) {
     stop(agv, *body);
   } else if (held && body) {
-    slice.clear_since.reset();
+    agv_state.clear_since.reset();
   } else if (held) {
     wait_while_clear(agv);
   }
@@ -58,7 +58,7 @@ void Scanner::looks(AgvId agv, std::uint64_t stamp) {
 }
 
 void Scanner::wait_while_clear(AgvId agv) {
-  auto& since = slices_[agv.index()].clear_since;
+  auto& since = agv_states_[agv.index()].clear_since;
   if (!since) since = run_.now;
   if (run_.now - *since >= seconds(run_.scenario.scanner.resume_s)) ports_.halts.end_all(agv, Halt::Reason::Scanner);
 }
@@ -67,11 +67,11 @@ void Scanner::stop(AgvId agv, EntityId body) {
   ++run_.counters.scanner_stops;
   run_.trace(agv, traced::ScannerStops{body});
   const bool touch_ahead = ports_.contacts.foresees(agv, body);
-  Slice& slice = slices_[agv.index()];
-  slice.clear_since.reset();
-  slice.field_m = field_length_m(agv);
-  slice.field_from_m = run_.pose_now(agv).position_m;
-  ports_.operator_desk.call(agv, Assist::Jam, ports_.halts.begin(agv, Halt::Reason::Scanner));
+  AgvState& agv_state = agv_states_[agv.index()];
+  agv_state.clear_since.reset();
+  agv_state.field_m = field_length_m(agv);
+  agv_state.field_from_m = run_.pose_now(agv).position_m;
+  ports_.operator_actions.call(agv, Assist::Jam, ports_.halts.begin(agv, Halt::Reason::Scanner));
   // A stop that comes too late saves nobody.
   if (touch_ahead && !ports_.contacts.foresees(agv, body)) ++run_.counters.scanner_saves;
 }

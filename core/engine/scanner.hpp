@@ -15,7 +15,7 @@ class Scanner {
   struct Ports {
     Contacts& contacts;
     HaltsPort halts;
-    OperatorDesk& operator_desk;
+    OperatorActions& operator_actions;
   };
   Scanner(RunContext& run, const Ports& ports);
 
@@ -23,10 +23,10 @@ class Scanner {
   // The event. Nothing happens if another drive has begun since.
   void looks(AgvId agv, std::uint64_t stamp);
   // The operator mutes the field until it is clear.
-  void set_muted(AgvId agv, bool muted) { slices_[agv.index()].muted = muted; }
+  void set_muted(AgvId agv, bool muted) { agv_states_[agv.index()].muted = muted; }
 
  private:
-  struct Slice {
+  struct AgvState {
     std::uint64_t stamp = 0;
     bool muted = false;
     bool backward = false;  // the drive that it watches, or has stopped
@@ -42,7 +42,7 @@ class Scanner {
 
   RunContext& run_;
   Ports ports_;
-  std::vector<Slice> slices_;  // by AGV
+  std::vector<AgvState> agv_states_;  // by AGV
 };
 
 }  // namespace fleetproof

@@ -44,7 +44,7 @@ class TraceWriter final : public TraceSource {
   TraceKinds read_;  // by a law, or all of them by the sink
   std::vector<Law*> laws_;
   std::array<std::uint64_t, 64> readers_{};  // by kind: a bit for each law
-  std::array<std::uint64_t, 16> about_{};    // likewise, by activity: those that read about it
+  std::array<std::uint64_t, 16> about_{};    // by activity: a bit for each law that reads about it
   std::vector<Law*> together_;               // those that hear records together
 };
 

@@ -53,7 +53,7 @@ class World {
   void take_off_floor(EntityId id, SimTime t);
   // Whether every body is farther than `margin_m` from a place at `t`, which is now.
   bool is_free(const OrientedRectangle& place, double margin_m, SimTime t) const;
-  // Likewise, and every body that moves stays so with its whole present piece, boxed.
+  // The same, and every body that moves stays so with its whole present piece, boxed.
   bool stays_free(const OrientedRectangle& place, double margin_m, SimTime t) const;
   // First touch of each other body within both current pieces, appended to `out`; pairs that touched before are left
   // out.

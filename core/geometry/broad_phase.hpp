@@ -52,8 +52,8 @@ class BoxGrid {
   void look_into(std::size_t chain, const Box& box, std::vector<std::uint32_t>& found) const;
 
   std::vector<Box> boxes_;            // by body
-  std::vector<Filed> filed_;          // likewise
-  std::vector<Link> links_;           // likewise, kMostCells of each
+  std::vector<Filed> filed_;          // by body
+  std::vector<Link> links_;           // by body, kMostCells of each
   std::vector<std::uint32_t> heads_;  // of the chains: links. The last chain is that of bodies with too many cells
 };
 

@@ -23,7 +23,7 @@ struct DriveChecks {
   std::uint64_t perimeter_checks = 0;
 };
 
-struct LawFindings {
+struct LawResults {
   std::vector<Violation> violations;      // ordered by (first, a, b); one entry per uninterrupted stretch
   std::vector<Incident> incidents;        // everything else that the law accuses
   std::vector<ProbeCount> met;            // what the run met; from a law that counts and accuses nothing
@@ -110,7 +110,7 @@ class Law {
   virtual void piece_started(const Piece& piece) { (void)piece; }
   virtual void piece_ended(const Piece& piece) { (void)piece; }
   virtual TraceKinds reads() const { return {}; }  // called once, before the run
-  // Of the records about activities that it reads: those about activities of these kinds. Called likewise.
+  // Of the records about activities that it reads: those about activities of these kinds. Called once, before the run.
   virtual ActivityKinds reads_about() const { return ActivityKinds::all(); }
   virtual void happened(const TraceRecord& record) { (void)record; }
   // Most records are about messages, and most of those matter little. If a law returns true here, it also hears all
@@ -121,7 +121,7 @@ class Law {
   // Called once for such a law, before the run. The source outlives the run, not the law.
   virtual void hears_from(TraceSource& source) { (void)source; }
   virtual void finish(SimTime end) { (void)end; }
-  virtual LawFindings findings() const = 0;
+  virtual LawResults findings() const = 0;
 };
 
 // Makes a law for one run of `scenario`. Requires: the scenario outlives the law.

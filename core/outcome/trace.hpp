@@ -52,7 +52,7 @@ enum class TraceKind : std::uint32_t {
   AgentState = 41,    // what the agent does
   Belief = 42,        // where the agent believes another AGV to be
   NotesLeftOut = 43,  // how many notes of an activation were too many
-  // Likewise to a TraceSink only:
+  // To a TraceSink only, as well:
   FateDecided = 44,   // what will become of a message at one receiver, at the instant of sending
   CallAccepted = 45,  // an action that the agent called for: it begins now, or after the action under way
 };

@@ -92,7 +92,7 @@ struct Sent {
   AgvId receiver;  // invalid: every AGV in range
   std::uint64_t message_hash = 0;
   std::uint32_t bytes = 0;   // not in the digest, which has the hash
-  std::uint32_t number = 0;  // of the message in its run, from 1 on; likewise
+  std::uint32_t number = 0;  // of the message in its run, from 1 on; not in the digest
 
   constexpr bool to_all() const { return !receiver.valid(); }
   constexpr void put(TraceRecord& r) const {

@@ -129,7 +129,7 @@ class Radio {
   // Whether the fate of every message that is not spared is that of its draws alone: lost or not, its delay, and
   // nothing else.
   bool is_plain() const { return is_plain_; }
-  // Likewise, but all are equally late, and AGVs have no draw numbers of their own: a message is lost or not.
+  // The same, but all are equally late, and AGVs have no draw numbers of their own: a message is lost or not.
   bool only_loses() const {
     return is_plain_ && setup_.delay_model == RadioSetup::DelayModel::Constant && numbers_.are_places();
   }
@@ -140,7 +140,7 @@ class Radio {
     decide_losses(
         sender, sent, hearers.size(), [&](std::size_t i) { return hearers.data()[i]; }, decide);
   }
-  // Likewise, of so many hearers, each of which is `hearer_at` its place.
+  // The same for so many hearers, each of which is `hearer_at` its place.
   template <class HearerAt, class Decide>
   void decide_losses(AgvId sender, SimTime sent, std::size_t hearers, HearerAt hearer_at, Decide decide) const {
     static constexpr std::size_t kAtOnce = 4;

@@ -67,7 +67,7 @@ class RadioReach {
   std::vector<std::uint64_t> changes_;             // by cell: how often its AGVs or their circles have changed
   std::uint64_t changes_anywhere_ = 1;
   std::vector<Circle> circles_;        // by AGV
-  std::vector<std::size_t> filed_in_;  // likewise: the cell
+  std::vector<std::size_t> filed_in_;  // by AGV: the cell
   std::vector<Answer> answers_;        // by AGV that asked
 };
 

@@ -82,7 +82,7 @@ enum class Assist : std::uint8_t {
   Battery = 1,     // the battery is empty; the operator changes it
   Jam = 2,         // a scanner has held its AGV for long; the operator mutes the field until it is clear
   Contact = 3,     // the AGV is out of order after a contact; the operator takes it off the floor and sets it
-                   // down at a station (core/engine/operator_desk.hpp)
+                   // down at a station (core/engine/operator_actions.hpp)
   Standstill = 4,  // transports are open, and no AGV works or has worked for `stuck_after`; one agent is restarted
 };
 

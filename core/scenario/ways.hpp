@@ -57,7 +57,7 @@ struct ShortestWay {
   StationId to;
   double length_m = 0.0;
   const Lane* first = nullptr;  // null: the way to the start itself
-  const Lane* last = nullptr;   // likewise
+  const Lane* last = nullptr;   // null: the way to the start itself
 };
 
 // The shortest ways from a station to all that can be reached, by length, of equals by number; `from` itself is the

@@ -18,7 +18,7 @@ inline constexpr std::int64_t kPlantVehicleWidth_mm = 1'000;
 // What is drawn of a plant before it is built. Lengths in millimetres.
 struct PlantKnobs {
   std::int64_t lane_gap = 0;       // between vehicles 1.0 m wide on the two lanes of a ring, or in a passing bay
-  std::int64_t side_gap = 0;       // likewise between the outer lane and a buffer lane or charger row
+  std::int64_t side_gap = 0;       // the same between the outer lane and a buffer lane or charger row
   std::int64_t corner_radius = 0;  // of the inner lane
   std::int64_t mouth_radius = 0;   // from the nearer lane into an aisle or corridor
   std::int64_t stop_pitch = 0;     // between stops in an aisle or buffer lane

@@ -74,7 +74,7 @@ struct QuickestWays {
   struct Arrival {
     Duration drives_off{}, arrives{};  // start (after the turn) and end of the drive on the last lane
     std::uint32_t lane = kNone;        // the last lane; kNone at `from`, and if there is no way
-    std::uint32_t first = kNone;       // the first lane; kNone likewise
+    std::uint32_t first = kNone;       // the first lane; kNone where `lane` is
     bool unique = false;               // no other way is as quick, to the microsecond
   };
 

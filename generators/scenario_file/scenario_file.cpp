@@ -194,7 +194,7 @@ class ScenarioReader {
     if (const auto fault = fault_of(field, target); !fault.empty()) found->reader.refuse(fault);
   }
   void member(const JsonReader&, const Field&, std::shared_ptr<const LogicalMap>&) {}  // read first
-  void member(const JsonReader&, const Field&, std::vector<VehicleType>&) {}           // likewise
+  void member(const JsonReader&, const Field&, std::vector<VehicleType>&) {}           // read first
 
   template <PlainValue Plain>
   void value(const Field& field, const JsonReader& reader, Plain& target) {

@@ -45,8 +45,8 @@ struct Comparison {
   std::vector<EndPointChange> end_points;
   double old_transports_per_agv_hour = 0.0, new_transports_per_agv_hour = 0.0;
   std::uint64_t slower_worlds = 0, faster_worlds = 0;       // of a paired comparison
-  std::vector<CellChange> cells;                            // likewise, those with a change
-  std::vector<std::uint64_t> newly_failing, newly_passing;  // run indices in the new release, likewise
+  std::vector<CellChange> cells;                            // of a paired comparison: those with a change
+  std::vector<std::uint64_t> newly_failing, newly_passing;  // of a paired comparison: run indices in the new release
 
   bool any(Change change) const;
 };

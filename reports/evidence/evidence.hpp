@@ -107,11 +107,11 @@ class Evidence {
   std::vector<PoolCounter> pools_;                // one for each gate, then one for each condition
   std::vector<std::vector<std::size_t>> pools_of_cell_;
   std::vector<WorstRuns> worst_of_pool_;               // that failed, in the same order
-  std::vector<WorstRuns> worst_unknown_of_pool_;       // likewise
+  std::vector<WorstRuns> worst_unknown_of_pool_;       // of unknown outcome
   std::vector<Coverage> coverage_, pending_coverage_;  // in the same order
   std::vector<std::string> required_probes_;
   std::map<std::string, std::map<IncidentKind, IncidentTally>> incidents_;  // by agent, of the runs read so far
-  RunsByAgent contract_failures_, foreign_body_runs_;                       // likewise
+  RunsByAgent contract_failures_, foreign_body_runs_;                       // of the runs read so far
   WorstRuns worst_inside_{kWorstRuns}, worst_outside_{kWorstRuns};
 };
 

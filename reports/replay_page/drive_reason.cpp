@@ -223,7 +223,7 @@ class ReasonTeller {
     for (std::size_t i = 0; i < std::min(own.size(), kMostSenders); ++i) tell_sender(own[i]);
     if (own.size() > kMostSenders)
       sentence(setting_.begin.at_us,
-               fmt::format("Likewise lost, late or doubled: messages of {} more AGVs.", own.size() - kMostSenders));
+               fmt::format("Messages of {} more AGVs were lost, late or doubled, too.", own.size() - kMostSenders));
     tell_plain(plain);
   }
 

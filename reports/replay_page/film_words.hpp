@@ -10,7 +10,7 @@ namespace fleetproof::web {
 // An instant or a span in seconds, "64.205", cut to milliseconds: no digit differs from the full number. Every instant
 // of a replay page is written like this, in tables, panels and scripts alike.
 std::string time_text(std::int64_t us);
-std::string metres_text(std::int64_t um);  // likewise, "0.034"
+std::string metres_text(std::int64_t um);  // "0.034"
 
 // "received", "lost by chance".
 const char* word_of(Fate fate);

@@ -34,7 +34,7 @@ bool is_later_attempt(const MessageNumbers& later, const MessageNumbers& first);
 // Whether what the content asks for begins where a drive begins: "for C12 to C14" and "C12 to C13". A name of which
 // only the end is there, as "for ...12 to C14" with one character for the dots, is compared as far as it is there.
 bool asks_from_beginning_of(std::string_view content, std::string_view drive);
-// Likewise, whether it ends where the drive ends.
+// Whether it ends where the drive ends.
 bool asks_to_end_of(std::string_view content, std::string_view drive);
 // The content names a place for which it asks.
 bool names_a_place(std::string_view content);

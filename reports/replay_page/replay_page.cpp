@@ -128,7 +128,7 @@ Element words_part(const Film& film) {
     list.add(Element("div").add(text_element("dt", word)).add(text_element("dd", meaning)));
   };
   add("safety perimeter", "the footprint, widened by the safety distance");
-  add("hull (envelope)", "what an AGV sweeps during the drive or turn under way, widened likewise");
+  add("hull (envelope)", "what an AGV sweeps during the drive or turn under way, widened by the safety distance");
   add("belief", "where an agent, the control software under test, says another AGV was");
   add("age", "time since then, or since a message was sent");
   for (const auto& [word, meaning] : film.glossary) add(word, meaning);

@@ -85,7 +85,7 @@ TEST(AgentShapes, SweepCoversTheBodyEverywhereOnTheArc) {
   }
 }
 
-// Likewise while the body turns on the spot, also by a little more than asked for.
+// The same while the body turns on the spot, also by a little more than asked for.
 TEST(AgentShapes, TurnCoversTheBodyAtEveryHeading) {
   std::mt19937_64 draws(4);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -36,7 +36,7 @@ class Recorder final : public Law {
   void piece_started(const Piece& piece) override { all_.push_back({piece, true}); }
   void piece_ended(const Piece& piece) override { all_.push_back({piece, false}); }
   void finish(SimTime end) override { end_ = end; }
-  LawFindings findings() const override { return {}; }
+  LawResults findings() const override { return {}; }
 
  private:
   std::vector<Announcement>& all_;
@@ -64,8 +64,8 @@ class AllPairs final : public Law {
       }
     }
   }
-  LawFindings findings() const override {
-    LawFindings findings = findings_;
+  LawResults findings() const override {
+    LawResults findings = findings_;
     findings.min_clearance_m = smallest_m_;
     return findings;
   }
@@ -75,7 +75,7 @@ class AllPairs final : public Law {
   Duration step_;
   double smallest_m_ = 1e9;
   std::vector<std::vector<Piece>> pieces_;
-  LawFindings findings_;
+  LawResults findings_;
 };
 std::unique_ptr<Law> make_all_pairs(const Scenario& scenario) { return std::make_unique<AllPairs>(scenario); }
 
@@ -138,7 +138,7 @@ test::Scene walk(std::uint32_t fleet, double horizon_s) {
   return scene;
 }
 
-LawFindings __attribute__((noinline)) replay_to(Law& law, const Recording& recording) {
+LawResults __attribute__((noinline)) replay_to(Law& law, const Recording& recording) {
   test::Teller teller(law, recording.scenario.body_count());
   for (const Announcement& a : recording.all) a.started ? teller.begins(a.piece) : teller.ends(a.piece);
   law.finish(recording.end);
@@ -176,7 +176,7 @@ void compare(std::uint32_t fleet, double horizon_s, std::span<char*> names) {
     std::uint64_t evaluations = 0, checks = 0, violations = 0;
     double alone_s = 0.0, whole_s = 0.0;
     for (const Recording& recording : recordings) {
-      LawFindings findings;
+      LawResults findings;
       if (make != nullptr)
         alone_s += median_s([&] { findings = replay_to(*make(recording.scenario), recording); }) / worlds_count;
       whole_s += median_s([&] {
@@ -204,7 +204,7 @@ void replay_walk(std::uint32_t fleet, double horizon_s, const char* name) {
   Recorder recorder(recording.all, recording.end);
   test::Announcer(scene, recorder).announce(test::Order::ByEntity);
   for (const Announcement& a : recording.all) recording.drives += a.started && a.piece.manner == Manner::Drive;
-  LawFindings findings;
+  LawResults findings;
   const auto law = law_named(name)(recording.scenario);
   const double spent_s = seconds_of([&] { findings = replay_to(*law, recording); });
   fmt::print("{} AGVs, {} s, {}: {} pieces, {} drives, {} evaluations, {} violations, {:.0f} ns a drive\n", fleet,

@@ -82,7 +82,7 @@ TEST(AgvControllerPart, TimeInSafeModeIsCountedToTheEndOfTheRun) {
   world.parts.controller.declare_safe_mode(kFirst, false);
   world.parts.controller.declare_safe_mode(kSecond, true);
   world.clock(10.0);
-  world.parts.declarations.close_books();
+  world.parts.declarations.settle_accounts();
   EXPECT_EQ(world.run.counters.safe_mode_ns, 9'000'000'000U);
 }
 

@@ -29,7 +29,7 @@ TEST(BatteryPart, TheWayDrivenIsUsedUpHoweverOftenTheAccountIsSettled) {
   world.parts.battery.settle(kFirst);
   world.clock(8.0);
   EXPECT_NEAR(world.parts.battery.level(kFirst), 0.9, 1e-12);
-  world.parts.battery.close_books();
+  world.parts.battery.settle_accounts();
   EXPECT_EQ(world.run.counters.distance_um, 10'000'000U);
   EXPECT_EQ(world.run.counters.battery_driven_ppb, 100'000'000U);
 }
@@ -58,7 +58,7 @@ TEST(BatteryPart, ChargesToFullAndNoFurther) {
   world.clock(5.0);
   EXPECT_NEAR(world.parts.battery.level(kFirst), 0.75, 1e-12);
   world.clock(20.0);
-  world.parts.battery.close_books();
+  world.parts.battery.settle_accounts();
   EXPECT_EQ(world.run.counters.battery_end_ppb, 1'000'000'000U);
   EXPECT_EQ(world.run.counters.battery_charged_ppb, 750'000'000U);
 }

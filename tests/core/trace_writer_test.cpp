@@ -16,7 +16,7 @@ class Reads : public Law {
   void piece_ended(const Piece&) override {}
   TraceKinds reads() const override { return kinds_; }
   void happened(const TraceRecord& record) override { heard.push_back(record.kind); }
-  LawFindings findings() const override { return {}; }
+  LawResults findings() const override { return {}; }
 
   std::vector<TraceKind> heard;
 

@@ -104,7 +104,7 @@ class Counts final : public Law {
   }
   void piece_started(const Piece&) override { ++begun; }
   void piece_ended(const Piece&) override { ++ended; }
-  LawFindings findings() const override { return {}; }
+  LawResults findings() const override { return {}; }
 
   int begun = 0, ended = 0;
   std::vector<EntityId> met;

@@ -75,7 +75,7 @@ class Bookkeeper final : public Law {
     last_[piece.entity.index()] = to;
     if (piece.manner == Manner::Drive) driven_m += piece.way_at(piece.end) - piece.way_begin_m;
   }
-  LawFindings findings() const override { return {}; }
+  LawResults findings() const override { return {}; }
 
   std::map<std::uint64_t, std::uint64_t> holders;
   std::map<std::uint64_t, std::uint64_t> helped;  // by what for

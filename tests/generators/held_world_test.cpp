@@ -43,7 +43,7 @@ TEST(HeldWorld, ALayoutStaysItselfHoweverOftenTheRestIsDrawnAgain) {
     refused_after += later.worlds_rejected;
   }
   EXPECT_GT(refused_when_held_from, 5U) << "else this test shows nothing";
-  EXPECT_GT(refused_after, 0U) << "likewise";
+  EXPECT_GT(refused_after, 0U) << "else this test shows nothing";
   EXPECT_GT(other_starts, 90U);
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using Met = std::map<std::string, std::uint64_t>;
 
-Met met(const LawFindings& findings) {
+Met met(const LawResults& findings) {
   Met counts;
   for (const ProbeCount& probe : findings.met) {
     if (probe.count > 0) counts[probe.name] = probe.count;

@@ -9,7 +9,7 @@
 namespace fleetproof::test::exact_law_test {
 namespace {
 
-LawFindings exact(const Scene& scene) { return play(scene, make_exact_law); }
+LawResults exact(const Scene& scene) { return play(scene, make_exact_law); }
 
 TEST(ExactLaw, BodiesThatOverlapAtRestAreOneContactOverTheWholeRun) {
   for (const double end_s : {30.0, 0.0}) {
@@ -68,7 +68,7 @@ TEST(ExactLaw, SeesATurnOnTheSpotBesideAStandingBody) {
   Scene scene(10.0);
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).wait_until(2.0).turn(kPi / 2.0);
   scene.agv(facing(0.0, 1.15, 1.0, 0.0));  // 0.15 m apart until the corner of the other comes round
-  const LawFindings findings = exact(scene);
+  const LawResults findings = exact(scene);
   ASSERT_EQ(findings.violations.size(), 1U);
   EXPECT_TRUE(findings.violations[0].contact);
   EXPECT_GT(findings.violations[0].first, at_seconds(2.0));
@@ -147,7 +147,7 @@ TEST(ExactLaw, MeasuresTheSmallestClearanceBelowHalfAMetreOnly) {
     Scene scene(12.0);
     scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);
     scene.agv(facing(5.0, 1.0 + gap_m, 1.0, 0.0)).drive(1.0);
-    const LawFindings findings = exact(scene);
+    const LawResults findings = exact(scene);
     EXPECT_TRUE(findings.violations.empty());
     EXPECT_EQ(findings.min_clearance_m.has_value(), gap_m < 0.5);
     if (findings.min_clearance_m) {
@@ -159,7 +159,7 @@ TEST(ExactLaw, MeasuresTheSmallestClearanceBelowHalfAMetreOnly) {
 TEST(ExactLaw, BodiesFarApartCostNothing) {
   Scene scene(100.0);
   for (int i = 0; i < 10; ++i) scene.agv(facing(0.0, 5.0 * i, 1.0, 0.0)).drive(20.0).turn(kPi).drive(20.0);
-  const LawFindings findings = exact(scene);
+  const LawResults findings = exact(scene);
   EXPECT_EQ(findings.distance_evaluations, 0U);
   EXPECT_EQ(findings.perimeter_checks, 0U);
 }

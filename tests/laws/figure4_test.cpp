@@ -29,7 +29,7 @@ Scene parked_then_leaves() {
   return scene;
 }
 
-void expect_a_and_d(const LawFindings& findings) {
+void expect_a_and_d(const LawResults& findings) {
   ASSERT_EQ(findings.violations.size(), 1U);
   EXPECT_EQ(findings.violations[0].a, EntityId{0U});
   EXPECT_EQ(findings.violations[0].b, EntityId{3U});
@@ -59,7 +59,7 @@ TEST(Figure4, ActivityPerimetersOverlapForAAndDAndForBAndC) {
 }
 
 TEST(Figure4, ExactLawDatesTheViolationOfAAndD) {
-  const LawFindings findings = play(figure4(), "exact");
+  const LawResults findings = play(figure4(), "exact");
   expect_a_and_d(findings);
   const Violation& violation = findings.violations[0];
   EXPECT_NEAR(to_seconds(violation.first), 7.990, kMillisecond_s);
@@ -91,14 +91,14 @@ TEST(Figure4, ExactLawMeasuresTheNearMissOfBAndC) {
   Scene scene(12.0);
   scene.agv(facing(0.0, 4.0, 0.0, 1.0)).wait_until(4.0).drive(25.0 / 6.0);
   scene.agv(facing(1.39, 4.0 + 25.0 / 6.0, 1.0, 0.0)).wait_until(7.0).drive(25.0 / 6.0);
-  const LawFindings findings = play(scene, "exact");
+  const LawResults findings = play(scene, "exact");
   EXPECT_TRUE(findings.violations.empty());
   ASSERT_TRUE(findings.min_clearance_m);
   EXPECT_NEAR(*findings.min_clearance_m, 0.1267, 1e-4);
 }
 
 TEST(Figure4, PaperLawNeeds4020Checks) {
-  const LawFindings findings = play(figure4(), "paper");
+  const LawResults findings = play(figure4(), "paper");
   expect_a_and_d(findings);
   // A 1 204, B 804, C 804, D 1 204, E 4. Any other pair of overlapping activity perimeters would add hundreds.
   EXPECT_EQ(findings.perimeter_checks, 4020U);
@@ -106,14 +106,14 @@ TEST(Figure4, PaperLawNeeds4020Checks) {
 }
 
 TEST(Figure4, GlobalStepNeeds38400Checks) {
-  const LawFindings findings = play(figure4(), "global-step");
+  const LawResults findings = play(figure4(), "global-step");
   expect_a_and_d(findings);
   EXPECT_EQ(findings.perimeter_checks, 38400U);
 }
 
 TEST(Figure4, SnapshotsFindTheSameMinimumToTheirAccuracy) {
   for (const char* law : {"paper", "global-step"}) {
-    const LawFindings findings = play(figure4(), law);
+    const LawResults findings = play(figure4(), law);
     ASSERT_EQ(findings.violations.size(), 1U) << law;
     EXPECT_NEAR(to_seconds(findings.violations[0].first), 7.990, 0.0025 + kMillisecond_s) << law;
     EXPECT_NEAR(to_seconds(findings.violations[0].last), 8.129, 0.0025 + kMillisecond_s) << law;
@@ -125,14 +125,14 @@ TEST(Figure4, SnapshotsFindTheSameMinimumToTheirAccuracy) {
 TEST(Figure4, SnapshotsOncePerSecondSeeOneInstant) {
   Scene scene = figure4();
   scene.scenario.law.snapshot_s = 1.0;
-  const LawFindings findings = play(scene, "paper");
+  const LawResults findings = play(scene, "paper");
   expect_a_and_d(findings);
   EXPECT_EQ(findings.violations[0].first, at_seconds(8.0));
   EXPECT_EQ(findings.violations[0].last, at_seconds(8.0));
 }
 
 TEST(ParkedThenLeaves, ExactLawFindsIt) {
-  const LawFindings findings = play(parked_then_leaves(), "exact");
+  const LawResults findings = play(parked_then_leaves(), "exact");
   ASSERT_EQ(findings.violations.size(), 1U);
   EXPECT_NEAR(to_seconds(findings.violations[0].first), 2.540, kMillisecond_s);
   EXPECT_NEAR(to_seconds(findings.violations[0].last), 4.193, kMillisecond_s);

@@ -10,7 +10,7 @@ namespace {
 
 class LawContract : public testing::TestWithParam<Entry<MakeLaw>> {
  protected:
-  LawFindings findings(const Scene& scene, Order order = Order::ByEntity) const {
+  LawResults findings(const Scene& scene, Order order = Order::ByEntity) const {
     return play(scene, GetParam().make, order);
   }
 };
@@ -52,7 +52,7 @@ TEST_P(LawContract, IsSilentAboutAParkedFleet) {
   Scene scene(60.0);
   for (int i = 0; i < 20; ++i) scene.agv(facing(3.0 * i, 0.0, 0.0, 1.0));
   scene.obstacle(facing(0.0, 3.0, 1.0, 0.0));
-  const LawFindings found = findings(scene);
+  const LawResults found = findings(scene);
   EXPECT_TRUE(found.violations.empty());
   EXPECT_TRUE(found.incidents.empty());
   EXPECT_FALSE(found.min_clearance_m);
@@ -83,12 +83,12 @@ TEST_P(LawContract, FindsNothingElseInAnotherOrderOfEqualInstants) {
   scene.agv(facing(10.0, 1.05, -1.0, 0.0)).wait_until(1.0).drive(10.0).drive(5.0);
   scene.agv(facing(5.0, -6.0, 0.0, 1.0)).wait_until(1.0).drive(10.0).turn(-2.0);
   scene.agv(facing(6.0, 8.0, 0.0, -1.0)).wait_until(1.0).drive(10.0).wait_until(9.0).drive(1.0);
-  const LawFindings expected = findings(scene);
+  const LawResults expected = findings(scene);
   if (GetParam().name == laws().front().name) {
     EXPECT_GE(expected.violations.size(), 2U);
   }
   for (const Order order : {Order::Backwards, Order::AllEndsFirst}) {
-    const LawFindings found = findings(scene, order);
+    const LawResults found = findings(scene, order);
     EXPECT_EQ(found.violations, expected.violations);
     EXPECT_EQ(found.incidents, expected.incidents);
     EXPECT_EQ(found.met, expected.met);

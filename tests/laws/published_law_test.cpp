@@ -12,7 +12,7 @@ TEST(PaperLaw, AccusesWhatStandsInAnActivityPerimeterForTheWholeActivity) {
   Scene scene(12.0);
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).wait_until(1.0).drive(10.0);
   scene.agv(facing(5.0, 1.05, 1.0, 0.0));
-  const LawFindings findings = play(scene, make_paper_law);
+  const LawResults findings = play(scene, make_paper_law);
   ASSERT_EQ(findings.violations.size(), 1U);
   EXPECT_EQ(findings.violations[0].first, at_seconds(1.0));
   EXPECT_EQ(findings.violations[0].last, at_seconds(9.0));
@@ -38,7 +38,7 @@ TEST(PaperLaw, CountsAnObstacleAsAStationaryEntity) {
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(10.0);
   scene.obstacle(facing(5.0, 1.05, 1.0, 0.0));
   scene.obstacle(facing(5.0, 5.0, 1.0, 0.0));
-  const LawFindings findings = play(scene, make_paper_law);
+  const LawResults findings = play(scene, make_paper_law);
   EXPECT_EQ(findings.violations.size(), 1U);
   EXPECT_EQ(findings.perimeter_checks, 2U);
 }
@@ -56,7 +56,7 @@ TEST(PaperLaw, DrivesThatOnlyTouchInTimeHaveNothingInCommon) {
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(1.5);                   // 0 .. 3, to the other's side
   scene.agv(facing(1.5, 1.05, 1.0, 0.0)).wait_until(3.0).drive(1.5);  // 3 .. 6
   // Each finds the other stationary and in its perimeter.
-  const LawFindings findings = play(scene, make_paper_law);
+  const LawResults findings = play(scene, make_paper_law);
   EXPECT_EQ(findings.perimeter_checks, 2U);
   ASSERT_EQ(findings.violations.size(), 1U);
   EXPECT_EQ(findings.violations[0].first, kStart);

@@ -184,7 +184,7 @@ class BruteForce {
   std::vector<std::vector<Piece>> pieces_;
 };
 
-std::vector<Violation> of_pair(const LawFindings& findings, std::size_t a, std::size_t b) {
+std::vector<Violation> of_pair(const LawResults& findings, std::size_t a, std::size_t b) {
   std::vector<Violation> violations;
   for (const Violation& violation : findings.violations) {
     if (violation.a.index() == a && violation.b.index() == b) violations.push_back(violation);
@@ -235,7 +235,7 @@ void expect_closest(const BruteForce& brute, std::size_t a, std::size_t b, const
 void expect_agreement(std::uint64_t seed) {
   const Scene scene = random_scene(seed);
   const double threshold_m = scene.scenario.law.safety_distance_m - 1e-6;
-  const LawFindings findings = play(scene, "exact");
+  const LawResults findings = play(scene, "exact");
   const BruteForce brute(scene, threshold_m);
   double refined_m = 0.5, sampled_m = 0.5;
   for (const auto& [pair, sampled] : brute.pairs) {
@@ -264,7 +264,7 @@ TEST(RandomScenes, ExactLawAgreesWithBruteForce) {
 TEST(RandomScenes, AreOfEveryKind) {
   int violated = 0, near = 0, free = 0, many = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const LawFindings findings = play(random_scene(seed), "exact");
+    const LawResults findings = play(random_scene(seed), "exact");
     violated += !findings.violations.empty();
     many += findings.violations.size() > 2;
     near += findings.violations.empty() && findings.min_clearance_m;

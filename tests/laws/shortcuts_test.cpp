@@ -28,7 +28,7 @@ class Eager final : public Law {
   void together(const TracePart& part) override { law_->together(part); }
   void hears_from(TraceSource& source) override { law_->hears_from(*(source_ = &source)); }
   void finish(SimTime end) override { law_->finish(end); }
-  LawFindings findings() const override { return law_->findings(); }
+  LawResults findings() const override { return law_->findings(); }
 
  private:
   static constexpr double kEverywhere_m = 1e6;

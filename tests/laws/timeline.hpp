@@ -199,13 +199,13 @@ class Announcer {
 };
 
 // What a fresh law finds in the scene.
-inline LawFindings play(const Scene& scene, MakeLaw make, Order order = Order::ByEntity) {
+inline LawResults play(const Scene& scene, MakeLaw make, Order order = Order::ByEntity) {
   const auto law = make(scene.scenario);
   Announcer(scene, *law).announce(order);
   return law->findings();
 }
 
-inline LawFindings play(const Scene& scene, std::string_view law, Order order = Order::ByEntity) {
+inline LawResults play(const Scene& scene, std::string_view law, Order order = Order::ByEntity) {
   return play(scene, find_law(law)->make, order);
 }
 

@@ -88,13 +88,13 @@ class Told {
     return *this;
   }
 
-  LawFindings finish(double end_s) {
+  LawResults finish(double end_s) {
     for (auto& [entity, piece] : open_) {
       piece.end = at_seconds(end_s);
       teller_.ends(piece);
     }
     law_->finish(at_seconds(end_s));
-    LawFindings findings = law_->findings();
+    LawResults findings = law_->findings();
     Outcome sorted;
     file_incidents(sorted, std::move(findings.incidents));
     findings.incidents = sorted.incidents;

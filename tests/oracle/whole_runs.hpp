@@ -50,7 +50,7 @@ class GlobalClock final : public Law {
       look(placed, t);
     }
   }
-  LawFindings findings() const override { return {}; }
+  LawResults findings() const override { return {}; }
   // At any instant of the run, once it is over.
   double apart_m(EntityId a, EntityId b, SimTime t) const {
     return distance_m(place(piece_at(a, t), t).corners, place(piece_at(b, t), t).corners);

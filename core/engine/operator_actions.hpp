@@ -25,20 +25,20 @@ std::vector<RecoveryPlace> recovery_places(const LaneRules& rules, StationId sta
                                            const Pose& stood);
 
 // The operator: when it is called, when it comes, and what it does then. What it may do stands at OperatorSetup.
-class OperatorDesk {
+class OperatorActions {
  public:
   struct Ports {
     ActionsPort actions;
     AgentHostPort agents;
     BatteryPort battery;
     Contacts& contacts;
-    FaultDesk& faults;
+    FaultInjector& faults;
     HaltsPort halts;
     MessengerPort messenger;
     PositionSensorPort sensor;
     Scanner& scanner;
   };
-  OperatorDesk(RunContext& run, const Ports& ports);
+  OperatorActions(RunContext& run, const Ports& ports);
 
   // For a jam or an empty battery, `halt` identifies the halt that it caused. If that halt is over when the operator
   // arrives, nothing happens.

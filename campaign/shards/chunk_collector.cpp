@@ -1,4 +1,4 @@
-#include "campaign/shards/chunk_desk.hpp"
+#include "campaign/shards/chunk_collector.hpp"
 
 #include <fmt/format.h>
 
@@ -36,10 +36,10 @@ std::string first_difference(const std::string& published, const std::string& ou
 
 }  // namespace
 
-ChunkDesk::ChunkDesk(ShardFolder folder, const ChunkGrid& grid, ChunkLabel label)
+ChunkCollector::ChunkCollector(ShardFolder folder, const ChunkGrid& grid, ChunkLabel label)
     : folder_(std::move(folder)), grid_(grid), label_(std::move(label)) {}
 
-void ChunkDesk::add(const RunRecord& run, bool audited) {
+void ChunkCollector::add(const RunRecord& run, bool audited) {
   const std::uint64_t chunk = grid_.chunk_of(run.run_index);
   OpenChunk& open = open_.try_emplace(chunk, grid_.run_count(chunk)).first->second;
   open.runs.add(run.run_index - grid_.first_run(chunk), encode(run));
@@ -47,29 +47,29 @@ void ChunkDesk::add(const RunRecord& run, bool audited) {
   open.audits_open += audited ? 1 : 0;
 }
 
-void ChunkDesk::add(const AuditRecord& audit) {
+void ChunkCollector::add(const AuditRecord& audit) {
   const auto open = open_.find(grid_.chunk_of(audit.run_index));
   if (open == open_.end() || open->second.audits_open == 0) return;  // it came after audits_end()
   open->second.audits.push_back(audit);
   --open->second.audits_open;
 }
 
-void ChunkDesk::audits_end() {
+void ChunkCollector::audits_end() {
   for (auto& [chunk, open] : open_) open.audits_open = 0;
 }
 
-bool ChunkDesk::waits_for_audits() const {
+bool ChunkCollector::waits_for_audits() const {
   return std::ranges::any_of(
       open_, [](const auto& entry) { return entry.second.runs.is_complete() && entry.second.audits_open > 0; });
 }
 
-std::uint64_t ChunkDesk::open_runs() const {
+std::uint64_t ChunkCollector::open_runs() const {
   std::uint64_t runs = 0;
   for (const auto& [chunk, open] : open_) runs += open.finished;
   return runs;
 }
 
-void ChunkDesk::publish() {
+void ChunkCollector::publish() {
   for (auto next = open_.begin(); next != open_.end();) {
     const auto& [chunk, open] = *next;
     if (!open.runs.is_complete() || open.audits_open > 0) {
@@ -81,7 +81,7 @@ void ChunkDesk::publish() {
   }
 }
 
-void ChunkDesk::publish(std::uint64_t chunk, const OpenChunk& open) {
+void ChunkCollector::publish(std::uint64_t chunk, const OpenChunk& open) {
   const std::string target = folder_.chunk_file(chunk), temporary = ShardFolder::temporary_name(target);
   std::error_code error;
   fs::create_directories(fs::path(target).parent_path(), error);

@@ -1,4 +1,4 @@
-#include "campaign/batch/audit_desk.hpp"
+#include "campaign/batch/audit_queue.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ int threads_for(double share, int workers) {
 
 }  // namespace
 
-AuditDesk::AuditDesk(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& program, int workers)
+AuditQueue::AuditQueue(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& program, int workers)
     : share_(plan, programs), threads_wanted_(threads_for(plan.audit.share, workers)), wanted_(kFirstBatch) {
   if (program.empty() || plan.audit.share <= 0.0) return;
   Hosting hosting;
@@ -36,12 +36,12 @@ AuditDesk::AuditDesk(const CampaignPlan& plan, const AgentPrograms& programs, co
   runs_ = std::make_unique<IsolatedRuns>(plan, programs, hosting);
 }
 
-AuditDesk::~AuditDesk() {
+AuditQueue::~AuditQueue() {
   abandon();
   for (std::thread& thread : threads_) thread.join();
 }
 
-bool AuditDesk::offer(const RunRecord& run, std::uint64_t slowest_cpu_ns) {
+bool AuditQueue::offer(const RunRecord& run, std::uint64_t slowest_cpu_ns) {
   if (!runs_ || !share_.contains(run)) return false;
   runs_->expect_cpu_ns(slowest_cpu_ns);
   const std::lock_guard lock(mutex_);
@@ -51,25 +51,25 @@ bool AuditDesk::offer(const RunRecord& run, std::uint64_t slowest_cpu_ns) {
   return true;
 }
 
-void AuditDesk::start() {
+void AuditQueue::start() {
   if (!runs_) return;
   for (int i = 0; i < threads_wanted_; ++i) threads_.emplace_back([this] { work(); });
 }
 
-void AuditDesk::no_more_runs() {
+void AuditQueue::no_more_runs() {
   const std::lock_guard lock(mutex_);
   closing_ = true;
   more_.notify_all();
 }
 
-void AuditDesk::hurry() {
+void AuditQueue::hurry() {
   const std::lock_guard lock(mutex_);
   if (waiting_.empty()) return;
   wanted_ = 1;
   more_.notify_all();
 }
 
-void AuditDesk::abandon() {
+void AuditQueue::abandon() {
   if (runs_) runs_->abandon();
   const std::lock_guard lock(mutex_);
   abandoned_ = closing_ = true;
@@ -77,30 +77,30 @@ void AuditDesk::abandon() {
   more_.notify_all();
 }
 
-bool AuditDesk::idle() const {
+bool AuditQueue::idle() const {
   const std::lock_guard lock(mutex_);
   return waiting_.empty() && under_way_ == 0;
 }
 
-bool AuditDesk::is_far_behind() const { return open_count() >= kMostOpen; }
+bool AuditQueue::is_far_behind() const { return open_count() >= kMostOpen; }
 
-std::uint64_t AuditDesk::open_count() const {
+std::uint64_t AuditQueue::open_count() const {
   const std::lock_guard lock(mutex_);
   return waiting_.size() + under_way_;
 }
 
-std::string AuditDesk::failure() const {
+std::string AuditQueue::failure() const {
   const std::lock_guard lock(mutex_);
   return failure_;
 }
 
-std::vector<AuditFinding> AuditDesk::take_findings() {
+std::vector<AuditedRun> AuditQueue::take_findings() {
   const std::lock_guard lock(mutex_);
   return std::exchange(findings_, {});
 }
 
 // In another order than that of the campaign, so that what one run leaves behind for the next shows.
-AuditDesk::Batch AuditDesk::next_batch() {
+AuditQueue::Batch AuditQueue::next_batch() {
   std::unique_lock lock(mutex_);
   more_.wait(lock, [&] { return closing_ || waiting_.size() >= wanted_; });
   Batch batch;
@@ -112,7 +112,7 @@ AuditDesk::Batch AuditDesk::next_batch() {
   return batch;
 }
 
-void AuditDesk::work() {
+void AuditQueue::work() {
   for (;;) {
     const Batch batch = next_batch();
     if (batch.empty()) return;
@@ -132,7 +132,7 @@ void AuditDesk::work() {
   }
 }
 
-void AuditDesk::audit(const Batch& batch) {
+void AuditQueue::audit(const Batch& batch) {
   for (const auto& [run_index, checksum] : batch) {
     const RunRecord record = (*runs_)(run_index);
     runs_->take_losses();  // what ended a worker here stands in the record, and so in the finding

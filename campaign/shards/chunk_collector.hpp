@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/batch/audit_desk.hpp"
+#include "campaign/batch/audit_queue.hpp"
 #include "campaign/shards/chunk_grid.hpp"
 #include "campaign/shards/run_spool.hpp"
 #include "campaign/shards/shard_folder.hpp"
@@ -16,10 +16,10 @@
 namespace fleetproof {
 
 // Collects the runs of a shard and publishes each chunk as soon as all of its runs and audits are there. Threads: one.
-class ChunkDesk {
+class ChunkCollector {
  public:
   // `label`: what all chunks of the campaign have in common.
-  ChunkDesk(ShardFolder folder, const ChunkGrid& grid, ChunkLabel label);
+  ChunkCollector(ShardFolder folder, const ChunkGrid& grid, ChunkLabel label);
 
   // `audited`: the run's audit will follow.
   void add(const RunRecord& run, bool audited);
@@ -34,7 +34,7 @@ class ChunkDesk {
   // bytes are then kept beside it. Throws MachineError if the disk fails.
   void publish();
 
-  std::uint64_t published() const { return published_; }  // by this desk, or found with the same bytes
+  std::uint64_t published() const { return published_; }  // by this queue, or found with the same bytes
 
  private:
   struct OpenChunk {

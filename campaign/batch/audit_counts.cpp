@@ -1,19 +1,20 @@
-#include "campaign/batch/audit_book.hpp"
+#include "campaign/batch/audit_counts.hpp"
 
 namespace fleetproof {
 
-AuditBook::AuditBook(const CampaignPlan& plan, const AgentPrograms& programs) : has_audits_(plan.audit.share > 0.0) {
+AuditCounts::AuditCounts(const CampaignPlan& plan, const AgentPrograms& programs)
+    : has_audits_(plan.audit.share > 0.0) {
   for (const AgentFactor& agent : plan.agents)
     agents_.push_back({&programs.program(agent.program, "factors.agents"), {}});
 }
 
-void AuditBook::add(const AuditFinding& finding) {
+void AuditCounts::add(const AuditedRun& finding) {
   AuditCount& count = agents_[agent_of(finding.audit.run_index)].count;
   ++count.audited;
   count.differing += finding.same ? 0 : 1;
 }
 
-bool AuditBook::needs_recordings(std::size_t agent) const {
+bool AuditCounts::needs_recordings(std::size_t agent) const {
   const auto& [program, count] = agents_[agent];
   if (!has_audits_ || !program->is_plugin()) return false;
   return count.audited < kAuditsToPass || count.differing > 0;

@@ -16,7 +16,7 @@
 namespace fleetproof {
 
 // A run that was audited, and whether it came out the same.
-struct AuditFinding {
+struct AuditedRun {
   AuditRecord audit;
   bool same = false;
 };
@@ -24,18 +24,18 @@ struct AuditFinding {
 // Simulates a share of the finished runs once more: in processes that are started afresh, with other addresses, other
 // bytes in fresh memory, and in another order. Works beside the campaign, on threads of its own.
 // Threads: the caller's one.
-class AuditDesk {
+class AuditQueue {
  public:
   // `program` is started for the audits (fresh_program.hpp); empty: nothing is audited. Make the object before threads
   // are started and files are opened. `plan` and `programs` outlive it.
-  AuditDesk(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& program, int workers);
-  ~AuditDesk();
-  AuditDesk(const AuditDesk&) = delete;
-  AuditDesk& operator=(const AuditDesk&) = delete;
+  AuditQueue(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& program, int workers);
+  ~AuditQueue();
+  AuditQueue(const AuditQueue&) = delete;
+  AuditQueue& operator=(const AuditQueue&) = delete;
 
   // Takes the run in if it belongs to the share. `slowest_cpu_ns`: what a run of the campaign took at most so far, so
   // that no audit has a lower limit than its run had.
-  // True: it will be audited, unless the desk fails or is told to abandon.
+  // True: it will be audited, unless the queue fails or is told to abandon.
   bool offer(const RunRecord& run, std::uint64_t slowest_cpu_ns = 0);
   // An earlier session has audited the run. Call this before start().
   void forget(std::uint64_t run_index) { waiting_.erase(run_index); }
@@ -51,7 +51,7 @@ class AuditDesk {
   // campaign goes on: its runs do not need the audits.
   std::string failure() const;
   // The findings since the last call.
-  std::vector<AuditFinding> take_findings();
+  std::vector<AuditedRun> take_findings();
 
  private:
   using Batch = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  // run index, checksum of its row
@@ -72,7 +72,7 @@ class AuditDesk {
   int hung_ = 0;
   std::size_t under_way_ = 0;
   bool closing_ = false, abandoned_ = false;
-  std::vector<AuditFinding> findings_;
+  std::vector<AuditedRun> findings_;
   std::string failure_;
   std::vector<std::thread> threads_;
 };

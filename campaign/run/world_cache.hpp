@@ -21,12 +21,12 @@ struct DrawnWorld {
 };
 
 // Worlds that several runs use, one run at a time. Threads: any number.
-class WorldShelf {
+class WorldCache {
  public:
   struct PutBack {
-    WorldShelf* shelf = nullptr;
+    WorldCache* cache = nullptr;
     std::uint64_t number = 0;
-    void operator()(DrawnWorld* world) const { shelf->take_back(number, std::unique_ptr<DrawnWorld>(world)); }
+    void operator()(DrawnWorld* world) const { cache->take_back(number, std::unique_ptr<DrawnWorld>(world)); }
   };
   using Loan = std::unique_ptr<DrawnWorld, PutBack>;
 

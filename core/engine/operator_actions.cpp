@@ -1,11 +1,11 @@
-#include "core/engine/operator_desk.hpp"
+#include "core/engine/operator_actions.hpp"
 
 #include <algorithm>
 
 #include "core/base/random.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/engine/contacts.hpp"
-#include "core/engine/fault_desk.hpp"
+#include "core/engine/fault_injector.hpp"
 #include "core/engine/scanner.hpp"
 #include "core/outcome/work_and_progress.hpp"
 #include "core/scenario/ways.hpp"
@@ -45,22 +45,23 @@ constexpr std::uint32_t kAssistTopic = 100, kStandstillTopic = 101;
 
 }  // namespace
 
-OperatorDesk::OperatorDesk(RunContext& run, const Ports& ports) : run_(run), ports_(ports), calls_(run.agvs.size()) {}
+OperatorActions::OperatorActions(RunContext& run, const Ports& ports)
+    : run_(run), ports_(ports), calls_(run.agvs.size()) {}
 
-Duration OperatorDesk::until_help_comes(AgvId agv, std::uint32_t topic, std::uint32_t number) const {
+Duration OperatorActions::until_help_comes(AgvId agv, std::uint32_t topic, std::uint32_t number) const {
   const OperatorSetup& help = run_.scenario.operator_help;
   const auto key = stream_key(run_.scenario.seed_of(Stream::Faults), Stream::Faults);
   const auto draw = unit_interval(word64(philox(key, {number, 0, topic, run_.draw_numbers.of(agv).value}), 0));
   return seconds(help.least_s + (help.most_s - help.least_s) * draw);
 }
 
-void OperatorDesk::call(AgvId agv, Assist what, std::uint64_t halt) {
+void OperatorActions::call(AgvId agv, Assist what, std::uint64_t halt) {
   if (!run_.scenario.operator_help.on) return;
   run_.queue.push(run_.now + until_help_comes(agv, kAssistTopic, calls_[agv.index()]++), agv,
                   Event::Kind::OperatorComes, static_cast<std::uint64_t>(what), halt);
 }
 
-void OperatorDesk::comes(AgvId agv, Assist what, std::uint64_t stamp) {
+void OperatorActions::comes(AgvId agv, Assist what, std::uint64_t stamp) {
   switch (what) {
     case Assist::Contact:
       return take_off_floor(agv);
@@ -72,7 +73,7 @@ void OperatorDesk::comes(AgvId agv, Assist what, std::uint64_t stamp) {
   }
 }
 
-void OperatorDesk::help_with_halt(AgvId agv, Assist what, std::uint64_t halt) {
+void OperatorActions::help_with_halt(AgvId agv, Assist what, std::uint64_t halt) {
   const AgvStatus& status = run_.status(agv);
   if (status.out_of_order || std::ranges::find(status.halts, halt, &Halt::number) == status.halts.end()) return;
   if (status.is_driving()) {  // the operator does not walk up to an AGV that still moves
@@ -88,12 +89,12 @@ void OperatorDesk::help_with_halt(AgvId agv, Assist what, std::uint64_t halt) {
   ports_.halts.end(agv, halt);
 }
 
-void OperatorDesk::assisted(AgvId agv, Assist what) {
+void OperatorActions::assisted(AgvId agv, Assist what) {
   ++run_.counters.assists;
   run_.trace(agv, traced::OperatorAssists{what});
 }
 
-void OperatorDesk::change_battery(AgvId agv) {
+void OperatorActions::change_battery(AgvId agv) {
   assisted(agv, Assist::Battery);
   ports_.battery.change(agv, run_.scenario.operator_help.battery);
 }
@@ -101,7 +102,7 @@ void OperatorDesk::change_battery(AgvId agv) {
 // ---- after a contact
 
 // Every halt of the AGV ends here, but the AGV stays out of order until it is set down.
-void OperatorDesk::take_off_floor(AgvId agv) {
+void OperatorActions::take_off_floor(AgvId agv) {
   assisted(agv, Assist::Contact);
   ports_.faults.end_halts_of(agv);
   ports_.halts.forget(agv);
@@ -112,7 +113,7 @@ void OperatorDesk::take_off_floor(AgvId agv) {
   run_.queue.push(run_.now + kBodyTriesAgain, agv, Event::Kind::BodyAppears);
 }
 
-void OperatorDesk::look_for_place(AgvId agv) {
+void OperatorActions::look_for_place(AgvId agv) {
   const AgvStatus& status = run_.status(agv);
   const Footprint footprint = run_.type_of(agv).footprint_with(run_.is_loaded(agv));
   const double margin_m = std::max(0.0, run_.scenario.law.safety_distance_m - kBuiltToTheLimit_m);
@@ -131,7 +132,7 @@ void OperatorDesk::look_for_place(AgvId agv) {
 }
 
 // Whether a lane passes the place on which an AGV drives now or will drive next.
-bool OperatorDesk::is_on_the_way(const OrientedRectangle& place, double margin_m) const {
+bool OperatorActions::is_on_the_way(const OrientedRectangle& place, double margin_m) const {
   Box box;
   box.add(place);
   for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
@@ -143,7 +144,7 @@ bool OperatorDesk::is_on_the_way(const OrientedRectangle& place, double margin_m
   return false;
 }
 
-bool OperatorDesk::passes(AgvId agv, const Lane* lane, const Box& place, double margin_m) const {
+bool OperatorActions::passes(AgvId agv, const Lane* lane, const Box& place, double margin_m) const {
   if (lane == nullptr) return false;
   Piece drive = run_.standing_piece(agv, lane->curve.pose_at(0.0));
   drive.manner = Manner::Drive;
@@ -152,7 +153,7 @@ bool OperatorDesk::passes(AgvId agv, const Lane* lane, const Box& place, double 
   return drive.swept_box(drive.begin + drive.profile.duration()).grown(margin_m).overlaps(place);
 }
 
-void OperatorDesk::set_down(AgvId agv, StationId station) {
+void OperatorActions::set_down(AgvId agv, StationId station) {
   run_.trace(agv, traced::Appears{station});
   ports_.actions.put_back(agv, station);
   ports_.contacts.predict(agv);
@@ -167,13 +168,13 @@ void OperatorDesk::set_down(AgvId agv, StationId station) {
 
 // ---- at a standstill
 
-bool OperatorDesk::has_open_transport(AgvId agv) const {
+bool OperatorActions::has_open_transport(AgvId agv) const {
   return std::ranges::any_of(run_.world.loads(),
                              [&](const Load& load) { return load.carrier == agv && !load.is_over(); });
 }
 
 // No AGV works, and no AGV is held by something that ends without its agent, with or without the operator.
-bool OperatorDesk::stands_still() const {
+bool OperatorActions::stands_still() const {
   if (!run_.transports_are_open()) return false;
   for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
     const AgvStatus& status = run_.agvs[i];
@@ -183,7 +184,7 @@ bool OperatorDesk::stands_still() const {
   return true;
 }
 
-void OperatorDesk::looks() {
+void OperatorActions::looks() {
   run_.queue.push(run_.now + kBodyTriesAgain, EntityId{}, Event::Kind::OperatorLooks);  // the last event of its instant
   if (!stands_still()) still_since_ = run_.now;
   if (standstill_called_ || run_.now - std::max(still_since_, run_.last_progress) < run_.scenario.stuck_after) return;
@@ -196,7 +197,7 @@ void OperatorDesk::looks() {
 }
 
 // The AGV that has been idle longest, of the AGVs whose agent could be the cause. Invalid if there is none.
-AgvId OperatorDesk::longest_idle() const {
+AgvId OperatorActions::longest_idle() const {
   AgvId longest;
   for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
     const AgvId agv{i};
@@ -208,11 +209,11 @@ AgvId OperatorDesk::longest_idle() const {
 }
 
 // A standstill is identified by its start time.
-std::uint64_t OperatorDesk::standstill_began_ns() const {
+std::uint64_t OperatorActions::standstill_began_ns() const {
   return static_cast<std::uint64_t>(to_ns(std::max(still_since_, run_.last_progress)));
 }
 
-void OperatorDesk::help_at_standstill(AgvId agv, std::uint64_t began_ns) {
+void OperatorActions::help_at_standstill(AgvId agv, std::uint64_t began_ns) {
   standstill_called_ = false;
   if (began_ns != standstill_began_ns() || !stands_still() || !ports_.agents.is_up(agv)) return;
   assisted(agv, Assist::Standstill);

@@ -9,7 +9,7 @@ namespace fleetproof {
 
 // What goes wrong at times that the scenario fixes: the faults of AGVs, and bodies that appear on the floor and leave
 // it.
-class FaultDesk {
+class FaultInjector {
  public:
   struct Ports {
     ActionsPort actions;
@@ -17,7 +17,7 @@ class FaultDesk {
     Contacts& contacts;
     HaltsPort halts;
   };
-  FaultDesk(RunContext& run, const Ports& ports);
+  FaultInjector(RunContext& run, const Ports& ports);
 
   // Before the run: sets the events of all faults and bodies.
   void schedule();
@@ -34,7 +34,7 @@ class FaultDesk {
   void body_leaves(EntityId body);
 
  private:
-  struct Slice {
+  struct FaultState {
     std::uint64_t halt = 0;  // that the fault caused, while it lasts
     bool came = false;       // of a fault that counts from a pick: it has been set
   };
@@ -44,7 +44,7 @@ class FaultDesk {
 
   RunContext& run_;
   Ports ports_;
-  std::vector<Slice> slices_;  // by fault
+  std::vector<FaultState> fault_states_;  // by fault
 };
 
 }  // namespace fleetproof

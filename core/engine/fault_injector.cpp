@@ -1,4 +1,4 @@
-#include "core/engine/fault_desk.hpp"
+#include "core/engine/fault_injector.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -16,10 +16,10 @@ Halt::Reason halt_of(Fault::Kind kind) {
 
 }  // namespace
 
-FaultDesk::FaultDesk(RunContext& run, const Ports& ports)
-    : run_(run), ports_(ports), slices_(run.scenario.faults.size()) {}
+FaultInjector::FaultInjector(RunContext& run, const Ports& ports)
+    : run_(run), ports_(ports), fault_states_(run.scenario.faults.size()) {}
 
-void FaultDesk::schedule() {
+void FaultInjector::schedule() {
   const Scenario& scenario = run_.scenario;
   for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
     const Fault& fault = scenario.faults[i];
@@ -33,30 +33,30 @@ void FaultDesk::schedule() {
   }
 }
 
-void FaultDesk::load_taken_up(AgvId agv, TransportId transport) {
+void FaultInjector::load_taken_up(AgvId agv, TransportId transport) {
   const std::uint64_t own = run_.own_number(agv, transport);
-  for (std::size_t i = 0; i < slices_.size(); ++i) {
+  for (std::size_t i = 0; i < fault_states_.size(); ++i) {
     const Fault& fault = run_.scenario.faults[i];
-    if (fault.agv != agv || fault.transport != own || slices_[i].came) continue;
-    slices_[i].came = true;  // the first time that the load is taken up
+    if (fault.agv != agv || fault.transport != own || fault_states_[i].came) continue;
+    fault_states_[i].came = true;  // the first time that the load is taken up
     run_.queue.push(run_.now + fault.at, agv, Event::Kind::FaultStrikes, i);
   }
 }
 
-void FaultDesk::strikes(AgvId agv, std::uint64_t number) {
+void FaultInjector::strikes(AgvId agv, std::uint64_t number) {
   const Fault& fault = run_.scenario.faults[number];
   // An AGV or agent that is already out of order cannot fail.
   if (concerns_agent_alone(fault.kind) ? !ports_.agents.is_up(agv) : run_.status(agv).out_of_order) return;
   if (fault.kind == Fault::Kind::LoadDrop && !load_drops(agv, number)) return;
   ++run_.counters.faults;
   run_.trace(agv, traced::FaultStrikes{fault.kind, number});
-  if (holds_agv(fault.kind)) slices_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
+  if (holds_agv(fault.kind)) fault_states_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
   if (stops_computer(fault.kind)) ports_.agents.goes_away(agv);
   if (fault.kind == Fault::Kind::Freeze) ports_.agents.freeze_until(agv, run_.now + fault.lasts);
   run_.queue.push(run_.now + fault.lasts, agv, Event::Kind::FaultOver, number);
 }
 
-void FaultDesk::ends(AgvId agv, std::uint64_t number) {
+void FaultInjector::ends(AgvId agv, std::uint64_t number) {
   const Fault::Kind kind = run_.scenario.faults[number].kind;
   if (holds_agv(kind)) {
     halt_ends(agv, number);
@@ -66,15 +66,15 @@ void FaultDesk::ends(AgvId agv, std::uint64_t number) {
   if (stops_computer(kind)) ports_.agents.comes_back(agv);
 }
 
-void FaultDesk::end_halts_of(AgvId agv) {
-  for (std::size_t i = 0; i < slices_.size(); ++i) {
+void FaultInjector::end_halts_of(AgvId agv) {
+  for (std::size_t i = 0; i < fault_states_.size(); ++i) {
     if (run_.scenario.faults[i].agv == agv) halt_ends(agv, i);
   }
 }
 
 // At its planned time, or earlier, when the operator helps.
-void FaultDesk::halt_ends(AgvId agv, std::uint64_t number) {
-  const std::uint64_t halt = std::exchange(slices_[number].halt, std::uint64_t{0});
+void FaultInjector::halt_ends(AgvId agv, std::uint64_t number) {
+  const std::uint64_t halt = std::exchange(fault_states_[number].halt, std::uint64_t{0});
   if (halt == 0) return;
   run_.trace(agv, traced::FaultOver{run_.scenario.faults[number].kind, number});
   ports_.halts.end(agv, halt);
@@ -82,7 +82,7 @@ void FaultDesk::halt_ends(AgvId agv, std::uint64_t number) {
 
 // ---- bodies that come and go
 
-void FaultDesk::obstacle_appears(EntityId body) {
+void FaultInjector::obstacle_appears(EntityId body) {
   const ObstacleSetup& obstacle = run_.scenario.obstacles[body.index() - run_.agvs.size()];
   if (run_.now >= kStart + obstacle.leaves) return;
   const double margin_m = run_.scenario.law.safety_distance_m + kAppearsClear_m;
@@ -93,7 +93,7 @@ void FaultDesk::obstacle_appears(EntityId body) {
   ports_.contacts.predict(body);
 }
 
-void FaultDesk::body_leaves(EntityId body) {
+void FaultInjector::body_leaves(EntityId body) {
   if (!run_.world.body(body).on_floor) return;
   run_.trace(body, traced::Leaves{});
   run_.world.take_off_floor(body, run_.now);
@@ -106,7 +106,7 @@ void FaultDesk::body_leaves(EntityId body) {
 }
 
 // The bodies of loads are numbered behind the obstacles, in order of their faults.
-EntityId FaultDesk::fallen_body(std::uint64_t number) const {
+EntityId FaultInjector::fallen_body(std::uint64_t number) const {
   const auto& faults = run_.scenario.faults;
   const auto is_drop = [](const Fault& f) { return f.kind == Fault::Kind::LoadDrop; };
   const auto before = std::count_if(faults.begin(), faults.begin() + static_cast<std::ptrdiff_t>(number), is_drop);
@@ -114,7 +114,7 @@ EntityId FaultDesk::fallen_body(std::uint64_t number) const {
 }
 
 // False if the AGV carries nothing. False also if the load would fall on another body: then it does not fall.
-bool FaultDesk::load_drops(AgvId agv, std::uint64_t number) {
+bool FaultInjector::load_drops(AgvId agv, std::uint64_t number) {
   const Fault& fault = run_.scenario.faults[number];
   const LoadId load = run_.world.carried_load(agv);
   if (!load.valid()) return false;

@@ -1,4 +1,4 @@
-#include "campaign/shards/chunk_desk.hpp"
+#include "campaign/shards/chunk_collector.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,15 +8,15 @@
 #include "tests/storage/refusal.hpp"
 #include "tests/storage/sample_records.hpp"
 
-namespace fleetproof::chunk_desk_test {
+namespace fleetproof::chunk_collector_test {
 namespace {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class ChunkDesks : public testing::Test {
+class ChunkCollectors : public testing::Test {
  protected:
-  ChunkDesk desk() const { return {folder_, grid_, label_}; }
+  ChunkCollector collector() const { return {folder_, grid_, label_}; }
   std::vector<bool> published() const {
     std::vector<bool> all;
     for (std::uint64_t chunk = 0; chunk < grid_.count(); ++chunk) all.push_back(fs::exists(folder_.chunk_file(chunk)));
@@ -30,17 +30,17 @@ class ChunkDesks : public testing::Test {
   std::vector<RunRecord> runs_ = samples::runs(40);
 };
 
-TEST_F(ChunkDesks, PublishAChunkWhenItsLastRunIsThere) {
-  ChunkDesk desk = this->desk();
-  for (std::size_t i = runs_.size(); i-- > 16;) desk.add(runs_[i], false);
-  for (std::size_t i = 1; i < 16; ++i) desk.add(runs_[i], false);
-  desk.publish();
+TEST_F(ChunkCollectors, PublishAChunkWhenItsLastRunIsThere) {
+  ChunkCollector collector = this->collector();
+  for (std::size_t i = runs_.size(); i-- > 16;) collector.add(runs_[i], false);
+  for (std::size_t i = 1; i < 16; ++i) collector.add(runs_[i], false);
+  collector.publish();
   EXPECT_EQ(published(), (std::vector<bool>{false, true, true}));
-  EXPECT_EQ(desk.open_runs(), 15U);
-  desk.add(runs_[0], false);
-  desk.publish();
+  EXPECT_EQ(collector.open_runs(), 15U);
+  collector.add(runs_[0], false);
+  collector.publish();
   EXPECT_EQ(published(), (std::vector<bool>{true, true, true}));
-  EXPECT_EQ(desk.published(), 3U);
+  EXPECT_EQ(collector.published(), 3U);
   ChunkFile last(folder_.chunk_file(2));
   last.require_intact();
   std::uint64_t next = 32;
@@ -48,30 +48,31 @@ TEST_F(ChunkDesks, PublishAChunkWhenItsLastRunIsThere) {
   EXPECT_EQ(next, 40U);
 }
 
-TEST_F(ChunkDesks, WaitForAudits) {
-  ChunkDesk desk = this->desk();
-  for (const RunRecord& run : runs_) desk.add(run, run.run_index == 3 || run.run_index == 9 || run.run_index == 20);
-  desk.publish();
+TEST_F(ChunkCollectors, WaitForAudits) {
+  ChunkCollector collector = this->collector();
+  for (const RunRecord& run : runs_)
+    collector.add(run, run.run_index == 3 || run.run_index == 9 || run.run_index == 20);
+  collector.publish();
   EXPECT_EQ(published(), (std::vector<bool>{false, false, true}));
-  EXPECT_TRUE(desk.waits_for_audits());
-  desk.add(AuditRecord{9, 99});
-  desk.publish();
+  EXPECT_TRUE(collector.waits_for_audits());
+  collector.add(AuditRecord{9, 99});
+  collector.publish();
   EXPECT_FALSE(published()[0]);
-  desk.add(AuditRecord{3, 33});
-  desk.publish();
+  collector.add(AuditRecord{3, 33});
+  collector.publish();
   EXPECT_TRUE(published()[0]);
   ChunkFile first(folder_.chunk_file(0));
   first.for_each_run([](const RunRecord&) {});
   EXPECT_EQ(first.audits(), (std::vector<AuditRecord>{{3, 33}, {9, 99}}));
-  desk.audits_end();
-  desk.add(AuditRecord{20, 1});
-  desk.publish();
-  EXPECT_FALSE(desk.waits_for_audits());
+  collector.audits_end();
+  collector.add(AuditRecord{20, 1});
+  collector.publish();
+  EXPECT_FALSE(collector.waits_for_audits());
   EXPECT_EQ(published(), (std::vector<bool>{true, true, true}));
 }
 
-TEST_F(ChunkDesks, OtherResultsForAPublishedChunkAreTheAlarm) {
-  ChunkDesk first = desk(), again = desk(), other = desk();
+TEST_F(ChunkCollectors, OtherResultsForAPublishedChunkAreTheAlarm) {
+  ChunkCollector first = collector(), again = collector(), other = collector();
   for (const RunRecord& run : runs_) {
     first.add(run, false);
     again.add(run, false);
@@ -91,4 +92,4 @@ TEST_F(ChunkDesks, OtherResultsForAPublishedChunkAreTheAlarm) {
 }
 
 }  // namespace
-}  // namespace fleetproof::chunk_desk_test
+}  // namespace fleetproof::chunk_collector_test

@@ -1,4 +1,4 @@
-#include "campaign/run/world_shelf.hpp"
+#include "campaign/run/world_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,35 +9,35 @@
 #include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof::world_shelf_test {
+namespace fleetproof::world_cache_test {
 namespace {
 
-class Shelf : public ::testing::Test {
+class WorldCaches : public ::testing::Test {
  protected:
-  WorldShelf::Loan borrow(std::uint64_t number) {
-    return shelf.borrow(number, [&] {
+  WorldCache::Loan borrow(std::uint64_t number) {
+    return cache.borrow(number, [&] {
       ++drawn;
       return test::row_scenario(3, {0});
     });
   }
 
-  WorldShelf shelf;
+  WorldCache cache;
   int drawn = 0;
 };
 
-TEST_F(Shelf, AWorldThatCameBackIsLentAgain) {
+TEST_F(WorldCaches, AWorldThatCameBackIsLentAgain) {
   const DrawnWorld* first = borrow(5).get();
   EXPECT_EQ(borrow(5).get(), first);
   EXPECT_EQ(drawn, 1);
 }
 
-TEST_F(Shelf, OneRunAtATimeHasAWorld) {
+TEST_F(WorldCaches, OneRunAtATimeHasAWorld) {
   const auto first = borrow(5), second = borrow(5);
   EXPECT_NE(first.get(), second.get());
   EXPECT_EQ(drawn, 2);
 }
 
-TEST_F(Shelf, KeepsAsManyWorldsAsWereLentAtOnce) {
+TEST_F(WorldCaches, KeepsAsManyWorldsAsWereLentAtOnce) {
   borrow(1);
   borrow(2);
   borrow(1);
@@ -48,8 +48,8 @@ TEST_F(Shelf, KeepsAsManyWorldsAsWereLentAtOnce) {
   EXPECT_EQ(drawn, 4);
 }
 
-TEST_F(Shelf, AWorldThatCannotBeDrawnIsNotLent) {
-  EXPECT_THROW((void)shelf.borrow(1, []() -> Scenario { throw InputError("fleet_size", "planted"); }), InputError);
+TEST_F(WorldCaches, AWorldThatCannotBeDrawnIsNotLent) {
+  EXPECT_THROW((void)cache.borrow(1, []() -> Scenario { throw InputError("fleet_size", "planted"); }), InputError);
   borrow(1);
   borrow(2);
   borrow(1);
@@ -78,7 +78,7 @@ TEST(PlantOfAWorld, FitsScenariosWithTheSameMapFleetAndLaw) {
   EXPECT_FALSE(plant.fits(other));
 }
 
-// What a run leaves on the shelf changes no run after it, in whatever order they come.
+// What a run leaves on the cache changes no run after it, in whatever order they come.
 TEST(RunsOfOneReplicate, AreTheSameInUsedAndInNewWorlds) {
   for (const CampaignPlan& plan : {test::small_plan(), test::hostile_plan()}) {
     const AgentPrograms programs;
@@ -94,4 +94,4 @@ TEST(RunsOfOneReplicate, AreTheSameInUsedAndInNewWorlds) {
 }
 
 }  // namespace
-}  // namespace fleetproof::world_shelf_test
+}  // namespace fleetproof::world_cache_test

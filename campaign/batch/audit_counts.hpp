@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "campaign/batch/audit_desk.hpp"
+#include "campaign/batch/audit_queue.hpp"
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/run/replay.hpp"
@@ -11,11 +11,11 @@
 namespace fleetproof {
 
 // What the audits so far say about each agent of a campaign.
-class AuditBook {
+class AuditCounts {
  public:
-  AuditBook(const CampaignPlan& plan, const AgentPrograms& programs);
+  AuditCounts(const CampaignPlan& plan, const AgentPrograms& programs);
 
-  void add(const AuditFinding& finding);
+  void add(const AuditedRun& finding);
   std::size_t agent_of(std::uint64_t run_index) const { return agent_of_run(run_index, agents_.size()); }
   std::size_t agent_count() const { return agents_.size(); }
   // Whether a failed run of this agent may not be reproduced by simulating it again: the agent has not passed its

@@ -1,8 +1,8 @@
-#include "core/engine/fault_desk.hpp"
+#include "core/engine/fault_injector.hpp"
 
 #include "tests/core/small_world.hpp"
 
-namespace fleetproof::fault_desk_test {
+namespace fleetproof::fault_injector_test {
 namespace {
 
 using test::fault;
@@ -16,7 +16,7 @@ Scenario with(std::vector<Fault> faults) {
   return scenario;
 }
 
-TEST(FaultDeskPart, ABreakdownHoldsTheAgvWhileItLasts) {
+TEST(FaultInjectorPart, ABreakdownHoldsTheAgvWhileItLasts) {
   SmallWorld world(with({fault(Fault::Kind::Breakdown, 3.0, 20.0)}));
   world.parts.faults.schedule();
   const Event strike = world.next(Event::Kind::FaultStrikes);
@@ -31,7 +31,7 @@ TEST(FaultDeskPart, ABreakdownHoldsTheAgvWhileItLasts) {
   EXPECT_EQ(world.trace.of(TraceKind::FaultOver).size(), 1U);
 }
 
-TEST(FaultDeskPart, WhatTheOperatorEndsEarlyIsNotOverTwice) {
+TEST(FaultInjectorPart, WhatTheOperatorEndsEarlyIsNotOverTwice) {
   SmallWorld world(with({fault(Fault::Kind::ProtectiveStop, 0.0, 20.0)}));
   world.parts.faults.strikes(kFirst, 0);
   world.parts.faults.end_halts_of(kFirst);
@@ -40,7 +40,7 @@ TEST(FaultDeskPart, WhatTheOperatorEndsEarlyIsNotOverTwice) {
   EXPECT_EQ(world.trace.of(TraceKind::FaultOver).size(), 1U);
 }
 
-TEST(FaultDeskPart, AFaultCountedFromAPickIsSetByTheFirstPickOnly) {
+TEST(FaultInjectorPart, AFaultCountedFromAPickIsSetByTheFirstPickOnly) {
   Fault after_pick = fault(Fault::Kind::Breakdown, 2.0, 1.0);
   after_pick.transport = 1;
   SmallWorld world(with({after_pick}));
@@ -54,7 +54,7 @@ TEST(FaultDeskPart, AFaultCountedFromAPickIsSetByTheFirstPickOnly) {
   EXPECT_TRUE(world.run.queue.empty()) << "the second time that it is taken up";
 }
 
-TEST(FaultDeskPart, ARestartTakesTheAgentAwayAndBringsItBack) {
+TEST(FaultInjectorPart, ARestartTakesTheAgentAwayAndBringsItBack) {
   SmallWorld world(with({fault(Fault::Kind::Restart, 0.0, 5.0)}));
   started(world);
   world.parts.faults.strikes(kFirst, 0);
@@ -65,7 +65,7 @@ TEST(FaultDeskPart, ARestartTakesTheAgentAwayAndBringsItBack) {
   EXPECT_TRUE(world.parts.agents.is_up(kFirst));
 }
 
-TEST(FaultDeskPart, APowerFailureHoldsTheAgvAndTakesItsComputerAway) {
+TEST(FaultInjectorPart, APowerFailureHoldsTheAgvAndTakesItsComputerAway) {
   SmallWorld world(with({fault(Fault::Kind::PowerFailure, 0.0, 30.0)}));
   started(world).heard.clear();
   world.parts.faults.strikes(kFirst, 0);
@@ -82,7 +82,7 @@ TEST(FaultDeskPart, APowerFailureHoldsTheAgvAndTakesItsComputerAway) {
 }
 
 // The operator ends the halt early: the computer still needs its time.
-TEST(FaultDeskPart, PowerComesBackAtItsTimeWhoeverMovesTheAgv) {
+TEST(FaultInjectorPart, PowerComesBackAtItsTimeWhoeverMovesTheAgv) {
   SmallWorld world(with({fault(Fault::Kind::PowerFailure, 0.0, 30.0)}));
   started(world);
   world.parts.faults.strikes(kFirst, 0);
@@ -93,7 +93,7 @@ TEST(FaultDeskPart, PowerComesBackAtItsTimeWhoeverMovesTheAgv) {
   EXPECT_EQ(world.trace.of(TraceKind::FaultOver).size(), 1U);
 }
 
-TEST(FaultDeskPart, AnObstacleWaitsUntilItsPlaceIsFree) {
+TEST(FaultInjectorPart, AnObstacleWaitsUntilItsPlaceIsFree) {
   Scenario scenario = test::row_of_tens({0});
   scenario.obstacles.push_back({"crate", {1.0, 1.0}, {Vec2{0.5, 0.0}, Vec2::UnitX()}, seconds(1.0)});
   SmallWorld world(scenario);
@@ -109,7 +109,7 @@ TEST(FaultDeskPart, AnObstacleWaitsUntilItsPlaceIsFree) {
   EXPECT_FALSE(world.run.world.body(crate).on_floor);
 }
 
-TEST(FaultDeskPart, AFallenLoadLiesOnTheFloorUntilItIsClearedAway) {
+TEST(FaultInjectorPart, AFallenLoadLiesOnTheFloorUntilItIsClearedAway) {
   SmallWorld world(with({fault(Fault::Kind::LoadDrop, 0.0, 30.0)}));
   world.parts.faults.strikes(kFirst, 0);
   EXPECT_EQ(world.run.counters.faults, 0U) << "an empty AGV loses nothing";
@@ -125,4 +125,4 @@ TEST(FaultDeskPart, AFallenLoadLiesOnTheFloorUntilItIsClearedAway) {
 }
 
 }  // namespace
-}  // namespace fleetproof::fault_desk_test
+}  // namespace fleetproof::fault_injector_test

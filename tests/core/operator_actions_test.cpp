@@ -1,11 +1,11 @@
-#include "core/engine/operator_desk.hpp"
+#include "core/engine/operator_actions.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/core/small_world.hpp"
 #include "tests/support/worlds.hpp"
 
-namespace fleetproof::operator_desk_test {
+namespace fleetproof::operator_actions_test {
 namespace {
 
 using test::kFirst;
@@ -21,15 +21,15 @@ Scenario with_operator(std::vector<std::uint32_t> starts) {
 
 Event help_comes(SmallWorld& world) {
   const Event event = world.next(Event::Kind::OperatorComes);
-  world.parts.operator_desk.comes(event.entity, static_cast<Assist>(event.payload), event.stamp);
+  world.parts.operator_actions.comes(event.entity, static_cast<Assist>(event.payload), event.stamp);
   return event;
 }
 
-TEST(OperatorDeskPart, ComesWithinItsTimesAndOnlyIfThereIsOne) {
+TEST(OperatorActionsPart, ComesWithinItsTimesAndOnlyIfThereIsOne) {
   SmallWorld world(with_operator({0})), nobody(test::row_of_tens({0}));
-  nobody.parts.operator_desk.call(kFirst, Assist::Battery, 1);
+  nobody.parts.operator_actions.call(kFirst, Assist::Battery, 1);
   EXPECT_TRUE(nobody.run.queue.empty());
-  for (int i = 0; i < 50; ++i) world.parts.operator_desk.call(kFirst, Assist::Battery, 1);
+  for (int i = 0; i < 50; ++i) world.parts.operator_actions.call(kFirst, Assist::Battery, 1);
   double earliest_s = 1000.0, latest_s = 0.0;
   for (int i = 0; i < 50; ++i) {
     const double at_s = to_seconds(world.next(Event::Kind::OperatorComes).at);
@@ -40,20 +40,20 @@ TEST(OperatorDeskPart, ComesWithinItsTimesAndOnlyIfThereIsOne) {
   EXPECT_TRUE(earliest_s < 90.0 && latest_s > 270.0) << "50 draws come near both ends";
 }
 
-TEST(OperatorDeskPart, HelpsWithTheHaltItWasCalledFor) {
+TEST(OperatorActionsPart, HelpsWithTheHaltItWasCalledFor) {
   SmallWorld world(with_operator({0}));
   const std::uint64_t halt = world.parts.halts.begin(kFirst, Halt::Reason::EmptyBattery);
-  world.parts.operator_desk.call(kFirst, Assist::Battery, halt);
+  world.parts.operator_actions.call(kFirst, Assist::Battery, halt);
   help_comes(world);
   EXPECT_TRUE(world.run.status(kFirst).halts.empty());
   EXPECT_DOUBLE_EQ(world.parts.battery.level(kFirst), 0.8);
   EXPECT_EQ(world.run.counters.assists, 1U);
 }
 
-TEST(OperatorDeskPart, DoesNothingAboutAHaltThatIsOver) {
+TEST(OperatorActionsPart, DoesNothingAboutAHaltThatIsOver) {
   SmallWorld world(with_operator({0}));
   const std::uint64_t halt = world.parts.halts.begin(kFirst, Halt::Reason::Scanner);
-  world.parts.operator_desk.call(kFirst, Assist::Jam, halt);
+  world.parts.operator_actions.call(kFirst, Assist::Jam, halt);
   world.parts.halts.end(kFirst, halt);
   world.parts.halts.begin(kFirst, Halt::Reason::Scanner);
   help_comes(world);
@@ -61,36 +61,36 @@ TEST(OperatorDeskPart, DoesNothingAboutAHaltThatIsOver) {
   EXPECT_EQ(world.run.counters.assists, 0U);
 }
 
-TEST(OperatorDeskPart, TakesAnAgvOffTheFloorAndSetsItDownAtItsStation) {
+TEST(OperatorActionsPart, TakesAnAgvOffTheFloorAndSetsItDownAtItsStation) {
   SmallWorld world(with_operator({0, 2}));
   started(world);
   world.parts.halts.begin(kFirst, Halt::Reason::Scanner);
   world.parts.actions.stop_for_good(kFirst);
-  world.parts.operator_desk.call(kFirst, Assist::Contact, 0);
+  world.parts.operator_actions.call(kFirst, Assist::Contact, 0);
   help_comes(world);
   EXPECT_FALSE(world.run.world.body(kFirst).on_floor);
   EXPECT_TRUE(world.run.status(kFirst).halts.empty());
   EXPECT_FALSE(world.parts.agents.is_up(kFirst));
   world.next(Event::Kind::BodyAppears);
-  world.parts.operator_desk.look_for_place(kFirst);
+  world.parts.operator_actions.look_for_place(kFirst);
   EXPECT_TRUE(world.run.world.body(kFirst).on_floor);
   EXPECT_NEAR(world.x_m(kFirst), 0.0, 1e-9);
   EXPECT_FALSE(world.run.status(kFirst).out_of_order);
   EXPECT_TRUE(world.parts.agents.is_up(kFirst));
 }
 
-TEST(OperatorDeskPart, RestartsAnAgentAtAStandstillAndNotWhileWorkIsUnderWay) {
+TEST(OperatorActionsPart, RestartsAnAgentAtAStandstillAndNotWhileWorkIsUnderWay) {
   Scenario scenario = with_operator({0, 2});
   scenario.agvs[1].transports = {{StationId{2U}, StationId{3U}, Duration{}}};
   SmallWorld world(scenario);
   started(world).parts.agents.order_released(kSecond, 0);
   world.clock(130.0);
   world.run.status(kFirst).activity = world.drive_activity(kFirst, world.lane(0, 0));
-  world.parts.operator_desk.looks();
+  world.parts.operator_actions.looks();
   EXPECT_FALSE(world.has(Event::Kind::OperatorComes)) << "an AGV drives";
   world.run.status(kFirst).activity.reset();
   world.clock(251.0);
-  world.parts.operator_desk.looks();
+  world.parts.operator_actions.looks();
   EXPECT_EQ(help_comes(world).entity, kSecond) << "whose transport is open";
   EXPECT_EQ(world.run.counters.assists, 1U);
   EXPECT_EQ(world.trace.of(TraceKind::OperatorAssists).at(0).a, static_cast<std::uint64_t>(Assist::Standstill));
@@ -138,4 +138,4 @@ TEST(Recovery, AnAgvIsSetDownAsTheStationDemandsAndNeverWhereItCouldNotDriveOff)
 }
 
 }  // namespace
-}  // namespace fleetproof::operator_desk_test
+}  // namespace fleetproof::operator_actions_test

@@ -1,10 +1,10 @@
-#include "campaign/run/world_shelf.hpp"
+#include "campaign/run/world_cache.hpp"
 
 #include <algorithm>
 
 namespace fleetproof {
 
-WorldShelf::Loan WorldShelf::borrow(std::uint64_t number, const std::function<Scenario()>& draw) {
+WorldCache::Loan WorldCache::borrow(std::uint64_t number, const std::function<Scenario()>& draw) {
   std::unique_ptr<DrawnWorld> world = find(number);
   if (!world) world = std::make_unique<DrawnWorld>(draw());
   const std::lock_guard lock(mutex_);
@@ -12,7 +12,7 @@ WorldShelf::Loan WorldShelf::borrow(std::uint64_t number, const std::function<Sc
   return {world.release(), PutBack{this, number}};
 }
 
-std::unique_ptr<DrawnWorld> WorldShelf::find(std::uint64_t number) {
+std::unique_ptr<DrawnWorld> WorldCache::find(std::uint64_t number) {
   const std::lock_guard lock(mutex_);
   const auto found = std::ranges::find(worlds_, number, [](const auto& numbered) { return numbered.first; });
   if (found == worlds_.end()) return nullptr;
@@ -22,7 +22,7 @@ std::unique_ptr<DrawnWorld> WorldShelf::find(std::uint64_t number) {
 }
 
 // As many worlds are kept as were lent at once: each thread goes on with its own.
-void WorldShelf::take_back(std::uint64_t number, std::unique_ptr<DrawnWorld> world) {
+void WorldCache::take_back(std::uint64_t number, std::unique_ptr<DrawnWorld> world) {
   const std::lock_guard lock(mutex_);
   --lent_;
   worlds_.emplace_front(number, std::move(world));
