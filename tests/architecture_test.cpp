@@ -124,7 +124,7 @@ const std::vector<Home> kHomes = {
     {"toml++/", {"campaign/plan/toml_table.cpp"}},
     {"pugixml", {"generators/"}},
     {"yaml-cpp/", {"generators/"}},
-    {"nlohmann/", {"generators/", "reports/", "campaign/"}},
+    {"nlohmann/json.hpp", {"core/base/json_text.cpp", "generators/", "reports/", "campaign/"}},
     {"Random123/", {"core/base/random.cpp"}},
     {"xxhash.h", {"core/", "generators/", "storage/"}},
 };

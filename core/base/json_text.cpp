@@ -10,7 +10,9 @@ std::string json_text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string json_text(const SortedJson& json) { return json.dump(-1, ' ', false, SortedJson::error_handler_t::replace); }
+std::string json_text(const SortedJson& json) {
+  return json.dump(-1, ' ', false, SortedJson::error_handler_t::replace);
+}
 
 std::string shown_json(const Json& json) { return printable_json(json_text(json, 2)) + "\n"; }
 

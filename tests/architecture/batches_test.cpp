@@ -48,12 +48,13 @@ std::vector<std::string> used_twice(const std::vector<Source>& files) {
 
 // The types and constants of a header that every source can name which sees the header.
 std::vector<std::string> shared_names(const Source& header) {
-  static const std::regex pattern(R"(^inline constexpr .*?\b(k[A-Z]\w*)(\[\w*\])?( =|\{))");
+  static const std::regex pattern(R"(\b(k[A-Z]\w*)(\[\w*\])?( =|\{))");
   std::vector<std::string> found;
   for (const NamedType& type : outline_of(header.lines).types) found.push_back(type.name);
   for (const std::string& line : header.lines) {
-    std::smatch match;
-    if (std::regex_search(line, match, pattern)) found.push_back("fleetproof::" + match[1].str());
+    if (!line.starts_with("inline constexpr ")) continue;
+    for (std::sregex_iterator match(line.begin(), line.end(), pattern), end; match != end; ++match)
+      found.push_back("fleetproof::" + (*match)[1].str());
   }
   return found;
 }
@@ -77,6 +78,13 @@ std::set<const Source*> headers_of(const std::vector<const Source*>& files,
   return seen;
 }
 
+// The name by which its own source knows it: "fleetproof::A" for "fleetproof::::A" and for "A".
+std::string without_anonymous(const std::string& name) {
+  const auto anonymous = name.find("::::");
+  if (anonymous != std::string::npos) return name.substr(0, anonymous) + name.substr(anonymous + 2);
+  return name.starts_with("fleetproof::") ? name : "fleetproof::" + name;
+}
+
 // A local name that is also the name of something in a header: in a batch with a source that includes the header, it
 // means two things.
 std::vector<std::string> hides_a_shared_name(const std::vector<Source>& files) {
@@ -96,7 +104,7 @@ std::vector<std::string> hides_a_shared_name(const std::vector<Source>& files) {
     for (const Source* source : members) {
       if (source->is_header()) continue;
       for (const std::string& name : local_names(*source)) {
-        const auto at = shared.find(name.starts_with("fleetproof") ? name : "fleetproof::" + name);
+        const auto at = shared.find(without_anonymous(name));
         if (at != shared.end()) found.push_back(name + " in " + source->path + " and in " + at->second);
       }
     }
