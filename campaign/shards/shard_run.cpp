@@ -30,7 +30,7 @@ class ShardPolicy final : public SessionPolicy {
       : session_(session),
         grid_(plan.run_count()),
         owned_(grid_.of(shard)),
-        desk_(folder, grid_, common_label(stored)) {
+        collector_(folder, grid_, common_label(stored)) {
     Progress& progress = session_.progress();
     for (std::uint64_t chunk = owned_.begin; chunk < owned_.end; ++chunk) {
       progress.planned += grid_.run_count(chunk);
@@ -44,8 +44,8 @@ class ShardPolicy final : public SessionPolicy {
   }
 
   const ChunkRange& owned() const { return owned_; }
-  std::uint64_t published() const { return found_ + desk_.published(); }
-  std::uint64_t open_runs() const { return desk_.open_runs(); }
+  std::uint64_t published() const { return found_ + collector_.published(); }
+  std::uint64_t open_runs() const { return collector_.open_runs(); }
   TaskRange runs_to_do() const { return {.end = runs_to_do_, .window = std::max(kLiveWindow, grid_.chunk_runs())}; }
 
   // Only the last chunk of a campaign is shorter, and it is the last one to do.
@@ -55,21 +55,21 @@ class ShardPolicy final : public SessionPolicy {
 
   std::uint64_t piece() const override { return grid_.chunk_runs(); }
 
-  void keep(const RunRecord& run, bool audited) override { desk_.add(run, audited); }
+  void keep(const RunRecord& run, bool audited) override { collector_.add(run, audited); }
 
-  void keep(const AuditedRun& finding) override { desk_.add(finding.audit); }
+  void keep(const AuditedRun& finding) override { collector_.add(finding.audit); }
 
   void tick() override {
-    if (!session_.audits().failure().empty()) desk_.audits_end();
-    desk_.publish();
+    if (!session_.audits().failure().empty()) collector_.audits_end();
+    collector_.publish();
     const auto now = Clock::now();
-    if (!desk_.waits_for_audits()) last_without_waiting_ = now;
+    if (!collector_.waits_for_audits()) last_without_waiting_ = now;
     if (now - last_without_waiting_ >= std::chrono::seconds(1)) session_.audits().hurry();
   }
 
   void publish_rest() {
-    desk_.audits_end();
-    desk_.publish();
+    collector_.audits_end();
+    collector_.publish();
   }
 
  private:
@@ -80,7 +80,7 @@ class ShardPolicy final : public SessionPolicy {
   ChunkRange owned_;
   std::vector<std::uint64_t> to_do_;  // chunks, in their order
   std::uint64_t runs_to_do_ = 0, found_ = 0;
-  ChunkCollector desk_;
+  ChunkCollector collector_;
   Clock::time_point last_without_waiting_ = Clock::now();
 };
 

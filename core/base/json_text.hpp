@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-// JSON as text. Every source that writes or reads JSON calls these functions, so the library's parser and writer are
-// compiled once.
+// JSON as text, for plans, logs, pages and verbs: the library's parser and writer are compiled once. Files of people
+// are read by generators/text/json_value.hpp, which knows the line of each value.
 namespace fleetproof {
 
 using Json = nlohmann::ordered_json;  // keys stay in the order in which they were written

@@ -56,7 +56,7 @@ class Engine {
 
   // From the start to the horizon. Call it once. Throws RunAbandoned if the watch says so.
   void run();
-  // Closes the books. Requires: `run` has returned. Call it once: the findings of the laws move into the outcome.
+  // Adds up the counters. Requires: `run` has returned. Call it once: the results of the laws move into the outcome.
   Outcome finish();
 
  private:
