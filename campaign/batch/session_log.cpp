@@ -20,7 +20,7 @@ namespace fleetproof {
 namespace {
 
 constexpr const char *kFresh = "fresh", *kFixed = "fixed";
-constexpr std::string_view kFirstWords = "{\"started_utc\":";
+constexpr std::string_view kLogBeginning = "{\"started_utc\":";
 
 // What could make this machine compute differently from another one, for session logs.
 struct MachineFacts {
@@ -83,7 +83,7 @@ std::string file_in(const std::string& line, const std::string& agent) {
 }  // namespace
 
 SessionLog::SessionLog(const std::string& archive_path) : path_(session_log_path(archive_path)) {
-  require_log(path_, kFirstWords,
+  require_log(path_, kLogBeginning,
               "this is no session log of fleetproof, and nothing is appended to it; give the results file another "
               "name, or move this file away");
   if (std::filesystem::exists(path_))  // else it is made beside the results file, whose place is looked at by itself

@@ -18,7 +18,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr Duration kGrain = std::chrono::milliseconds(10);
+constexpr Duration kTimeGrain = std::chrono::milliseconds(10);
 
 // While the radio draws, so many of the messages before the failure are asked for, and so many are told.
 constexpr std::size_t kMostAsked = 60, kMostTold = 4;
@@ -49,8 +49,8 @@ std::optional<LatestArrival> latest_that_saves(CaseHost& host, const FailingCase
     return avoids(host(with_fate(failing.scenario, arriving_after(fate, delay))), failing, pattern);
   };
   Duration low{}, high = fate.lost ? failing.failure.at - kStart - fate.sent : fate.delay;
-  if (high <= kGrain || saves(high)) return std::nullopt;
-  while (high - low > kGrain) {
+  if (high <= kTimeGrain || saves(high)) return std::nullopt;
+  while (high - low > kTimeGrain) {
     const Duration middle = low + (high - low) / 2;
     (saves(middle) ? low : high) = middle;
   }

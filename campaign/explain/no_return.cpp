@@ -12,7 +12,7 @@ namespace fleetproof {
 namespace {
 
 constexpr double kLast_s = 0.2, kFirst_s = 60.0;  // before the failure
-constexpr Duration kAfterwards = std::chrono::seconds(5);
+constexpr Duration kWatchedAfter = std::chrono::seconds(5);
 
 // From far to near: each is a fixed share of the one before, so that the last seconds are looked at closely. Built by
 // multiplication alone, as all that a result rests on.
@@ -68,7 +68,7 @@ NoReturn judged(std::vector<Branching> curve) {
 
 NoReturn curve_of_no_return(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
   Scenario scenario = failing.scenario;
-  scenario.horizon = std::min(scenario.horizon, failing.failure.seen - kStart + kAfterwards);
+  scenario.horizon = std::min(scenario.horizon, failing.failure.seen - kStart + kWatchedAfter);
   const CaseRun whole = host(scenario, Fates::Kept);
   std::vector<Branching> curve;
   for (const SimTime at : instants_before(failing.failure.at)) {

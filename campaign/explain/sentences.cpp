@@ -9,7 +9,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kEnoughToCompare = 12;
+constexpr std::size_t kEnoughFailing = 12;
 constexpr Duration kNotable = std::chrono::milliseconds(10);  // so late a message is worth a word
 
 double seconds_of(SimTime t) { return to_seconds(t - kStart); }
@@ -252,7 +252,7 @@ class Words {
 
   // Only said where the run as it is fails often enough to compare.
   static const char* verdict(const Share& share, const Share& base) {
-    if (base.failing() < kEnoughToCompare) return "";
+    if (base.failing() < kEnoughFailing) return "";
     if (share.failing() == 0) return " (below 5 %, 95 % sure): the failure needs this to be otherwise";
     return 2 * share.failing() >= base.failing() ? ": that does not decide it" : ": that makes it rarer";
   }

@@ -15,7 +15,7 @@
 namespace fleetproof {
 namespace {
 
-struct Change {
+struct WorldChange {
   std::string what;
   std::function<void(Scenario&)> edit;
 };
@@ -27,7 +27,7 @@ void scale_speeds(Scenario& scenario, double factor) {
   }
 }
 
-void add_radio(std::vector<Change>& changes, const RadioSetup& radio) {
+void add_radio(std::vector<WorldChange>& changes, const RadioSetup& radio) {
   if (radio.loss > 0.0) changes.push_back({"no message is lost by chance", [](Scenario& s) { s.radio.loss = 0.0; }});
   if (radio.delay_s > 0.0) changes.push_back({"no message is late", [](Scenario& s) { s.radio.delay_s = 0.0; }});
   if (radio.duplicates > 0.0)
@@ -35,8 +35,8 @@ void add_radio(std::vector<Change>& changes, const RadioSetup& radio) {
   changes.push_back({"the radio is perfect", [](Scenario& s) { s.radio = perfect(s.radio); }});
 }
 
-std::vector<Change> changes_of(const Scenario& scenario) {
-  std::vector<Change> changes{{"as it is", [](Scenario&) {}}};
+std::vector<WorldChange> changes_of(const Scenario& scenario) {
+  std::vector<WorldChange> changes{{"as it is", [](Scenario&) {}}};
   add_radio(changes, scenario.radio);
   if (!scenario.faults.empty()) changes.push_back({"no fault strikes", [](Scenario& s) { s.faults.clear(); }});
   if (!scenario.obstacles.empty())
@@ -55,7 +55,7 @@ std::vector<Change> changes_of(const Scenario& scenario) {
 }
 
 // Where a change changes nothing, its share would say nothing.
-bool changes_it(const Change& change, const Scenario& scenario) {
+bool changes_it(const WorldChange& change, const Scenario& scenario) {
   Scenario changed = scenario;
   change.edit(changed);
   return scenario_digest(changed) != scenario_digest(scenario);
@@ -65,7 +65,7 @@ bool changes_it(const Change& change, const Scenario& scenario) {
 
 std::vector<Share> shares_of(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
   auto changes = changes_of(failing.scenario);
-  std::erase_if(changes, [&, first = true](const Change& change) mutable {
+  std::erase_if(changes, [&, first = true](const WorldChange& change) mutable {
     return !std::exchange(first, false) && !changes_it(change, failing.scenario);
   });
   for (std::size_t i = 0; i < failing.scenario.agvs.size(); ++i) {
@@ -74,7 +74,7 @@ std::vector<Share> shares_of(CaseHost& host, const FailingCase& failing, const F
                        [i](Scenario& s) { s = with_agvs(s, [i](std::size_t other) { return other != i; }); }});
   }
   std::vector<Share> shares;
-  for (const Change& change : changes) {
+  for (const WorldChange& change : changes) {
     Share share{.what = change.what, .run = failing.scenario, .failing_lucks = {}, .of = kLuckRuns};
     change.edit(share.run);
     if (is_fair(share.run)) shares.push_back(std::move(share));

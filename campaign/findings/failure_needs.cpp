@@ -19,7 +19,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kEnoughToCompare = 4, kFewestTries = 8, kMostTries = 24;
+constexpr std::uint32_t kEnoughTries = 4, kFewestTries = 8, kMostTries = 24;
 // A run that seldom fails with other luck may need nothing but that two AGVs meet in some way. That is looked for
 // first.
 constexpr std::size_t kFewLucks = 2;
@@ -116,7 +116,7 @@ class Reduction {
     likeness_.words.telling = telling_words();
   }
   std::vector<std::string> telling_words() const {
-    if (learner_->passing() < kEnoughToCompare) return {};
+    if (learner_->passing() < kEnoughTries) return {};
     return learner_->pattern().telling;
   }
 

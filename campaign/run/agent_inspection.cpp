@@ -20,8 +20,8 @@ namespace fleetproof {
 namespace {
 
 constexpr rlim_t kPatience_cpu_s = 10;
-constexpr int kPatience_ms = 60'000;  // of waiting without using CPU time
-constexpr int kKillsFromOutside = 3;  // more, and the object is the reason
+constexpr int kInspectionPatience_ms = 60'000;  // of waiting without using CPU time
+constexpr int kKillsOfInspection = 3;           // more, and the object is the reason
 
 // The fields of a program, each with a null byte behind it. The first byte tells whether they are there or an error is.
 std::string text_of(const AgentProgram& program) {
@@ -73,7 +73,7 @@ Inspection read_until_end(int fd) {
   std::array<char, 4096> buffer;
   pollfd ready{fd, POLLIN, 0};
   for (;;) {
-    const int events = ::poll(&ready, 1, kPatience_ms);
+    const int events = ::poll(&ready, 1, kInspectionPatience_ms);
     if (events < 0 && errno == EINTR) continue;
     inspection.came_back = events != 0;
     if (events <= 0) break;
@@ -138,7 +138,7 @@ bool was_killed_from_outside(const Inspection& inspection) {
 
 AgentProgram inspect_agent(const std::string& path, bool global_symbols) {
   Inspection inspection = inspect_once(path, global_symbols);
-  for (int again = 0; again < kKillsFromOutside && was_killed_from_outside(inspection); ++again)
+  for (int again = 0; again < kKillsOfInspection && was_killed_from_outside(inspection); ++again)
     inspection = inspect_once(path, global_symbols);
   const std::string_view text = inspection.text;
   if (text.starts_with('y')) {

@@ -20,7 +20,7 @@ namespace {
 
 // Runs between the oldest unfinished and the newest handed out. A chunk that waits for a slow run keeps its file open,
 // so there are less of them than a process may have.
-constexpr std::uint64_t kLiveWindow = 4096;
+constexpr std::uint64_t kLiveShardWindow = 4096;
 
 // Publishes the runs of a session in chunks. A stop lets the chunks that were begun come to their end.
 class ShardPolicy final : public SessionPolicy {
@@ -46,7 +46,9 @@ class ShardPolicy final : public SessionPolicy {
   const ChunkRange& owned() const { return owned_; }
   std::uint64_t published() const { return found_ + collector_.published(); }
   std::uint64_t open_runs() const { return collector_.open_runs(); }
-  TaskRange runs_to_do() const { return {.end = runs_to_do_, .window = std::max(kLiveWindow, grid_.chunk_runs())}; }
+  TaskRange runs_to_do() const {
+    return {.end = runs_to_do_, .window = std::max(kLiveShardWindow, grid_.chunk_runs())};
+  }
 
   // Only the last chunk of a campaign is shorter, and it is the last one to do.
   std::uint64_t run_at(std::uint64_t place) const override {

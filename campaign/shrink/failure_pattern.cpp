@@ -9,7 +9,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kOtherRuns = 16;
+constexpr std::uint32_t kRunsWithOtherLuck = 16;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ FailurePattern pattern_of(CaseHost& host, const FailingCase& failing) {
   const bool lucky_fails = failure_of(lucky).has_value();
   if (!lucky_fails) learner.hear_lucky(lucky);
   std::vector<CaseRun> others;
-  for (std::uint32_t i = 1; i <= kOtherRuns && !run.words.empty(); ++i) {
+  for (std::uint32_t i = 1; i <= kRunsWithOtherLuck && !run.words.empty(); ++i) {
     others.push_back(host(with_other_course(failing.scenario, i, kLatest)));
     if (!failure_of(others.back())) learner.hear_passing(others.back());
   }

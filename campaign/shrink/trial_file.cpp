@@ -13,13 +13,13 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::string_view kFirstWords = "fleetproof trials of ";
+constexpr std::string_view kTrialsBeginning = "fleetproof trials of ";
 constexpr std::size_t kDigits = 16;
 
 }  // namespace
 
 TrialFile::TrialFile(std::string path, const std::string& identity) : path_(std::move(path)) {
-  const std::string heading = std::string(kFirstWords) + identity;
+  const std::string heading = std::string(kTrialsBeginning) + identity;
   read(heading);
   if (!std::filesystem::exists(path_)) append_lines(path_, heading + "\n");
 }
@@ -28,7 +28,7 @@ TrialFile::TrialFile(std::string path, const std::string& identity) : path_(std:
 void TrialFile::read(const std::string& heading) {
   std::error_code ignored;
   if (!std::filesystem::exists(path_, ignored)) return;
-  require_log(path_, kFirstWords, "is there already and is no record of trials; name another file by --output");
+  require_log(path_, kTrialsBeginning, "is there already and is no record of trials; name another file by --output");
   const std::string text = read_text_file(path_);
   std::size_t at = text.find('\n');
   if (at == std::string::npos || text.substr(0, at) != heading) return remove();

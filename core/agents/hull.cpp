@@ -7,7 +7,7 @@ namespace fleetproof::agents {
 namespace {
 
 constexpr double kHullRounding_m = 1e-3;
-constexpr double kSlack_m = 1.0;  // shapes are a little larger than what a body sweeps
+constexpr double kHullSlack_m = 1.0;  // shapes are a little larger than what a body sweeps
 
 }  // namespace
 
@@ -47,7 +47,7 @@ bool HullGeometry::turn_conflict(std::uint32_t agv_a, std::uint32_t station, std
 double HullGeometry::meets_after_m(std::uint32_t agv_a, std::uint32_t station, std::uint32_t agv_b,
                                    const Path& b) const {
   const double apart_m = length(map_.position_m(station) - map_.position_m(b.station));
-  return apart_m - reach_m(agv_a) - kSlack_m - extent_m(agv_b, b) - clearance_m();
+  return apart_m - reach_m(agv_a) - kHullSlack_m - extent_m(agv_b, b) - clearance_m();
 }
 
 double HullGeometry::distance_bound_m(Vec point_m, std::uint32_t agv, const Path& path) {
@@ -61,7 +61,7 @@ double HullGeometry::distance_bound_m(Vec point_m, std::uint32_t agv, const Path
 }
 
 double HullGeometry::extent_m(std::uint32_t agv, const Path& path) const {
-  return length_m(map_, path) + reach_m(agv) + kSlack_m;
+  return length_m(map_, path) + reach_m(agv) + kHullSlack_m;
 }
 
 bool HullGeometry::is_far(std::uint32_t number, std::uint32_t agv, const Path& path) const {

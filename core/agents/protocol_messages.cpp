@@ -17,7 +17,7 @@ constexpr std::uint64_t kEpochHasBoot = 32, kEchoHasBoot = 64, kPositionIsNew = 
 constexpr std::uint64_t kGranted = 1;  // of an answer; beside kEchoHasBoot
 // Beside the kind.
 constexpr std::uint64_t kTellsZones = 0x80, kWantsAnswer = 0x40, kPlaceUnknown = 0x20, kHeldUp = 0x10;
-constexpr std::uint64_t kKinds = 0x0f;
+constexpr std::uint64_t kKindBits = 0x0f;
 constexpr std::uint32_t kNobody = 0xffff;
 
 std::uint64_t flags_of(const Message& message) {
@@ -52,7 +52,7 @@ class Reader {
     const std::span<const std::byte> begin = take_bytes(kConditionAt + kConditionBytes);
     if (begin.empty() || value_at<std::uint8_t>(begin, 0) != kMark) return false;
     const std::uint64_t kind = value_at<std::uint8_t>(begin, 1);
-    message.kind = static_cast<MessageKind>(kind & kKinds);
+    message.kind = static_cast<MessageKind>(kind & kKindBits);
     message.wants_answer = (kind & kWantsAnswer) != 0;
     message.tells_zones = (kind & kTellsZones) != 0;
     message.status.place_unknown = (kind & kPlaceUnknown) != 0;

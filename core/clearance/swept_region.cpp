@@ -6,7 +6,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kRounding_m = 1e-6;
+constexpr double kSweepRounding_m = 1e-6;
 constexpr int kHalvings = 2;
 
 // All points that are at most so far from a rectangle.
@@ -42,7 +42,7 @@ Region swept(const Piece& piece, Interval within) {
 // What the bodies cover meets nowhere.
 bool surely_apart(const Piece& a, const Piece& b, Interval within, double distance_m) {
   const Region first = swept(a, within), second = swept(b, within);
-  const double beyond_m = first.beyond_m + second.beyond_m + distance_m + kRounding_m;
+  const double beyond_m = first.beyond_m + second.beyond_m + distance_m + kSweepRounding_m;
   return clearance_m(first.rectangle, second.rectangle) > beyond_m;
 }
 

@@ -5,13 +5,13 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kRounding_m = 1e-6;  // whichever of two boxes is grown
+constexpr double kBoxRounding_m = 1e-6;  // whichever of two boxes is grown
 constexpr std::size_t kFirst = 8;     // seldom more
 
 }  // namespace
 
 Company::Company(std::size_t bodies, double within_m)
-    : within_m_(within_m + kRounding_m), planned_(bodies), boxes_(bodies), pieces_(bodies), near_(bodies) {}
+    : within_m_(within_m + kBoxRounding_m), planned_(bodies), boxes_(bodies), pieces_(bodies), near_(bodies) {}
 
 // Of two bodies that come near each other, one began its piece later, and finds the other here.
 void Company::begins(const Piece& piece) {

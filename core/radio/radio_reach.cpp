@@ -9,7 +9,7 @@ namespace {
 constexpr double kSmallestCell_m = 12.0;  // for drives of one segment
 constexpr double kMostCells = 32.0;       // in a row
 // The length of a curve is known to a small part of it, and places are rounded.
-constexpr double kSlack_m = 0.05, kSlackOfWay = 0.01;
+constexpr double kReachSlack_m = 0.05, kSlackOfWay = 0.01;
 
 std::size_t cells_along(double floor_m, double side_m) {
   return 1 + static_cast<std::size_t>(std::clamp(floor_m / side_m, 0.0, kMostCells));
@@ -34,7 +34,7 @@ RadioReach::Circle RadioReach::circle_of(const Piece& piece) {
   const Vec2 begin_m = piece.pose_at(piece.begin).position_m;
   if (piece.manner != Manner::Drive) return {begin_m, 0.0};
   const Vec2 end_m = piece.pose_at(piece.end).position_m;
-  return {0.5 * (begin_m + end_m), (0.5 + kSlackOfWay) * piece.profile.distance() + kSlack_m};
+  return {0.5 * (begin_m + end_m), (0.5 + kSlackOfWay) * piece.profile.distance() + kReachSlack_m};
 }
 
 void RadioReach::piece_begins(const Piece& piece) {

@@ -11,7 +11,7 @@ namespace fleetproof {
 namespace {
 
 constexpr std::int64_t kLeastDistance_mm = 4'000, kLongestSegment_mm = 9'000;
-constexpr std::uint32_t kThrows = 400, kMostPoints = 34, kFewestPoints = 16, kFewestUnderStress = 12;
+constexpr std::uint32_t kThrows = 400, kMostJunctions = 34, kFewestPoints = 16, kFewestUnderStress = 12;
 constexpr std::uint32_t kFirstGentleTry = 8;  // from this try on, every edge is two-way
 
 std::int64_t squared(std::int64_t x) { return x * x; }
@@ -47,7 +47,7 @@ class RandomPlanar {
     const std::int64_t width = draw_between(draws_, 22'000, 32'000, 500),
                        height = draw_between(draws_, 16'000, 24'000, 500);
     points_.clear();
-    for (std::uint32_t i = 0; i < kThrows && points_.size() < kMostPoints; ++i) {
+    for (std::uint32_t i = 0; i < kThrows && points_.size() < kMostJunctions; ++i) {
       PointMm p;
       p.x = draw_between(draws_, 0, width, 10);
       p.y = draw_between(draws_, 0, height, 10);

@@ -124,7 +124,7 @@ void write_trajectory(JsonWriter& writer, const std::vector<Vec2>& points) {
   writer.close();
 }
 
-struct Edge {
+struct LifEdge {
   std::string name;
   const Station &from, &to;
   std::vector<Vec2> points;
@@ -144,7 +144,7 @@ void write_travel(JsonWriter& writer, Travel travel) {
   writer.close();
 }
 
-void write_type(JsonWriter& writer, const Edge& edge, const std::string& type) {
+void write_type(JsonWriter& writer, const LifEdge& edge, const std::string& type) {
   const LoadState load = load_of(edge.segment, type).value_or(LoadState::Any);
   writer.open_object();
   writer.key("vehicleTypeId").value(type);
@@ -163,7 +163,7 @@ void write_type(JsonWriter& writer, const Edge& edge, const std::string& type) {
   writer.close();
 }
 
-void write_edge(JsonWriter& writer, const Edge& edge, const Types& types) {
+void write_edge(JsonWriter& writer, const LifEdge& edge, const Types& types) {
   writer.open_object();
   writer.key("edgeId").value(edge.name);
   if (edge.is_back) writer.key("edgeDescription").value(std::string(kBackMark) + edge.segment.name);

@@ -12,7 +12,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kHighestDegree = 9, kMostPoints = 10'000;
+constexpr std::size_t kHighestDegree = 9, kMostCurvePoints = 10'000;
 
 bool equal_weights(const Nurbs& n) {
   return std::ranges::all_of(n.weights, [&](double w) { return w == n.weights[0]; });
@@ -41,13 +41,13 @@ std::vector<Vec2> raised_from_quadratic(const std::vector<Vec2>& p) {
 }
 
 // A place on a curve, and its change with the parameter.
-struct Place {
+struct CurvePoint {
   Vec2 point_m, velocity;
 };
 
 // De Boor's algorithm on (w x, w y, w), within the span of knots that begins at index `span`. The last round also gives
 // the derivative.
-Place place_at(const Nurbs& n, std::size_t span, double u) {
+CurvePoint place_at(const Nurbs& n, std::size_t span, double u) {
   const auto d = n.degree;
   std::vector<Vec2> points(d + 1);
   std::vector<double> weights(d + 1);
@@ -77,7 +77,7 @@ Place place_at(const Nurbs& n, std::size_t span, double u) {
 struct CubicPiece {
   Vec2 begin_m, first_m, second_m, end_m;
 
-  CubicPiece(const Place& from, const Place& to, double width)
+  CubicPiece(const CurvePoint& from, const CurvePoint& to, double width)
       : begin_m(from.point_m),
         first_m(from.point_m + from.velocity * (width / 3.0)),
         second_m(to.point_m - to.velocity * (width / 3.0)),
@@ -95,11 +95,11 @@ struct CubicPiece {
 // Adds the pieces of a span, halved until they are near the curve in place and heading.
 void add_pieces(const Nurbs& n, std::size_t span, double low, double high, int halves_left,
                 std::vector<CubicPiece>& pieces) {
-  const Place from = place_at(n, span, low), to = place_at(n, span, high);
+  const CurvePoint from = place_at(n, span, low), to = place_at(n, span, high);
   const CubicPiece piece(from, to, high - low);
   bool near = true;
   for (const double t : {0.25, 0.5, 0.75}) {
-    const Place place = place_at(n, span, low + (high - low) * t);
+    const CurvePoint place = place_at(n, span, low + (high - low) * t);
     const Vec2 along = piece.velocity(t).stableNormalized(), truth = place.velocity.stableNormalized();
     near = near && (piece.point_m(t) - place.point_m).norm() < kNurbsByCubics_m &&
            (along - truth).norm() < kNurbsByCubics_rad;
@@ -144,7 +144,8 @@ std::string fault_of(const Nurbs& n) {
   if (n.points_m.size() <= n.degree)
     return fmt::format("degree {} needs at least {} control points; here are {}", n.degree, n.degree + 1,
                        n.points_m.size());
-  if (n.points_m.size() > kMostPoints) return fmt::format("more than {} control points; split the edge", kMostPoints);
+  if (n.points_m.size() > kMostCurvePoints)
+    return fmt::format("more than {} control points; split the edge", kMostCurvePoints);
   if (n.knots.size() != n.points_m.size() + n.degree + 1) {
     return fmt::format("{} control points of degree {} need {} knots; here are {}", n.points_m.size(), n.degree,
                        n.points_m.size() + n.degree + 1, n.knots.size());

@@ -18,13 +18,13 @@ constexpr double kMuchLonger = 1.5;
 // A half circle is 1.6 times as long as its chord, three quarters of a circle 3.3 times.
 constexpr double kDetour = 4.0;
 
-struct Extent {
+struct CurveExtent {
   double curves_m = 0.0;
   bool has_spots = false;  // a segment without length
 };
 
-Extent extent_of(const Layout& layout) {
-  Extent extent;
+CurveExtent extent_of(const Layout& layout) {
+  CurveExtent extent;
   for (const auto& segment : layout.segments) {
     const Vec2 chord_m =
         layout.stations[segment.to.index()].position_m - layout.stations[segment.from.index()].position_m;
@@ -82,7 +82,7 @@ std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& 
                                      "draw these points"
                                    : "");
   if (!is_sound(drawing)) return begin + "the drawing is too large, so all have their positions of the plant";
-  const Extent plant = extent_of(layout), drawn = extent_of(drawing);
+  const CurveExtent plant = extent_of(layout), drawn = extent_of(drawing);
   if (!has_curves(layout)) {
     if (!plant.has_spots || drawn.has_spots)
       return begin + "no path is curved, so all have their positions of the plant";

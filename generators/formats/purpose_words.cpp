@@ -14,7 +14,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kListed = 12;  // texts of files in a sentence
+constexpr std::size_t kTextsListed = 12;  // texts of files in a sentence
 
 }  // namespace
 
@@ -92,7 +92,7 @@ std::vector<PurposeWords::Unheard> PurposeWords::unheard() const {
     found.push_back({place, fmt::format("{} is no word of the layouts{}", in_quotes(word),
                                         nearest         ? "; did you mean " + in_quotes(*nearest) + "?"
                                         : texts.empty() ? ", which have none; remove it"
-                                                        : "; their words: " + name_list(texts, kListed))});
+                                                        : "; their words: " + name_list(texts, kTextsListed))});
   }
   return found;
 }

@@ -10,7 +10,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kMostNames = 20;
+constexpr std::size_t kMostStationsNamed = 20;
 
 std::vector<std::string> cut_off(const Layout& layout, const StrongComponents& parts) {
   std::vector<std::string> names;
@@ -77,7 +77,7 @@ std::string reachability_text(const Layout& layout) {
     return fmt::format("all {} stations can {}", all, rules ? "be reached and left" : "reach each other");
   return fmt::format("{} of {} stations can {}; cut off: {}", all - names.size(), all,
                      rules ? "be reached and left as the layout permits" : "all reach each other",
-                     name_list(names, kMostNames));
+                     name_list(names, kMostStationsNamed));
 }
 
 std::vector<std::string> limited_uses(const Layout& layout) {
@@ -96,7 +96,7 @@ std::vector<std::string> limited_uses(const Layout& layout) {
   std::vector<std::string> sentences;
   const auto tell = [&](const std::vector<std::string>& names, std::string_view what) {
     if (!names.empty())
-      sentences.push_back(fmt::format("{} (turns, headings, loads): {}", what, name_list(names, kMostNames)));
+      sentences.push_back(fmt::format("{} (turns, headings, loads): {}", what, name_list(names, kMostStationsNamed)));
   };
   tell(only_picks, "orders begin and do not end at some storage stations, by what the layout permits");
   tell(only_drops, "orders end and do not begin at some storage stations, by what the layout permits");

@@ -98,9 +98,9 @@ class Check {
       if (value != 0.0 && !(value >= low && value <= high))
         add(ProblemKind::NumberOutOfRange, pointer + "/" + key, sentence);
     };
-    constexpr const char* kSpeeds = "a speed limit is 0 (none), or 0.001 to 100 m/s";
-    limit("speed_limit_mps", s.speed_limit_mps, kSlowest, kFastest, kSpeeds);
-    limit("back_speed_limit_mps", s.back_speed_limit_mps, kSlowest, kFastest, kSpeeds);
+    constexpr const char* kSpeedRange = "a speed limit is 0 (none), or 0.001 to 100 m/s";
+    limit("speed_limit_mps", s.speed_limit_mps, kSlowest, kFastest, kSpeedRange);
+    limit("back_speed_limit_mps", s.back_speed_limit_mps, kSlowest, kFastest, kSpeedRange);
     limit("width_m", s.width_m, 0.0, kWidestFloor_m, "a width is 0 (not known) to 100 m");
     if (s.back_speed_limit_mps > 0.0 && !s.bidirectional)
       add(ProblemKind::BadGeometry, pointer + "/back_speed_limit_mps", "this segment is driven one way alone");

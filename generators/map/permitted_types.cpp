@@ -17,10 +17,10 @@ bool any(const Segment& segment, LoadState load) {
 
 bool names_a_type(const Permission& permission) { return !permission.vehicle_type.empty(); }
 
-constexpr std::size_t kListed = 10;
+constexpr std::size_t kTypesListed = 10;
 
 std::string listed(std::span<const std::string> fleet) {
-  return name_list(std::vector<std::string>(fleet.begin(), fleet.end()), kListed);
+  return name_list(std::vector<std::string>(fleet.begin(), fleet.end()), kTypesListed);
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ std::string foreign_types_hint(const Layout& layout, std::span<const std::string
   std::vector<std::string> names;
   for (const auto& type : foreign_types(layout, fleet)) names.push_back(type.name);
   if (names.empty()) return "";
-  return fmt::format("; permissions name {}, which this fleet does not have ({})", name_list(names, kListed),
+  return fmt::format("; permissions name {}, which this fleet does not have ({})", name_list(names, kTypesListed),
                      listed(fleet));
 }
 

@@ -9,7 +9,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kMostRows = 20;
+constexpr std::size_t kMostAttempts = 20;
 
 // Of one attempt, by its weakest gate.
 double risk_of(const Evidence& evidence) {
@@ -91,7 +91,7 @@ Section attempt_section(const AttemptHistory& history, const CampaignRecord& cam
       section.table.columns.push_back({head, false});
   }
   if (!others.empty()) section.table.rows.push_back(row(*history.own, "this page"));
-  for (std::size_t i = others.size(); i-- > 0 && section.table.rows.size() < kMostRows;) {
+  for (std::size_t i = others.size(); i-- > 0 && section.table.rows.size() < kMostAttempts;) {
     const Attempt& other = others[i];
     const std::string state = other.ended_utc.empty() ? "aborted or still under way" : printable(other.verdict, 40);
     section.table.rows.push_back(row(other, state + (other.replaced ? ", overwritten" : "")));

@@ -13,7 +13,8 @@
 namespace fleetproof::html {
 namespace {
 
-constexpr double kFieldHeight_px = 44.0, kMapLeft_px = 66.0, kMapTop_px = 26.0, kMapBottom_px = 46.0, kRight_px = 10.0;
+constexpr double kFieldHeight_px = 44.0, kMapLeft_px = 66.0, kMapTop_px = 26.0, kMapBottom_px = 46.0,
+                 kMapRight_px = 10.0;
 constexpr double kMapLetter_px = 7.9, kLeastField_px = 64.0;
 
 struct Colour {
@@ -122,7 +123,7 @@ Element draw(const FactorMap& map) {
   ensure(map.fields.size() == map.columns.size() * map.rows.size(), "a map has a field for each pair");
   const double width = field_width(map), columns = static_cast<double>(map.columns.size());
   const double bottom = kMapTop_px + kFieldHeight_px * static_cast<double>(map.rows.size());
-  const double full_width = kMapLeft_px + columns * width + kRight_px;
+  const double full_width = kMapLeft_px + columns * width + kMapRight_px;
   Element svg("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                       {"role", "img"},
                       {"aria-label", map.label},
@@ -142,7 +143,7 @@ Element draw(const FactorMap& map) {
   const double x = kMapLeft_px + static_cast<double>(map.columns_in_contract) * width - 1.0;
   const double y = bottom - static_cast<double>(map.rows_in_contract) * kFieldHeight_px - 1.0;
   add_thick_line(svg, x, kMapTop_px - 4.0, x, bottom);
-  add_thick_line(svg, kMapLeft_px, y, full_width - kRight_px + 4.0, y);
+  add_thick_line(svg, kMapLeft_px, y, full_width - kMapRight_px + 4.0, y);
   return svg;
 }
 

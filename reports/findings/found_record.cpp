@@ -15,8 +15,8 @@
 namespace fleetproof {
 namespace {
 
-constexpr int kSchemaVersion = 2;
-constexpr const char* kEnding = ".findings.json";
+constexpr int kFoundVersion = 2;
+constexpr const char* kFoundEnding = ".findings.json";
 
 Json json_of(const FoundFinding& finding) {
   return {{"id", finding.id},
@@ -61,7 +61,7 @@ std::string findings_sentence(const FoundRecord& record) {
 }  // namespace
 
 std::string findings_text(const FoundRecord& record) {
-  Json json = {{"schema_version", kSchemaVersion},  {"plan_hash", hex_text(record.plan_hash)},
+  Json json = {{"schema_version", kFoundVersion},   {"plan_hash", hex_text(record.plan_hash)},
                {"stored_runs", record.stored_runs}, {"failing_runs", record.failing_runs},
                {"looked_at", record.looked_at},     {"not_again", record.not_again},
                {"findings", Json::array()}};
@@ -71,7 +71,7 @@ std::string findings_text(const FoundRecord& record) {
 
 std::optional<FoundRecord> parse_findings(const std::string& text) {
   const Json json = read_json(text);
-  if (!json.is_object() || json.value("schema_version", Json()) != kSchemaVersion) return std::nullopt;
+  if (!json.is_object() || json.value("schema_version", Json()) != kFoundVersion) return std::nullopt;
   try {
     return record_from(json);
   } catch (const Json::exception&) {
@@ -81,7 +81,7 @@ std::optional<FoundRecord> parse_findings(const std::string& text) {
   }
 }
 
-std::string findings_path(const std::string& archive_path) { return beside(archive_path, kEnding); }
+std::string findings_path(const std::string& archive_path) { return beside(archive_path, kFoundEnding); }
 
 FoundFile findings_beside(const std::string& archive_path, std::uint64_t plan_hash, std::uint64_t stored_runs) {
   const std::string path = findings_path(archive_path);

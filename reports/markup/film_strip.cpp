@@ -12,12 +12,12 @@ namespace fleetproof::html {
 namespace {
 
 constexpr double kSide_px = 156.0, kFrameLeft_px = 30.0, kFrameTop_px = 24.0, kFrameBottom_px = 42.0;
-constexpr double kWidth_px = kFrameLeft_px + kSide_px + 2.0;
+constexpr double kStripWidth_px = kFrameLeft_px + kSide_px + 2.0;
 constexpr double kBottomOfFloor_px = kFrameTop_px + kSide_px;
 constexpr double kRoom_m = 1.5, kMostSide_m = 120.0;
 constexpr double kNamesUpTo_m = 24.0;
 constexpr double kNameHeight_px = 9.0, kNameLetter_px = 5.4;  // of a name, bold
-constexpr double kTouch_m = 1e-5;                             // as near as the judge measures
+constexpr double kTouchOnPage_m = 1e-5;                       // as near as the judge measures
 constexpr std::size_t kMostLanes = 300, kMostStations = 200;
 
 // The square part of the floor that the frames show.
@@ -236,7 +236,7 @@ void add_bodies(Element& svg, const FilmStrip& strip, const FilmFrame& frame, co
 
 std::string clearance_line(const FilmFrame& frame) {
   if (!frame.clearance_m) return frame.without_clearance;
-  if (*frame.clearance_m <= kTouch_m) return "they touch";
+  if (*frame.clearance_m <= kTouchOnPage_m) return "they touch";
   // As the archive files it, in whole micrometres rounded down, and then as every page does. A sum of doubles may miss
   // the micrometre by its last digits.
   constexpr double kLastDigits_um = 1e-5;
@@ -261,9 +261,9 @@ Element frame_of(const FilmStrip& strip, const FilmFrame& frame, const Window& w
                       {"role", "img"},
                       {"aria-label", "at " + time + (apart.empty() ? "" : ", " + apart)},
                       {"class", "frame"},
-                      {"width", kWidth_px},
+                      {"width", kStripWidth_px},
                       {"height", kBottomOfFloor_px + kFrameBottom_px},
-                      {"viewBox", fmt::format("0 0 {} {}", kWidth_px, kBottomOfFloor_px + kFrameBottom_px)},
+                      {"viewBox", fmt::format("0 0 {} {}", kStripWidth_px, kBottomOfFloor_px + kFrameBottom_px)},
                       {"font-family", "system-ui, sans-serif"}});
   add_axes(svg, window);
   add_scale(svg, window);

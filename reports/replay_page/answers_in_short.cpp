@@ -10,7 +10,7 @@
 namespace fleetproof::web {
 namespace {
 
-constexpr std::size_t kMostNamed = 4;
+constexpr std::size_t kMostNamedInShort = 4;
 
 std::string asked_text(const Film& film, const Setting& setting, const std::vector<std::size_t>& asked,
                        std::size_t others) {
@@ -24,9 +24,10 @@ std::string asked_text(const Film& film, const Setting& setting, const std::vect
 
 std::string names_text(const Film& film, const std::vector<std::size_t>& bodies) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(bodies.size(), kMostNamed); ++i)
+  for (std::size_t i = 0; i < std::min(bodies.size(), kMostNamedInShort); ++i)
     text += (i == 0 ? "" : ", ") + film.bodies[bodies[i]].name;
-  return bodies.size() > kMostNamed ? fmt::format("{} and {} more", text, bodies.size() - kMostNamed) : text;
+  return bodies.size() > kMostNamedInShort ? fmt::format("{} and {} more", text, bodies.size() - kMostNamedInShort)
+                                           : text;
 }
 
 // Of messages to all nobody knows whom they ask: an AGV that is silent then may have nothing to say.

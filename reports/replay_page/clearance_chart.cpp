@@ -11,7 +11,8 @@ namespace {
 using html::Element;
 using html::text_element;
 
-constexpr double kWidth_px = 760, kHeight_px = 210, kLeft_px = 52, kRight_px = 16, kTop_px = 14, kBottom_px = 34;
+constexpr double kChartWidth_px = 760, kChartHeight_px = 210, kChartLeft_px = 52, kChartRight_px = 16,
+                 kChartTop_px = 14, kChartBottom_px = 34;
 constexpr std::int64_t kMostShown_um = 2'000'000, kLead_us = 1'000'000;
 
 double in_seconds(std::int64_t us) { return static_cast<double>(us) / 1e6; }
@@ -20,12 +21,12 @@ struct Scale {
   std::int64_t from_us = 0, to_us = 1, top_um = 1;
 
   double x(std::int64_t at_us) const {
-    return kLeft_px + (kWidth_px - kLeft_px - kRight_px) * static_cast<double>(at_us - from_us) /
-                          static_cast<double>(to_us - from_us);
+    return kChartLeft_px + (kChartWidth_px - kChartLeft_px - kChartRight_px) * static_cast<double>(at_us - from_us) /
+                               static_cast<double>(to_us - from_us);
   }
   double y(std::int64_t clearance_um) const {
     const double share = static_cast<double>(std::min(clearance_um, top_um)) / static_cast<double>(top_um);
-    return kHeight_px - kBottom_px - (kHeight_px - kBottom_px - kTop_px) * share;
+    return kChartHeight_px - kChartBottom_px - (kChartHeight_px - kChartBottom_px - kChartTop_px) * share;
   }
 };
 
@@ -72,14 +73,16 @@ void add_axes(Element& svg, const Scale& scale) {
     const double at_s = (static_cast<int>(from_s / step_s) + i) * step_s;
     if (at_s < from_s - 1e-9 || at_s > to_s + 1e-9) continue;
     const double x = scale.x(static_cast<std::int64_t>(at_s * 1e6));
-    svg.add(line(fmt::format("M{:.1f} {}V{}", x, kTop_px, kHeight_px - kBottom_px), "currentColor", 1, "none", "0.1"));
-    svg.add(note(fmt::format("{:g} s", at_s), x, kHeight_px - kBottom_px + 15.0, "middle"));
+    svg.add(line(fmt::format("M{:.1f} {}V{}", x, kChartTop_px, kChartHeight_px - kChartBottom_px), "currentColor", 1,
+                 "none", "0.1"));
+    svg.add(note(fmt::format("{:g} s", at_s), x, kChartHeight_px - kChartBottom_px + 15.0, "middle"));
   }
   const double top_m = in_seconds(scale.top_um), step_m = step_of(top_m, 5);
   for (int i = 0; i * step_m <= top_m + 1e-9; ++i) {
     const double y = scale.y(static_cast<std::int64_t>(i * step_m * 1e6));
-    svg.add(line(fmt::format("M{} {:.1f}H{}", kLeft_px, y, kWidth_px - kRight_px), "currentColor", 1, "none", "0.1"));
-    svg.add(note(fmt::format("{:g} m", i * step_m), kLeft_px - 6.0, y + 4.0, "end"));
+    svg.add(line(fmt::format("M{} {:.1f}H{}", kChartLeft_px, y, kChartWidth_px - kChartRight_px), "currentColor", 1,
+                 "none", "0.1"));
+    svg.add(note(fmt::format("{:g} m", i * step_m), kChartLeft_px - 6.0, y + 4.0, "end"));
   }
 }
 
@@ -106,9 +109,9 @@ void add_broken(Element& svg, const Film& film, const ClearanceCurve& curve, con
     if (v.a != curve.a || v.b != curve.b || v.first_us >= scale.to_us) continue;
     const double left = scale.x(std::max(v.first_us, scale.from_us)), right = scale.x(std::min(v.last_us, scale.to_us));
     svg.add(Element("rect", {{"x", left},
-                             {"y", kTop_px},
+                             {"y", kChartTop_px},
                              {"width", std::max(1.5, right - left)},
-                             {"height", kHeight_px - kBottom_px - kTop_px},
+                             {"height", kChartHeight_px - kChartBottom_px - kChartTop_px},
                              {"fill", "#c4562f"},
                              {"fill-opacity", "0.16"}}));
   }
@@ -128,14 +131,15 @@ Element draw_clearance(const Film& film, std::size_t index) {
   Element svg("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                       {"role", "img"},
                       {"aria-label", words},
-                      {"viewBox", fmt::format("0 0 {} {}", kWidth_px, kHeight_px)},
-                      {"width", kWidth_px},
-                      {"height", kHeight_px},
+                      {"viewBox", fmt::format("0 0 {} {}", kChartWidth_px, kChartHeight_px)},
+                      {"width", kChartWidth_px},
+                      {"height", kChartHeight_px},
                       {"font-family", "system-ui, sans-serif"}});
   add_axes(svg, scale);
   add_broken(svg, film, curve, scale);
   const double limit = scale.y(film.safety_distance_um);
-  svg.add(line(fmt::format("M{} {:.1f}H{}", kLeft_px, limit, kWidth_px - kRight_px), "#c4562f", 1.5, "6 4", "1"));
+  svg.add(line(fmt::format("M{} {:.1f}H{}", kChartLeft_px, limit, kChartWidth_px - kChartRight_px), "#c4562f", 1.5,
+               "6 4", "1"));
   svg.add(line(path_of(curve, scale), "#3f7fbf", 2, "none", "1"));
   svg.add(Element("circle", {{"cx", scale.x(least->at_us)},
                              {"cy", scale.y(std::max<std::int64_t>(0, least->clearance_um))},
@@ -144,16 +148,16 @@ Element draw_clearance(const Film& film, std::size_t index) {
   svg.add(Element("line", {{"class", "now"},
                            {"x1", -9},
                            {"x2", -9},
-                           {"y1", kTop_px},
-                           {"y2", kHeight_px - kBottom_px},
+                           {"y1", kChartTop_px},
+                           {"y2", kChartHeight_px - kChartBottom_px},
                            {"stroke", "currentColor"},
                            {"stroke-width", 1.5}}));
   Element figure("figure", {{"class", "clearance"},
                             {"data-curve", fmt::format("{}", index)},
                             {"data-from-us", fmt::format("{}", scale.from_us)},
                             {"data-to-us", fmt::format("{}", scale.to_us)},
-                            {"data-left-px", kLeft_px},
-                            {"data-right-px", kWidth_px - kRight_px}});
+                            {"data-left-px", kChartLeft_px},
+                            {"data-right-px", kChartWidth_px - kChartRight_px}});
   return figure.add(text_element("figcaption", words)).add(svg);
 }
 

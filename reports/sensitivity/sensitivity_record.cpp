@@ -14,8 +14,8 @@
 namespace fleetproof {
 namespace {
 
-constexpr int kSchemaVersion = 3;
-constexpr const char* kEnding = ".sensitivity.json";
+constexpr int kSensitivityVersion = 3;
+constexpr const char* kSensitivityEnding = ".sensitivity.json";
 
 template <class T>
 Json maybe(const std::optional<T>& value) {
@@ -89,7 +89,7 @@ std::string worlds_of(const std::string& plan_json) {
 
 std::string sensitivity_text(const SensitivityRecord& record) {
   Json json = {
-      {"schema_version", kSchemaVersion},
+      {"schema_version", kSensitivityVersion},
       {"worlds", record.worlds},
       {"engine", {{"version", record.engine_version}, {"program_sha256", record.program_sha256}}},
       {"seeds", record.seeds},
@@ -105,7 +105,7 @@ std::string sensitivity_text(const SensitivityRecord& record) {
 
 std::optional<SensitivityRecord> parse_sensitivity(const std::string& text) {
   const Json json = read_json(text);
-  if (!json.is_object() || json.value("schema_version", Json()) != kSchemaVersion) return std::nullopt;
+  if (!json.is_object() || json.value("schema_version", Json()) != kSensitivityVersion) return std::nullopt;
   try {
     return record_from(json);
   } catch (const Json::exception&) {
@@ -113,7 +113,7 @@ std::optional<SensitivityRecord> parse_sensitivity(const std::string& text) {
   }
 }
 
-std::string sensitivity_path(const std::string& archive_path) { return beside(archive_path, kEnding); }
+std::string sensitivity_path(const std::string& archive_path) { return beside(archive_path, kSensitivityEnding); }
 
 SensitivityFile sensitivity_beside(const std::string& archive_path, const CampaignRecord& campaign) {
   const std::string path = sensitivity_path(archive_path);

@@ -1,5 +1,5 @@
-// The sources of a folder are compiled together, in batches: what is local to a source has a name of its own in its
-// folder. So a batch compiles whichever sources it has, and a new source breaks no other one.
+// The sources of a room are compiled together, in batches: what is local to a source has a name of its own in its room.
+// So a batch compiles whichever sources it has, and a new source breaks no other one.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -32,14 +32,15 @@ std::vector<std::string> local_names(const Source& source) {
   return found;
 }
 
+std::string room_of(const std::string& path) { return path.substr(0, path.find('/')); }
+
 std::vector<std::string> used_twice(const std::vector<Source>& files) {
-  std::map<std::string, std::string> first;  // folder and name
+  std::map<std::string, std::string> first;  // room and name
   std::vector<std::string> found;
   for (const Source& source : files) {
     if (source.path.starts_with("tests/") || !source.path.ends_with(".cpp")) continue;
-    const std::string folder = std::filesystem::path(source.path).parent_path().generic_string();
     for (const std::string& name : local_names(source)) {
-      const auto [at, fresh] = first.emplace(folder + " " + name, source.path);
+      const auto [at, fresh] = first.emplace(room_of(source.path) + " " + name, source.path);
       if (!fresh && at->second != source.path) found.push_back(name + " in " + at->second + " and in " + source.path);
     }
   }
@@ -89,14 +90,14 @@ std::string without_anonymous(const std::string& name) {
 // means two things.
 std::vector<std::string> hides_a_shared_name(const std::vector<Source>& files) {
   std::map<std::string, const Source*> by_path;
-  std::map<std::string, std::vector<const Source*>> folders;
+  std::map<std::string, std::vector<const Source*>> rooms;
   for (const Source& source : files) {
     if (source.path.starts_with("tests/")) continue;
     by_path[source.path] = &source;
-    folders[std::filesystem::path(source.path).parent_path().generic_string()].push_back(&source);
+    rooms[room_of(source.path)].push_back(&source);
   }
   std::vector<std::string> found;
-  for (const auto& [folder, members] : folders) {
+  for (const auto& [room, members] : rooms) {
     std::map<std::string, std::string> shared;
     for (const Source* header : headers_of(members, by_path)) {
       for (const std::string& name : shared_names(*header)) shared.emplace(name, header->path);
@@ -112,7 +113,7 @@ std::vector<std::string> hides_a_shared_name(const std::vector<Source>& files) {
   return found;
 }
 
-TEST(Batches, LocalNamesAreUniqueInTheirFolder) { EXPECT_EQ(used_twice(sources()), std::vector<std::string>{}); }
+TEST(Batches, LocalNamesAreUniqueInTheirRoom) { EXPECT_EQ(used_twice(sources()), std::vector<std::string>{}); }
 
 TEST(Batches, ALocalNameIsNoNameOfAHeaderInReach) {
   EXPECT_EQ(hides_a_shared_name(sources()), std::vector<std::string>{});
