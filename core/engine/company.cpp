@@ -6,7 +6,7 @@ namespace fleetproof {
 namespace {
 
 constexpr double kBoxRounding_m = 1e-6;  // whichever of two boxes is grown
-constexpr std::size_t kFirst = 8;     // seldom more
+constexpr std::size_t kFirst = 8;        // seldom more
 
 }  // namespace
 

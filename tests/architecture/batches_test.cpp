@@ -135,7 +135,7 @@ TEST(BatchesFind, ANameOfTwoSources) {
   const auto find = [](const std::vector<std::string>& lines) {
     const Source one{"core/base/a.cpp",
                      {"namespace {", "constexpr int kA = 1, kB[2] = {1, 2};", "struct C {", "};", "}"}};
-    return used_twice({one, {"core/base/b.cpp", lines}, {"core/motion/b.cpp", lines}}).size();
+    return used_twice({one, {"core/base/b.cpp", lines}, {"laws/b.cpp", lines}}).size();
   };
   EXPECT_EQ(find({"namespace {", "constexpr double kA = 1;", "}"}), 1U);
   EXPECT_EQ(find({"namespace {", "constexpr double kD = 1, kB = 2;", "}"}), 1U);
@@ -148,8 +148,7 @@ TEST(BatchesFind, ALocalNameOfAHeaderInReach) {
   const Source header{"core/base/a.hpp",
                       {"namespace fleetproof {", "inline constexpr int kA = 1;", "struct C {", "};", "}"}};
   const auto find = [&](const std::vector<std::string>& lines, const std::string& include) {
-    return hides_a_shared_name(
-               {header, {"core/motion/a.cpp", lines}, {"core/motion/b.cpp", {"#include \"" + include + "\""}}})
+    return hides_a_shared_name({header, {"laws/a.cpp", lines}, {"laws/b.cpp", {"#include \"" + include + "\""}}})
         .size();
   };
   const std::vector<std::string> type{
