@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "core/base/error.hpp"
-#include "laws/stretch.hpp"
+#include "laws/episode.hpp"
 
 namespace fleetproof {
 namespace {

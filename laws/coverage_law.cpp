@@ -8,7 +8,7 @@
 #include "core/clearance/swept_region.hpp"
 #include "core/outcome/trace_records.hpp"
 #include "laws/driven_ways.hpp"
-#include "laws/stretch.hpp"
+#include "laws/episode.hpp"
 
 namespace fleetproof {
 namespace {

@@ -6,8 +6,8 @@
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/clearance/clearance_over_time.hpp"
+#include "laws/episode.hpp"
 #include "laws/second_opinion.hpp"
-#include "laws/stretch.hpp"
 
 namespace fleetproof {
 namespace {
@@ -17,7 +17,7 @@ class Judge {
   Judge(const Piece& a, const Piece& b, Interval within, EvaluationCount& count)
       : a_(a), b_(b), within_(within), count_(count) {}
 
-  Stretch file(const ClosestApproach& found) {
+  Episode file(const ClosestApproach& found) {
     if (found.clearance_m < kTouch_m + kSmallestClearance_m) {
       if (const auto touch = first_touch()) return contact(*touch);
     }
@@ -39,12 +39,12 @@ class Judge {
     return first_below(a_, b_, {within_.begin, *below}, kTouch_m, count_).value_or(*below);
   }
 
-  Stretch contact(SimTime touch) {
+  Episode contact(SimTime touch) {
     const SimTime end = last_below(a_, b_, {touch, within_.end}, kTouch_m, count_).value_or(touch);
     return filed({clearance_at(touch), touch}, true, fastest_below(a_, b_, {touch, end}, kTouch_m, count_));
   }
 
-  Stretch near(const ClosestApproach& found) {
+  Episode near(const ClosestApproach& found) {
     const double level_m = found.clearance_m + kSameClearance_m;
     const SimTime before = first_below(a_, b_, {within_.begin, found.at}, level_m, count_).value_or(found.at),
                   after = last_below(a_, b_, {found.at, within_.end}, level_m, count_).value_or(found.at);
@@ -76,11 +76,11 @@ class Judge {
     return at(next);
   }
 
-  Stretch filed(const ClosestApproach& closest, bool touches, const RelativeSpeed& speed) const {
-    Stretch stretch = stretch_of(a_, b_, within_.begin, within_.end, closest);
-    stretch.contact = touches;
-    stretch.speed = speed;
-    return stretch;
+  Episode filed(const ClosestApproach& closest, bool touches, const RelativeSpeed& speed) const {
+    Episode episode = episode_of(a_, b_, within_.begin, within_.end, closest);
+    episode.contact = touches;
+    episode.speed = speed;
+    return episode;
   }
 
   const Piece& a_;
@@ -89,13 +89,13 @@ class Judge {
   EvaluationCount& count_;
 };
 
-// A stretch of two pieces as the exact law files it. `closest` is the closest approach that the search has found.
+// An episode of two pieces as the exact law files it. `closest` is the closest approach that the search has found.
 //
 // If the bodies touch, the closest instant is the first touch, as the world dates it; the speed is the highest during
 // the contact. Else the closest instant is the bottom of the first minimum of the least clearance, and the speed is the
 // highest while the clearance stays the same.
 // Requires: both pieces cover [first, last]; the clearance is below the threshold at both ends.
-Stretch judged_stretch(const Piece& one, const Piece& other, SimTime first, SimTime last,
+Episode judged_episode(const Piece& one, const Piece& other, SimTime first, SimTime last,
                        const ClosestApproach& closest, EvaluationCount& count) {
   return Judge(one, other, {first, last}, count).file(closest);
 }
@@ -123,7 +123,7 @@ class ExactLaw final : public Law {
   void settle(const Piece& a, const Piece& b, Interval within);
   void settle_standing(const Piece& a, const Piece& b, Interval within);
   void settle_moving(const Piece& a, const Piece& b, Interval within);
-  void collect_stretches(const Piece& a, const Piece& b, const ApproachBelow& approach, SimTime last);
+  void collect_episodes(const Piece& a, const Piece& b, const ApproachBelow& approach, SimTime last);
   void collect(const Piece& a, const Piece& b, SimTime first, SimTime last);
   double threshold_m(const Piece& a, const Piece& b) const { return threshold_m_ - allowance_on_curves_m(a, b); }
   double clearance_at(const Piece& a, const Piece& b, SimTime t);
@@ -143,7 +143,7 @@ class ExactLaw final : public Law {
   std::vector<OnFloor> bodies_;
   EvaluationCount evaluations_;
   EvaluationCount describing_;  // spent on violations that are found already: no cost of detection, not reported
-  std::vector<Stretch> stretches_;
+  std::vector<Episode> episodes_;
 };
 
 void ExactLaw::had_company(const Piece& piece, std::span<const Piece* const> others) {
@@ -185,7 +185,7 @@ void ExactLaw::settle_standing(const Piece& a, const Piece& b, Interval within) 
   const double clearance = clearance_at(a, b, within.begin);
   smallest_m_ = std::min(smallest_m_, clearance);
   if (clearance < threshold_m(a, b))
-    stretches_.push_back(stretch_of(a, b, within.begin, within.end, {clearance, within.begin}));
+    episodes_.push_back(episode_of(a, b, within.begin, within.end, {clearance, within.begin}));
 }
 
 void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
@@ -199,7 +199,7 @@ void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
     smallest_m_ = std::min(smallest_m_, approach->closest.clearance_m);
     const auto last = last_below(a, b, {approach->first, within.end}, level_m, evaluations_);
     // The search finds a dip of a nanometre from one side in time, but not from the other side.
-    collect_stretches(a, b, *approach, std::max(last.value_or(approach->first), approach->closest.at));
+    collect_episodes(a, b, *approach, std::max(last.value_or(approach->first), approach->closest.at));
   } else if (lower) {
     const auto closest = closest_approach(a, b, within, smallest_m_, evaluations_);
     if (closest) smallest_m_ = std::min(smallest_m_, closest->clearance_m);
@@ -208,7 +208,7 @@ void ExactLaw::settle_moving(const Piece& a, const Piece& b, Interval within) {
 
 // Every rise of kRiseNoticed or longer contains a probe. Exit and return are then found exactly, before and after the
 // probe.
-void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const ApproachBelow& approach, SimTime last) {
+void ExactLaw::collect_episodes(const Piece& a, const Piece& b, const ApproachBelow& approach, SimTime last) {
   const double level_m = threshold_m(a, b);
   SimTime first = approach.first;
   for (SimTime probe = first + kRiseNoticed; probe < last; probe += kRiseNoticed) {
@@ -218,14 +218,14 @@ void ExactLaw::collect_stretches(const Piece& a, const Piece& b, const ApproachB
     probe = first;
   }
   if (first > approach.first) return collect(a, b, first, last);
-  stretches_.push_back(judged_stretch(a, b, first, last, approach.closest, describing_));
+  episodes_.push_back(judged_episode(a, b, first, last, approach.closest, describing_));
 }
 
 void ExactLaw::collect(const Piece& a, const Piece& b, SimTime first, SimTime last) {
   auto closest = closest_approach(a, b, {first, last}, threshold_m(a, b), evaluations_);
   if (!closest)
     closest = ClosestApproach{clearance_at(a, b, first), first};  // a graze shallower than the search resolves
-  stretches_.push_back(judged_stretch(a, b, first, last, *closest, describing_));
+  episodes_.push_back(judged_episode(a, b, first, last, *closest, describing_));
 }
 
 double ExactLaw::clearance_at(const Piece& a, const Piece& b, SimTime t) {
@@ -234,14 +234,14 @@ double ExactLaw::clearance_at(const Piece& a, const Piece& b, SimTime t) {
 }
 
 void ExactLaw::finish(SimTime) {
-  stretches_ = joined(std::move(stretches_), kSeam);
-  for (const Stretch& stretch : stretches_)
-    confirm_clearance(stretch.body_a, stretch.body_b, stretch.closest.clearance_m);
+  episodes_ = joined(std::move(episodes_), kSeam);
+  for (const Episode& episode : episodes_)
+    confirm_clearance(episode.body_a, episode.body_b, episode.closest.clearance_m);
 }
 
 LawResults ExactLaw::findings() const {
   LawResults findings;
-  findings.violations = filed(stretches_);
+  findings.violations = filed(episodes_);
   if (smallest_m_ < kMeasuredBelow_m) findings.min_clearance_m = std::max(0.0, smallest_m_);
   findings.distance_evaluations = evaluations_.distance;
   findings.perimeter_checks = evaluations_.distance;

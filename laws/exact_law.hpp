@@ -18,10 +18,10 @@ namespace fleetproof {
 // The closest instant of a contact is the touch, filed with the highest speed during the contact and a clearance of 0.
 // The law does not measure how deep bodies drive into each other if nothing stops them.
 //
-// Each uninterrupted stretch of a pair is one violation, also across seams between pieces. A rise above the threshold
-// ends a stretch if it lasts 0.1 s or longer. A shorter rise within one pair of pieces may not be noticed. FCL confirms
-// each violation at its closest instant; otherwise `finish` throws InvariantViolation. A perimeter check is one
-// distance evaluation; those that describe a violation which is found already do not count.
+// Each uninterrupted episode of a pair is one violation, also across seams between pieces. A rise above the threshold
+// ends an episode if it lasts 0.1 s or longer. A shorter rise within one pair of pieces may not be noticed. FCL
+// confirms each violation at its closest instant; otherwise `finish` throws InvariantViolation. A perimeter check is
+// one distance evaluation; those that describe a violation which is found already do not count.
 std::unique_ptr<Law> make_exact_law(const Scenario& scenario);
 
 }  // namespace fleetproof

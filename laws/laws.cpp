@@ -33,8 +33,8 @@ struct LawLine {
 constexpr LawLine kLines[] = {
     {LawUse::Judge,
      {"safety-distance",
-      "Finds every stretch of time in which an AGV is closer than the safety distance to another body, exact to the "
-      "microsecond and the micrometre. It does not see dips of less than 1 micrometre, and may join stretches less "
+      "Finds every episode of time in which an AGV is closer than the safety distance to another body, exact to the "
+      "microsecond and the micrometre. It does not see dips of less than 1 micrometre, and may join episodes less "
       "than "
       "0.1 s apart.",
       make_safety_distance_law}},

@@ -41,12 +41,12 @@ void PublishedLaw::finish(SimTime) {
       drives_.push_back({piece.entity, piece.begin, piece.end, perimeter_checks_ - before});
     }
   }
-  stretches_ = joined(std::move(stretches_), step_);
+  episodes_ = joined(std::move(episodes_), step_);
 }
 
 LawResults PublishedLaw::findings() const {
   LawResults findings;
-  findings.violations = filed(stretches_);
+  findings.violations = filed(episodes_);
   findings.perimeter_checks = perimeter_checks_;
   findings.distance_evaluations = distance_evaluations_;
   findings.drives = drives_;
@@ -76,7 +76,7 @@ void PublishedLaw::check_snapshot(const Piece& drive, const Piece& other, SimTim
   const OrientedRectangle mine = drive.body_at(t), theirs = other.body_at(t);
   if (!checked(overlap(widened(mine, threshold_m_), theirs))) return;
   ++distance_evaluations_;
-  accuse(stretch_of(drive, other, t, t, {clearance_m(mine, theirs), t}));
+  accuse(episode_of(drive, other, t, t, {clearance_m(mine, theirs), t}));
 }
 
 void PublishedLaw::accuse_throughout(const Piece& drive, EntityId entity) {
@@ -84,20 +84,20 @@ void PublishedLaw::accuse_throughout(const Piece& drive, EntityId entity) {
     ++distance_evaluations_;
     const Piece* other = piece_at(entity, t);
     ensure(other != nullptr, "a body that stood there when the drive began stands there throughout");
-    return stretch_of(drive, *other, t, t, {clearance_m(drive.body_at(t), other->body_at(t)), t});
+    return episode_of(drive, *other, t, t, {clearance_m(drive.body_at(t), other->body_at(t)), t});
   };
-  Stretch whole = seen_at(drive.end);
+  Episode whole = seen_at(drive.end);
   for (SimTime t = drive.begin; t < drive.end; t += step_) whole.absorb(seen_at(t));
   accuse(whole);
 }
 
-void PublishedLaw::accuse(const Stretch& stretch) {
-  const bool goes_on = !stretches_.empty() && stretches_.back().a == stretch.a && stretches_.back().b == stretch.b &&
-                       stretch.first >= stretches_.back().first && stretch.first - stretches_.back().last <= step_;
+void PublishedLaw::accuse(const Episode& episode) {
+  const bool goes_on = !episodes_.empty() && episodes_.back().a == episode.a && episodes_.back().b == episode.b &&
+                       episode.first >= episodes_.back().first && episode.first - episodes_.back().last <= step_;
   if (goes_on) {
-    stretches_.back().absorb(stretch);
+    episodes_.back().absorb(episode);
   } else {
-    stretches_.push_back(stretch);
+    episodes_.push_back(episode);
   }
 }
 

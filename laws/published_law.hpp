@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/outcome/law.hpp"
-#include "laws/stretch.hpp"
+#include "laws/episode.hpp"
 
 namespace fleetproof {
 
@@ -46,12 +46,12 @@ class PublishedLaw : public Law {
   void accuse_throughout(const Piece& drive, EntityId other);
 
  private:
-  void accuse(const Stretch& stretch);
+  void accuse(const Episode& episode);
 
   double threshold_m_;
   Duration step_;
   std::vector<std::vector<Piece>> timelines_;  // by entity: its pieces, as they happened, not as planned
-  std::vector<Stretch> stretches_;
+  std::vector<Episode> episodes_;
   std::vector<DriveChecks> drives_;
   std::uint64_t perimeter_checks_ = 0;
   std::uint64_t distance_evaluations_ = 0;

@@ -11,8 +11,8 @@ if(FLEETPROOF_SANITIZE MATCHES thread)
 else()
   set(sanitized_sources ${engine_tests} fuzz/readers_test.cpp fuzz/readers.cpp fuzz/seeds.cpp fuzz/verdict.cpp
     campaign/task_pool_test.cpp campaign/trials_test.cpp campaign/workers_test.cpp campaign/channel_test.cpp
-    campaign/forker_test.cpp campaign/findings_test.cpp campaign/failure_needs_test.cpp campaign/fate_passes_test.cpp
-    storage/archive_test.cpp)
+    campaign/forker_test.cpp campaign/findings_test.cpp campaign/failure_needs_test.cpp
+    campaign/delivery_passes_test.cpp storage/archive_test.cpp)
   set(planted planted_use_after_free)
   set(report "AddressSanitizer: heap-use-after-free")
 endif()

@@ -27,7 +27,7 @@ Session::Session(const CampaignPlan& plan, const AgentPrograms& programs, const 
                  const CampaignListener& listener)
     : options_(options),
       listener_(listener),
-      stretch_(plan.cells_per_world()),
+      group_(plan.cells_per_world()),
       runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
       audits_(plan, programs, options.audit_program, options.workers) {}
 
@@ -50,7 +50,7 @@ CampaignResult Session::run(SessionPolicy& policy, TaskRange places) {
 void Session::simulate(SessionPolicy& policy, TaskRange places) {
   // Worker threads simulate; this thread alone counts, stores and prints.
   places.workers = options_.workers;
-  places.stretch = stretch_;
+  places.group = group_;
   TaskPool<RunRecord> pool(std::move(places), [&](std::uint64_t place) { return runs_(policy.run_at(place)); });
   // Progress names the runs under way by their run index; the pool knows only their places in the task list.
   const UnderWay under_way = [&] {
@@ -100,7 +100,7 @@ void Session::take(SessionPolicy& policy, const RunRecord& run) {
 void Session::stop_if_due(const SessionPolicy& policy, AnyTaskPool& pool) {
   const bool asked = must_stop(options_);
   if (policy.piece() > 0) {
-    if (asked) pool.stop_after_stretch(policy.piece());
+    if (asked) pool.stop_after_group(policy.piece());
     return;
   }
   const auto now = Clock::now();

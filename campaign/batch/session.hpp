@@ -104,7 +104,7 @@ class Session {
   // A run of the campaign is done, in this session or in an earlier one.
   void count(const RunRecord& run);
 
-  // `places`: the runs to do, as `run_at` names them; workers and stretch are those of the session. The policy says how
+  // `places`: the runs to do, as `run_at` names them; workers and group are those of the session. The policy says how
   // many runs are stored.
   CampaignResult run(SessionPolicy& policy, TaskRange places);
 
@@ -122,7 +122,7 @@ class Session {
 
   const RunOptions& options_;
   const CampaignListener& listener_;
-  const std::uint64_t stretch_;  // of runs in one world
+  const std::uint64_t group_;  // of runs in one world
   RunHost runs_;
   AuditQueue audits_;
   CampaignResult result_;

@@ -38,9 +38,9 @@ struct AnyTaskPool::Impl {
   mutable std::mutex mutex;
   std::condition_variable room, results;
   std::uint64_t end;                             // of the tasks to do: a stop brings it nearer
-  std::uint64_t next_index;                      // the next stretch begins here
-  std::map<std::uint64_t, std::uint64_t> open;   // by number of a stretch that was begun: its next task to hand out
-  std::map<std::thread::id, std::uint64_t> own;  // the stretch that a thread began last
+  std::uint64_t next_index;                      // the next group begins here
+  std::map<std::uint64_t, std::uint64_t> open;   // by number of a group that was begun: its next task to hand out
+  std::map<std::thread::id, std::uint64_t> own;  // the group that a thread began last
   std::map<std::uint64_t, std::chrono::steady_clock::time_point> under_way;  // handed out when, not yet finished
   std::deque<std::pair<std::uint64_t, std::any>> done;
   std::set<std::thread::id> threads;
@@ -51,7 +51,7 @@ struct AnyTaskPool::Impl {
 
   Impl(TaskRange tasks_to_do, Task function)
       : range(std::move(tasks_to_do)), task(std::move(function)), end(range.end), next_index(not_done(range.begin)) {
-    ensure(range.workers >= 1 && range.window >= 1 && range.stretch >= 1,
+    ensure(range.workers >= 1 && range.window >= 1 && range.group >= 1,
            "a pool has at least one worker and room for one task");
     crew = std::thread([this] { feed(); });
   }
@@ -99,29 +99,29 @@ struct AnyTaskPool::Impl {
     return index;
   }
 
-  // The stretch from which this thread takes its next task: its own, else a new one. If there is no room or none left,
+  // The group from which this thread takes its next task: its own, else a new one. If there is no room or none left,
   // it helps with the oldest. `open.end()`: it must wait.
   std::map<std::uint64_t, std::uint64_t>::iterator choose() {
     const std::uint64_t within = oldest() + range.window;
     const auto mine = own.find(std::this_thread::get_id());
     auto chosen = mine == own.end() ? open.end() : open.find(mine->second);
     if (chosen != open.end() && chosen->second < within) return chosen;
-    if (next_index < std::min(end, within)) return begin_stretch();
+    if (next_index < std::min(end, within)) return begin_group();
     return !open.empty() && open.begin()->second < within ? open.begin() : open.end();
   }
 
-  std::map<std::uint64_t, std::uint64_t>::iterator begin_stretch() {
-    const std::uint64_t number = next_index / range.stretch;
+  std::map<std::uint64_t, std::uint64_t>::iterator begin_group() {
+    const std::uint64_t number = next_index / range.group;
     const auto begun = open.emplace(number, next_index).first;
     own[std::this_thread::get_id()] = number;
-    next_index = not_done(std::min(end, (number + 1) * range.stretch));
+    next_index = not_done(std::min(end, (number + 1) * range.group));
     return begun;
   }
 
   std::uint64_t hand_out(std::map<std::uint64_t, std::uint64_t>::iterator from) {
     const std::uint64_t index = from->second;
     from->second = not_done(index + 1);
-    if (from->second >= std::min(end, (from->first + 1) * range.stretch)) open.erase(from);
+    if (from->second >= std::min(end, (from->first + 1) * range.group)) open.erase(from);
     return index;
   }
 
@@ -191,10 +191,10 @@ void AnyTaskPool::stop() {
   impl_->room.notify_all();
 }
 
-void AnyTaskPool::stop_after_stretch(std::uint64_t length) {
+void AnyTaskPool::stop_after_group(std::uint64_t length) {
   const std::lock_guard lock(impl_->mutex);
-  const std::uint64_t stretches = (impl_->next_index + length - 1) / length;
-  impl_->end = std::min(impl_->end, stretches * length);
+  const std::uint64_t groups = (impl_->next_index + length - 1) / length;
+  impl_->end = std::min(impl_->end, groups * length);
   impl_->room.notify_all();
 }
 

@@ -25,9 +25,9 @@ struct TaskRange {
   // So many tasks lie at most between the oldest unfinished task and the newest task that was handed out.
   std::uint64_t window = 1024;
   std::set<std::uint64_t> done{};  // these are not handed out
-  // Tasks of one stretch of this length, from task 0 on, have much in common: a thread stays with its stretch, unless
+  // Tasks of one group of this length, from task 0 on, have much in common: a thread stays with its group, unless
   // another one has nothing else to do.
-  std::uint64_t stretch = 1;
+  std::uint64_t group = 1;
 };
 
 // What is the same for results of every type. Use TaskPool.
@@ -37,9 +37,9 @@ class AnyTaskPool {
   AnyTaskPool& operator=(const AnyTaskPool&) = delete;
 
   void stop();  // hands out no more tasks
-  // The same, after the tasks that belong to the last stretch which was begun: stretches of this length, from task 0
+  // The same, after the tasks that belong to the last group which was begun: groups of this length, from task 0
   // on.
-  void stop_after_stretch(std::uint64_t length);
+  void stop_after_group(std::uint64_t length);
   std::vector<TaskUnderWay> under_way() const;  // in order of index
   int threads_seen() const;                     // the number of different threads that have done a task so far
 

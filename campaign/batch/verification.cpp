@@ -42,9 +42,9 @@ std::vector<std::uint64_t> sample_of_runs(std::uint64_t key, std::uint64_t runs,
   std::vector<std::uint64_t> sample;
   if (size == 0) return sample;
   Draws draws(key);
-  const std::uint64_t length = runs / size, longer = runs % size;  // the first `longer` stretches have one run more
-  for (std::uint64_t stretch = 0, begin = 0; stretch < size; ++stretch) {
-    const std::uint64_t here = length + (stretch < longer ? 1 : 0);
+  const std::uint64_t length = runs / size, longer = runs % size;  // the first `longer` strata have one run more
+  for (std::uint64_t stratum = 0, begin = 0; stratum < size; ++stratum) {
+    const std::uint64_t here = length + (stratum < longer ? 1 : 0);
     sample.push_back(begin + std::min(here - 1, static_cast<std::uint64_t>(draws.uniform(0.0, double(here)))));
     begin += here;
   }

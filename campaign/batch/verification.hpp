@@ -13,7 +13,7 @@ namespace fleetproof {
 // How many of `runs` stored runs "1%" (rounded up) or "200" asks for. All runs, if there are fewer. Throws InputError.
 std::uint64_t sample_size(const std::string& text, std::uint64_t runs);
 
-// `size` of the runs 0 to runs - 1, in order: one run of each of `size` stretches of equal length. The same key draws
+// `size` of the runs 0 to runs - 1, in order: one run of each of `size` strata of equal length. The same key draws
 // the same runs. Requires: size <= runs.
 std::vector<std::uint64_t> sample_of_runs(std::uint64_t key, std::uint64_t runs, std::uint64_t size);
 

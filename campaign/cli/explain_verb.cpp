@@ -65,14 +65,14 @@ Json to_json(const Explanation& explanation) {
                {"sentences", sentences_of(explanation)}};
   json["messages"] = Json::array();
   for (const MessageNeed& need : explanation.messages) {
-    const GivenFate& fate = need.message.fate;
+    const GivenDelivery& delivery = need.message.delivery;
     json["messages"].push_back({{"number", need.message.number},
                                 {"kind", need.message.kind},
-                                {"sender", name_of_body(small, fate.sender)},
-                                {"receiver", name_of_body(small, fate.receiver)},
-                                {"sent_s", to_seconds(fate.sent)},
-                                {"lost", fate.lost},
-                                {"delay_s", to_seconds(fate.delay)},
+                                {"sender", name_of_body(small, delivery.sender)},
+                                {"receiver", name_of_body(small, delivery.receiver)},
+                                {"sent_s", to_seconds(delivery.sent)},
+                                {"lost", delivery.lost},
+                                {"delay_s", to_seconds(delivery.delay)},
                                 {"needed", need.is_needed},
                                 {"saves_delay_s", nullptr},
                                 {"too_late_delay_s", nullptr}});
@@ -88,13 +88,13 @@ Json to_json(const Explanation& explanation) {
   json["shares"] = Json::array();
   for (const Share& share : explanation.shares)
     json["shares"].push_back(
-        {{"if", share.what}, {"failing", share.failing()}, {"of", share.of}, {"failing_lucks", share.failing_lucks}});
+        {{"if", share.what}, {"failing", share.failing()}, {"of", share.of}, {"failing_draws", share.failing_draws}});
   json["branches_each"] = kBranches;
   json["curve_of_no_return"] = Json::array();
   for (const Branching& branching : explanation.no_return.curve)
     json["curve_of_no_return"].push_back({{"at_s", to_seconds(branching.at - kStart)},
                                           {"failing", branching.failing()},
-                                          {"failing_radio_lucks", branching.failing_lucks}});
+                                          {"failing_radio_draws", branching.failing_draws}});
   json["open_until_s"] = to_seconds(explanation.no_return.open_until - kStart);
   json["likely_from_s"] = json["certain_from_s"] = json["acted_by_s"] = nullptr;
   if (const auto at = explanation.no_return.likely_from) json["likely_from_s"] = to_seconds(*at - kStart);
@@ -103,7 +103,7 @@ Json to_json(const Explanation& explanation) {
   return json;
 }
 
-// Each run that a sentence names, as a scenario file; shares and branches with their own luck.
+// Each run that a sentence names, as a scenario file; shares and branches with their own draws.
 void save_runs(const ExplainWords& words, const CaseSource& source, CaseHost& host, const Explanation& explanation) {
   if (words.runs.empty()) return;
   std::error_code error;
@@ -126,9 +126,9 @@ void save_runs(const ExplainWords& words, const CaseSource& source, CaseHost& ho
 void put_runs(const std::string& folder, const CaseSource& source) {
   if (folder.empty()) return put("\n[n]: the run that shows it; --runs DIR writes each as a scenario file\n");
   put("\n[n]:       fleetproof simulate {}{}, and so on\n", file_in(folder, name_of_claim(1)), source.plugin);
-  put("[share n]: fleetproof simulate {}{} --luck N, N from 1 to {}\n", file_in(folder, "share-1"), source.plugin,
-      kLuckRuns);
-  put("branches:  fleetproof simulate {}{} --radio-luck N, N from 1 to {}\n", file_in(folder, "branch-1"),
+  put("[share n]: fleetproof simulate {}{} --draw N, N from 1 to {}\n", file_in(folder, "share-1"), source.plugin,
+      kRunsPerShare);
+  put("branches:  fleetproof simulate {}{} --radio-draw N, N from 1 to {}\n", file_in(folder, "branch-1"),
       source.plugin, kBranches);
 }
 

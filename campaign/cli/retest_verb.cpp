@@ -85,7 +85,7 @@ void put_line(const Retested& retested) {
   put("  in {}, where it was found, {} of {} neighbours fail so\n", finding.found_in, finding.neighbours.alike,
       finding.neighbours.of);
   if (result.whole_runs.of > 0)
-    put("  of runs of its campaign with other luck, {} of {} end so, {} of {} before\n", result.whole_runs.alike,
+    put("  of runs of its campaign with other draws, {} of {} end so, {} of {} before\n", result.whole_runs.alike,
         result.whole_runs.of, finding.whole.counts.alike, finding.whole.counts.of);
   if (!result.standing.empty()) put("  the fleets drive {}\n", result.standing);
 }

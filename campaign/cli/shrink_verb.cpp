@@ -35,8 +35,8 @@ std::string size_text(const CaseSize& size) {
   std::string text = fmt::format("{}, {}", count_text(size.agvs, "AGV"), count_text(size.transports, "transport"));
   if (size.faults > 0) text += ", " + count_text(size.faults, "fault");
   if (size.obstacles > 0) text += ", " + count_text(size.obstacles, "obstacle");
-  text += size.fates_are_drawn ? std::string(", lost and late messages as the radio draws them")
-                               : ", " + count_text(size.fates, "lost or late message");
+  text += size.deliveries_are_drawn ? std::string(", lost and late messages as the radio draws them")
+                                    : ", " + count_text(size.deliveries, "lost or late message");
   return text + fmt::format(", {}, {:.2f} s", count_text(size.segments, "segment"), to_seconds(size.horizon));
 }
 
@@ -48,7 +48,7 @@ Json to_json(const CaseSize& size) {
                {"segments", size.segments},
                {"fates", nullptr},
                {"horizon_s", to_seconds(size.horizon)}};
-  if (!size.fates_are_drawn) json["fates"] = size.fates;
+  if (!size.deliveries_are_drawn) json["fates"] = size.deliveries;
   return json;
 }
 

@@ -15,7 +15,7 @@
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/run/case_file.hpp"
 #include "campaign/run/case_run.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 #include "campaign/watch/run_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
@@ -34,7 +34,7 @@ struct SimulateWords {
   std::string scenario, agent, law, config;
   std::vector<std::string> plugins;
   std::string granularity;
-  std::optional<std::uint64_t> luck, radio_luck;
+  std::optional<std::uint64_t> draw, radio_draw;
   ObserverWords observed;
   bool json = false, in_process = false;
   std::string agent_place;  // what names the agent: the option, or the key of the scenario file
@@ -209,7 +209,7 @@ std::string agent_of(const SimulateWords& words, const Scenario& scenario, const
 std::string expectation_text(const ExpectedOutcome& expected, const ExpectedOutcome& found) {
   if (expected == found) return fmt::format("  as expected: {}\n", expected.failure);
   if (expected.failure == found.failure)
-    return fmt::format("  expected: {}; it fails so, but the run took another course\n", expected.failure);
+    return fmt::format("  expected: {}; it fails so, but the run took another timeline\n", expected.failure);
   return fmt::format("  NOT as expected: {} was expected, {} was found\n", expected.failure, found.failure);
 }
 
@@ -231,18 +231,18 @@ std::vector<KnownEnd> ends_of_plugin(SimulateWords words, const Scenario& scenar
   return known_ends(scenario, {words.agent, words.config, scenario.law.leave_out}, known);
 }
 
-std::uint32_t luck_number(std::uint64_t number, const char* option) {
+std::uint32_t draw_number(std::uint64_t number, const char* option) {
   constexpr auto kMost = std::numeric_limits<std::uint32_t>::max();
   if (number < 1 || number > kMost) throw InputError(option, fmt::format("is {}; it lies from 1 to {}", number, kMost));
   return static_cast<std::uint32_t>(number);
 }
 
 // Other draws than the scenario's own. Then nothing is expected of it.
-Scenario with_luck(const SimulateWords& words, Scenario scenario) {
-  if (!words.luck && !words.radio_luck) return scenario;
-  if (words.luck) scenario = with_other_luck(std::move(scenario), luck_number(*words.luck, "--luck"));
-  if (words.radio_luck)
-    scenario = with_other_radio(std::move(scenario), luck_number(*words.radio_luck, "--radio-luck"));
+Scenario with_draws(const SimulateWords& words, Scenario scenario) {
+  if (!words.draw && !words.radio_draw) return scenario;
+  if (words.draw) scenario = with_other_draws(std::move(scenario), draw_number(*words.draw, "--draw"));
+  if (words.radio_draw)
+    scenario = with_other_radio(std::move(scenario), draw_number(*words.radio_draw, "--radio-draw"));
   scenario.expected = {};
   return scenario;
 }
@@ -253,15 +253,15 @@ ReplayWords page_words(const SimulateWords& words) {
   for (const std::string& plugin : words.plugins) command += " --plugin " + shell_word(plugin);
   if (!words.config.empty()) command += " --agent-config " + shell_word(words.config);
   if (words.law != judge_of_violations().name) command += " --law " + shell_word(words.law);
-  if (words.luck) command += fmt::format(" --luck {}", *words.luck);
-  if (words.radio_luck) command += fmt::format(" --radio-luck {}", *words.radio_luck);
+  if (words.draw) command += fmt::format(" --draw {}", *words.draw);
+  if (words.radio_draw) command += fmt::format(" --radio-draw {}", *words.radio_draw);
   if (!words.granularity.empty()) command += " --granularity " + shell_word(words.granularity);
   return {command, {{"agent", words.agent}}};
 }
 
 int simulate_scenario(SimulateWords words) {
   refuse_results(words.scenario, fmt::format("name a run of it: fleetproof replay {} RUN", shell_word(words.scenario)));
-  Scenario scenario = with_luck(words, read_case_file(words.scenario));
+  Scenario scenario = with_draws(words, read_case_file(words.scenario));
   if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
   AgentPrograms programs;
   const bool names_agent = words.agent.empty() && !scenario.agent.empty();
@@ -283,7 +283,7 @@ int simulate_scenario(SimulateWords words) {
   const bool is_saved_case = scenario.expected != ExpectedOutcome{};
   const ExpectedOutcome found =
       is_saved_case
-          ? expectation_of(run_case(scenario, agent, words.config, scenario.law.leave_out, Fates::Ignored, watch))
+          ? expectation_of(run_case(scenario, agent, words.config, scenario.law.leave_out, Deliveries::Ignored, watch))
           : ExpectedOutcome{};
   if (words.json) {
     print_json(scenario, outcome, words, observers, found);
@@ -315,8 +315,8 @@ Action prepare_simulate(Options& options) {
   options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");
   options.option("--granularity", words->granularity,
                  "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");
-  options.option("--luck", words->luck, "draw radio and agents anew: each number gives another run");
-  options.option("--radio-luck", words->radio_luck, "draw the radio anew, and nothing else");
+  options.option("--draw,--luck", words->draw, "draw radio and agents anew: each number gives another run");
+  options.option("--radio-draw,--radio-luck", words->radio_draw, "draw the radio anew, and nothing else");
   options.flag("--in-process", words->in_process, "run the agent in this process at once, for a debugger");
   options.flag("--json", words->json, "print JSON");
   add_observer_options(options, words->observed);

@@ -22,13 +22,13 @@ std::string words_of(const std::string& kind, const std::string& content) {
   return content.empty() ? kind : kind + ": " + content;
 }
 
-std::string words_of(const MessageFate& message) { return words_of(message.kind, message.content); }
+std::string words_of(const MessageDelivery& message) { return words_of(message.kind, message.content); }
 
-std::string message_text(const Scenario& scenario, const MessageFate& message) {
-  const GivenFate& fate = message.fate;
+std::string message_text(const Scenario& scenario, const MessageDelivery& message) {
+  const GivenDelivery& delivery = message.delivery;
   return fmt::format("message {} ({}{} to {}, {:.3f} s)", message.number,
-                     message.kind.empty() ? "" : words_of(message) + ", ", name_of_body(scenario, fate.sender),
-                     name_of_body(scenario, fate.receiver), to_seconds(fate.sent));
+                     message.kind.empty() ? "" : words_of(message) + ", ", name_of_body(scenario, delivery.sender),
+                     name_of_body(scenario, delivery.receiver), to_seconds(delivery.sent));
 }
 
 }  // namespace fleetproof

@@ -18,14 +18,14 @@ struct Claim {
   std::vector<std::string> words{};  // all that the fleet declared in the run, sorted; of runs without a thing only
 };
 
-// How often a changed scenario fails in the same way with other luck: with_other_luck, by its numbers from 1 on.
+// How often a changed scenario fails in the same way with other draws: with_other_draws, by its numbers from 1 on.
 struct Share {
   std::string what;  // "no message is late"
-  Scenario run;      // with its own luck
-  std::vector<std::uint32_t> failing_lucks;
+  Scenario run;      // with its own draws
+  std::vector<std::uint32_t> failing_draws;
   std::size_t of = 0;
 
-  std::size_t failing() const { return failing_lucks.size(); }
+  std::size_t failing() const { return failing_draws.size(); }
 };
 
 // Whether a changed run avoids the failure: if bodies came too close, none do in any way; otherwise it does not fail in
@@ -39,8 +39,8 @@ std::string outcome_text(const std::optional<Failure>& failure);
 std::string name_of_body(const Scenario& scenario, EntityId body);
 // "GRANT: answers 7.0"
 std::string words_of(const std::string& kind, const std::string& content);
-std::string words_of(const MessageFate& message);
+std::string words_of(const MessageDelivery& message);
 // "message 118 (GRANT: answers 7.0, 5 to 2, 61.204 s)"
-std::string message_text(const Scenario& scenario, const MessageFate& message);
+std::string message_text(const Scenario& scenario, const MessageDelivery& message);
 
 }  // namespace fleetproof

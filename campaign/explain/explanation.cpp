@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 
 namespace fleetproof {
 namespace {
@@ -45,13 +45,13 @@ Explanation explain(CaseHost& host, const FailingCase& original, const FailingCa
   found.things = without_each_thing(host, found.small, pattern);
   found.stops = last_stops(host, found.small, pattern);
   found.set_offs = set_offs(host, found.small, pattern);
-  CaseRun run = host(found.small.scenario, Fates::Kept);
+  CaseRun run = host(found.small.scenario, Deliveries::Kept);
   found.past_drives = past_drives(found, run.itinerary);
   found.notes = std::move(run.notes);
   found.doing = std::move(run.doing);
   found.ended = std::move(run.outcome.message);
-  CaseRun lucky = host(with_fates_only(found.small.scenario, {}));
-  if (!failure_of(lucky)) found.lucky_words = std::move(lucky.all_words);
+  CaseRun undisturbed = host(with_deliveries_only(found.small.scenario, {}));
+  if (!failure_of(undisturbed)) found.undisturbed_words = std::move(undisturbed.all_words);
   found.shares = shares_of(host, original, pattern);
   found.no_return = curve_of_no_return(host, original, pattern);
   return found;

@@ -24,7 +24,7 @@ struct Explanation {
   std::vector<std::string> doing;      // what its AGVs did when it failed, as CaseRun has it
   std::string ended;                   // of a crash or a hang: what the engine says of it, after the name of the agent
   // All words of its agents on a perfect radio, sorted; none if it fails there, too.
-  std::vector<std::string> lucky_words;
+  std::vector<std::string> undisturbed_words;
   std::vector<Share> shares;
   NoReturn no_return;
 };

@@ -8,7 +8,7 @@
 #include <memory>
 #include <set>
 
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/fitness.hpp"
 #include "campaign/shrink/shrink.hpp"
@@ -23,32 +23,32 @@ constexpr Duration kTimeGrain = std::chrono::milliseconds(10);
 // While the radio draws, so many of the messages before the failure are asked for, and so many are told.
 constexpr std::size_t kMostAsked = 60, kMostTold = 4;
 
-Scenario with_fate(const Scenario& scenario, const GivenFate& fate) {
+Scenario with_delivery(const Scenario& scenario, const GivenDelivery& delivery) {
   Scenario changed = scenario;
-  const auto given =
-      std::ranges::find_if(changed.fates, [&](const GivenFate& other) { return is_same_message(other, fate); });
-  if (given == changed.fates.end()) {
-    changed.fates.push_back(fate);
+  const auto given = std::ranges::find_if(changed.deliveries,
+                                          [&](const GivenDelivery& other) { return is_same_message(other, delivery); });
+  if (given == changed.deliveries.end()) {
+    changed.deliveries.push_back(delivery);
   } else {
-    *given = fate;
+    *given = delivery;
   }
   return changed;
 }
 
-GivenFate arriving_after(GivenFate fate, Duration delay) {
-  fate.lost = fate.copied = false;
-  fate.delay = delay;
-  fate.copy_delay = Duration::zero();
-  return fate;
+GivenDelivery arriving_after(GivenDelivery delivery, Duration delay) {
+  delivery.lost = delivery.copied = false;
+  delivery.delay = delay;
+  delivery.copy_delay = Duration::zero();
+  return delivery;
 }
 
 // By halving.
 std::optional<LatestArrival> latest_that_saves(CaseHost& host, const FailingCase& failing,
-                                               const FailurePattern& pattern, const GivenFate& fate) {
+                                               const FailurePattern& pattern, const GivenDelivery& delivery) {
   const auto saves = [&](Duration delay) {
-    return avoids(host(with_fate(failing.scenario, arriving_after(fate, delay))), failing, pattern);
+    return avoids(host(with_delivery(failing.scenario, arriving_after(delivery, delay))), failing, pattern);
   };
-  Duration low{}, high = fate.lost ? failing.failure.at - kStart - fate.sent : fate.delay;
+  Duration low{}, high = delivery.lost ? failing.failure.at - kStart - delivery.sent : delivery.delay;
   if (high <= kTimeGrain || saves(high)) return std::nullopt;
   while (high - low > kTimeGrain) {
     const Duration middle = low + (high - low) / 2;
@@ -57,13 +57,13 @@ std::optional<LatestArrival> latest_that_saves(CaseHost& host, const FailingCase
   return LatestArrival{low, high};
 }
 
-Scenario at_once(const Scenario& scenario, const MessageFate& message) {
-  return with_fate(scenario, arriving_after(message.fate, Duration::zero()));
+Scenario at_once(const Scenario& scenario, const MessageDelivery& message) {
+  return with_delivery(scenario, arriving_after(message.delivery, Duration::zero()));
 }
 
 MessageNeed need_of(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
-                    const MessageFate& message) {
-  const GivenFate& fate = message.fate;
+                    const MessageDelivery& message) {
+  const GivenDelivery& delivery = message.delivery;
   MessageNeed need;
   need.message = message;
   Scenario arrived = at_once(failing.scenario, message);
@@ -74,40 +74,40 @@ MessageNeed need_of(CaseHost& host, const FailingCase& failing, const FailurePat
                          outcome_text(failure_of(run)),
                          need.is_needed,
                          {}});
-  if (need.is_needed) need.latest = latest_that_saves(host, failing, pattern, fate);
+  if (need.is_needed) need.latest = latest_that_saves(host, failing, pattern, delivery);
   if (!need.latest) return need;
   for (const Duration late : {need.latest->in_time, need.latest->too_late}) {
-    Scenario later = with_fate(failing.scenario, arriving_after(fate, late));
+    Scenario later = with_delivery(failing.scenario, arriving_after(delivery, late));
     std::string outcome = outcome_text(failure_of(host(later)));
-    need.claims.push_back(
-        {fmt::format("it arrived at {:.3f} s", to_seconds(fate.sent + late)), std::move(later), std::move(outcome)});
+    need.claims.push_back({fmt::format("it arrived at {:.3f} s", to_seconds(delivery.sent + late)), std::move(later),
+                           std::move(outcome)});
   }
   return need;
 }
 
-// Bad luck that the radio draws: of the last such messages between its two bodies, those that it needs. Any other run
-// has other messages later, so of those that are needed the last are told.
+// A loss or delay that the radio draws: of the last such messages between its two bodies, those that it needs. Any
+// other run has other messages later, so of those that are needed the last are told.
 void add_drawn(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
-               const std::vector<MessageFate>& messages, std::vector<MessageNeed>& needs) {
+               const std::vector<MessageDelivery>& messages, std::vector<MessageNeed>& needs) {
   const auto is_of_it = [&](EntityId body) {
     return !failing.failure.a.valid() || body == failing.failure.a || body == failing.failure.b;
   };
-  std::vector<MessageFate> asked;
-  std::ranges::copy_if(messages, std::back_inserter(asked), [&](const MessageFate& m) {
-    return m.is_adverse() && kStart + m.fate.sent < failing.failure.at && is_of_it(m.fate.sender) &&
-           is_of_it(m.fate.receiver) && std::ranges::none_of(needs, [&](const MessageNeed& need) {
-             return is_same_message(need.message.fate, m.fate);
+  std::vector<MessageDelivery> asked;
+  std::ranges::copy_if(messages, std::back_inserter(asked), [&](const MessageDelivery& m) {
+    return m.is_adverse() && kStart + m.delivery.sent < failing.failure.at && is_of_it(m.delivery.sender) &&
+           is_of_it(m.delivery.receiver) && std::ranges::none_of(needs, [&](const MessageNeed& need) {
+             return is_same_message(need.message.delivery, m.delivery);
            });
   });
   if (asked.size() > kMostAsked) asked.erase(asked.begin(), asked.end() - kMostAsked);
   const auto runs =
       all_runs(host, {asked.size(), [&](std::size_t i) { return std::optional(at_once(failing.scenario, asked[i])); }});
-  std::vector<MessageFate> needed;
+  std::vector<MessageDelivery> needed;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (avoids(*runs[i], failing, pattern)) needed.push_back(asked[i]);
   }
   if (needed.size() > kMostTold) needed.erase(needed.begin(), needed.end() - kMostTold);
-  for (const MessageFate& message : needed) needs.push_back(need_of(host, failing, pattern, message));
+  for (const MessageDelivery& message : needed) needs.push_back(need_of(host, failing, pattern, message));
 }
 
 struct Without {
@@ -149,7 +149,7 @@ Scenario with_straight_lane(const Scenario& scenario, std::size_t segment) {
 
 // Of the lanes on which the bodies of the failure were. Straight lanes have none.
 void add_bends(CaseHost& host, const FailingCase& failing, std::vector<Without>& things) {
-  const CaseRun run = host(failing.scenario, Fates::Kept);
+  const CaseRun run = host(failing.scenario, Deliveries::Kept);
   const LogicalMap& map = *failing.scenario.map;
   const auto& segments = map.layout().segments;
   std::set<std::size_t> driven;
@@ -208,14 +208,14 @@ std::vector<Without> things_of(const Scenario& scenario) {
 }  // namespace
 
 std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
-  const auto messages = host(failing.scenario, Fates::Kept).fates;
+  const auto messages = host(failing.scenario, Deliveries::Kept).deliveries;
   std::vector<MessageNeed> needs;
-  for (const GivenFate& fate : failing.scenario.fates) {
-    const auto sent =
-        std::ranges::find_if(messages, [&](const MessageFate& message) { return is_same_message(message.fate, fate); });
+  for (const GivenDelivery& delivery : failing.scenario.deliveries) {
+    const auto sent = std::ranges::find_if(
+        messages, [&](const MessageDelivery& message) { return is_same_message(message.delivery, delivery); });
     if (sent != messages.end()) needs.push_back(need_of(host, failing, pattern, *sent));  // or it changed nothing
   }
-  if (CaseSize::of(failing.scenario).fates_are_drawn) add_drawn(host, failing, pattern, messages, needs);
+  if (CaseSize::of(failing.scenario).deliveries_are_drawn) add_drawn(host, failing, pattern, messages, needs);
   return needs;
 }
 

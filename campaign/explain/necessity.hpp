@@ -13,13 +13,13 @@ struct LatestArrival {
 
 // What one adverse message did.
 struct MessageNeed {
-  MessageFate message;
+  MessageDelivery message;
   bool is_needed = false;               // had it arrived at once and once, the run would avoid the failure
   std::optional<LatestArrival> latest;  // that avoids the failure; if it is needed
   std::vector<Claim> claims;
 };
-// Of all messages whose bad luck the scenario names. While the radio draws, also of the last ones between the two
-// bodies of the failure that it lost or delayed, of which only those that are needed are kept.
+// Of all messages whose losses and delays the scenario names. While the radio draws, also of the last ones between the
+// two bodies of the failure that it lost or delayed, of which only those that are needed are kept.
 std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
 
 // For each AGV, order, fault and obstacle of the case, and for each bend on which a body of the failure was: the run

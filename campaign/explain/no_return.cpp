@@ -6,7 +6,7 @@
 
 #include "campaign/explain/set_offs.hpp"
 #include "campaign/shrink/all_runs.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 
 namespace fleetproof {
 namespace {
@@ -69,24 +69,24 @@ NoReturn judged(std::vector<Branching> curve) {
 NoReturn curve_of_no_return(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
   Scenario scenario = failing.scenario;
   scenario.horizon = std::min(scenario.horizon, failing.failure.seen - kStart + kWatchedAfter);
-  const CaseRun whole = host(scenario, Fates::Kept);
+  const CaseRun whole = host(scenario, Deliveries::Kept);
   std::vector<Branching> curve;
   for (const SimTime at : instants_before(failing.failure.at)) {
     Branching& branching = curve.emplace_back(Branching{at, scenario, {}});
-    branching.run.fates.clear();
-    for (const MessageFate& message : whole.fates) {
-      if (kStart + message.fate.sent < at) branching.run.fates.push_back(message.fate);
+    branching.run.deliveries.clear();
+    for (const MessageDelivery& message : whole.deliveries) {
+      if (kStart + message.delivery.sent < at) branching.run.deliveries.push_back(message.delivery);
     }
   }
-  const auto luck = [](std::size_t rank) { return static_cast<std::uint32_t>(rank % kBranches + 1); };
+  const auto draw = [](std::size_t rank) { return static_cast<std::uint32_t>(rank % kBranches + 1); };
   const auto branch = [&](std::size_t rank) {
-    return std::optional(with_other_radio(curve[rank / kBranches].run, luck(rank)));
+    return std::optional(with_other_radio(curve[rank / kBranches].run, draw(rank)));
   };
   const auto runs = all_runs(host, {curve.size() * kBranches, branch});
   for (std::size_t rank = 0; rank < runs.size(); ++rank) {
     const auto failure = pattern.match(*runs[rank]);
     if (failure && is_of_same_bodies(*failure, failing.failure))
-      curve[rank / kBranches].failing_lucks.push_back(luck(rank));
+      curve[rank / kBranches].failing_draws.push_back(draw(rank));
   }
   NoReturn found = judged(std::move(curve));
   const auto set_off = last_set_off(whole, failing.failure);

@@ -15,10 +15,10 @@ inline constexpr std::size_t kBranches = 59, kInstants = 20;
 // What becomes of a run if the radio draws anew from an instant on: with_other_radio, numbers 1 to kBranches.
 struct Branching {
   SimTime at{};
-  Scenario run;                              // whatever is sent before `at` has its fate given
-  std::vector<std::uint32_t> failing_lucks;  // in the same way, the same bodies, soon after the run itself at last
+  Scenario run;                              // the delivery of what is sent before `at` is given
+  std::vector<std::uint32_t> failing_draws;  // in the same way, the same bodies, soon after the run itself at last
 
-  std::size_t failing() const { return failing_lucks.size(); }
+  std::size_t failing() const { return failing_draws.size(); }
 };
 
 // The curve of no return, in order of time: when the failure became likely, and when it became certain.

@@ -75,16 +75,17 @@ class Words {
 
   void message(const MessageNeed& need) {
     const std::string name = message_text(scenario_, need.message);
-    const GivenFate& fate = need.message.fate;
-    const std::string trouble = fate.lost     ? "the loss"
-                                : fate.copied ? "the second copy"
-                                              : fmt::format("the delay of {:.2f} s", to_seconds(fate.delay));
+    const GivenDelivery& delivery = need.message.delivery;
+    const std::string trouble = delivery.lost     ? "the loss"
+                                : delivery.copied ? "the second copy"
+                                                  : fmt::format("the delay of {:.2f} s", to_seconds(delivery.delay));
     const std::size_t count = need.claims.size();
     if (!need.is_needed) return say("It does not need {} of {} {}.", trouble, name, runs(count));
     if (!need.latest)
       return say("It needs {} of {}: had it arrived at once, no failure {}.", trouble, name, runs(count));
     say("It needs {} of {}. Had it arrived by {:.3f} s, no failure; at {:.3f} s, it fails {}.", trouble, name,
-        to_seconds(fate.sent + need.latest->in_time), to_seconds(fate.sent + need.latest->too_late), runs(count));
+        to_seconds(delivery.sent + need.latest->in_time), to_seconds(delivery.sent + need.latest->too_late),
+        runs(count));
   }
 
   void things() {
@@ -148,7 +149,7 @@ class Words {
     if (of.keys.size() == 2) two_answers(name_of_body(scenario_, is.agv), of.keys[0].message, of.keys[1].message);
   }
 
-  void two_answers(const std::string& name, const MessageFate& a, const MessageFate& b) {
+  void two_answers(const std::string& name, const MessageDelivery& a, const MessageDelivery& b) {
     if (a.content.empty() || words_of(a) != words_of(b)) return;
     say("Messages {} and {} say the same ({}), and {} needed both.", b.number, a.number, words_of(a), name);
   }
@@ -156,21 +157,21 @@ class Words {
   static const char* and_then(const Claim& claim) { return claim.avoids ? ", and nothing fails" : ""; }
 
   void key(const SetOff& is, const GoAhead& key) {
-    const GivenFate& fate = key.message.fate;
-    const std::string name = name_of_body(scenario_, is.agv), from = name_of_body(scenario_, fate.sender);
+    const GivenDelivery& delivery = key.message.delivery;
+    const std::string name = name_of_body(scenario_, is.agv), from = name_of_body(scenario_, delivery.sender);
     say("Without {} alone, it does not either{} {}.", message_text(scenario_, key.message), and_then(key.claim),
         runs(1));
-    if (fate.copied) say("That message arrived twice.");
-    if (fate.delay >= kNotable) say("That message was {:.2f} s late.", to_seconds(fate.delay));
-    said_with(fate);
+    if (delivery.copied) say("That message arrived twice.");
+    if (delivery.delay >= kNotable) say("That message was {:.2f} s late.", to_seconds(delivery.delay));
+    said_with(delivery);
     if (key.asked.empty()) say("{} had heard nothing of {} when it sent it.", from, name);
     for (const Question& asked : key.asked) question(is, asked, name, from);
-    if (!key.sender_drive || std::ranges::count(involved(), fate.sender) == 0) return;
+    if (!key.sender_drive || std::ranges::count(involved(), delivery.sender) == 0) return;
     const auto& map = *scenario_.map;
     say("{} had last set off from {} for {} then, at {:.3f} s{}.", from, map.station(key.sender_drive->from).name,
         map.station(key.sender_drive->to).name, seconds_of(key.sender_drive->at),
         key.is_last_drive ? "; it was on that drive, or behind it, when it failed" : "");
-    faults_between(fate.sender, key.sender_drive->at - kStart, fate.sent, "between that and the message");
+    faults_between(delivery.sender, key.sender_drive->at - kStart, delivery.sent, "between that and the message");
   }
 
   void question(const SetOff& is, const Question& asked, const std::string& name, const std::string& from) {
@@ -178,22 +179,22 @@ class Words {
     std::string since;
     if (again > 0)
       since = fmt::format("; {} sent {} more of that kind before that drive or turn, at last message {} ({}, {:.3f} s)",
-                          name, again, last->number, words_of(*last), to_seconds(last->fate.sent));
+                          name, again, last->number, words_of(*last), to_seconds(last->delivery.sent));
     say("When {} sent it, the last {}to reach it of {} was message {} ({}, {:.3f} s){}.", from,
         message.kind.empty() ? "" : message.kind + " ", name, message.number, words_of(message),
-        to_seconds(message.fate.sent), since);
-    faults_between(is.agv, message.fate.sent, is.drive.at - kStart, "after it had sent that");
+        to_seconds(message.delivery.sent), since);
+    faults_between(is.agv, message.delivery.sent, is.drive.at - kStart, "after it had sent that");
   }
 
   // What the sender of a message declared when it sent it.
-  void said_with(const GivenFate& fate) {
+  void said_with(const GivenDelivery& delivery) {
     std::vector<std::string> words;
     for (const Declared& declared : of_.notes.declared) {
-      if (declared.agv == fate.sender && declared.at == kStart + fate.sent)
+      if (declared.agv == delivery.sender && declared.at == kStart + delivery.sent)
         words.push_back(fmt::format("\"{}\"", declared.word));
     }
     if (!words.empty())
-      say("At that instant, {} said {}.", name_of_body(scenario_, fate.sender), fmt::join(words, " and "));
+      say("At that instant, {} said {}.", name_of_body(scenario_, delivery.sender), fmt::join(words, " and "));
   }
 
   void faults_between(EntityId agv, Duration from, Duration to, std::string_view when) {
@@ -209,7 +210,7 @@ class Words {
     const std::string name = name_of_body(scenario_, agv);
     for (const Declared& declared : of_.notes.declared) {
       if (declared.agv != agv) continue;
-      if (!of_.lucky_words.empty() && !std::ranges::binary_search(of_.lucky_words, declared.word)) {
+      if (!of_.undisturbed_words.empty() && !std::ranges::binary_search(of_.undisturbed_words, declared.word)) {
         say("{} said \"{}\" at {:.3f} s; on a perfect radio, nobody says it.", name, declared.word,
             seconds_of(declared.at));
       } else if (!avoiding_.empty() && !said_when_avoided_.contains(declared.word)) {
@@ -243,7 +244,7 @@ class Words {
   void shares() {
     if (of_.shares.empty()) return;
     const Share& base = of_.shares.front();
-    say("With other luck, the run fails in the same way in {} of {} [share 1].", base.failing(), base.of);
+    say("With other draws, the run fails in the same way in {} of {} [share 1].", base.failing(), base.of);
     for (std::size_t i = 1; i < of_.shares.size(); ++i) {
       const Share& share = of_.shares[i];
       say("If {}: {} of {}{} [share {}].", share.what, share.failing(), share.of, verdict(share, base), i + 1);

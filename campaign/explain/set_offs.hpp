@@ -10,14 +10,14 @@ namespace fleetproof {
 
 // What a message may be an answer to: the last of its kind that had reached the sender.
 struct Question {
-  MessageFate message;
-  std::size_t again = 0;                  // so many more of its kind were sent before the drive
-  std::optional<MessageFate> last_again;  // the last of them
+  MessageDelivery message;
+  std::size_t again = 0;                      // so many more of its kind were sent before the drive
+  std::optional<MessageDelivery> last_again;  // the last of them
 };
 
 // A message that held the key to a drive: without it alone, the AGV does not set off then.
 struct GoAhead {
-  MessageFate message;
+  MessageDelivery message;
   Claim claim;
   std::vector<Question> asked;  // of the AGV, one for each kind, the latest first; empty: the sender had heard nothing
   std::optional<Departure> sender_drive;  // the last of its sender before it was sent

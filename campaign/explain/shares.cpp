@@ -5,10 +5,10 @@
 #include <functional>
 #include <utility>
 
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/fitness.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 #include "campaign/shrink/surgery.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 
@@ -75,17 +75,17 @@ std::vector<Share> shares_of(CaseHost& host, const FailingCase& failing, const F
   }
   std::vector<Share> shares;
   for (const WorldChange& change : changes) {
-    Share share{.what = change.what, .run = failing.scenario, .failing_lucks = {}, .of = kLuckRuns};
+    Share share{.what = change.what, .run = failing.scenario, .failing_draws = {}, .of = kRunsPerShare};
     change.edit(share.run);
     if (is_fair(share.run)) shares.push_back(std::move(share));
   }
-  const auto luck = [](std::size_t rank) { return static_cast<std::uint32_t>(rank % kLuckRuns + 1); };
+  const auto draw = [](std::size_t rank) { return static_cast<std::uint32_t>(rank % kRunsPerShare + 1); };
   const auto make = [&](std::size_t rank) {
-    return std::optional(with_other_luck(shares[rank / kLuckRuns].run, luck(rank)));
+    return std::optional(with_other_draws(shares[rank / kRunsPerShare].run, draw(rank)));
   };
-  const auto runs = all_runs(host, {shares.size() * kLuckRuns, make});
+  const auto runs = all_runs(host, {shares.size() * kRunsPerShare, make});
   for (std::size_t rank = 0; rank < runs.size(); ++rank) {
-    if (pattern.match(*runs[rank])) shares[rank / kLuckRuns].failing_lucks.push_back(luck(rank));
+    if (pattern.match(*runs[rank])) shares[rank / kRunsPerShare].failing_draws.push_back(draw(rank));
   }
   return shares;
 }

@@ -6,9 +6,9 @@
 
 namespace fleetproof {
 
-inline constexpr std::size_t kLuckRuns = 59;
+inline constexpr std::size_t kRunsPerShare = 59;
 
-// How often the run fails in the same way with other luck: as it is, and with one thing changed at a time. The first
+// How often the run fails in the same way with other draws: as it is, and with one thing changed at a time. The first
 // is the run as it is.
 std::vector<Share> shares_of(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
 

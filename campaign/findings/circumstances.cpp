@@ -56,11 +56,11 @@ class Observer {
   }
 
   void look_at_messages(EntityId agv, EntityId other, SimTime until, const std::string& who) {
-    const MessageFate* last = nullptr;
+    const MessageDelivery* last = nullptr;
     std::size_t heard = 0;
-    for (const MessageFate& message : run_.fates) {
-      const GivenFate& fate = message.fate;
-      if (fate.sender != other || fate.receiver != agv || fate.lost || message.arrives() > until) continue;
+    for (const MessageDelivery& message : run_.deliveries) {
+      const GivenDelivery& delivery = message.delivery;
+      if (delivery.sender != other || delivery.receiver != agv || delivery.lost || message.arrives() > until) continue;
       ++heard;
       if (last == nullptr || message.arrives() >= last->arrives()) last = &message;
     }

@@ -14,7 +14,7 @@ namespace fleetproof {
 // Figures of two AGVs that came too close: how long one had stood, how long ago it had heard of the other, how often
 // it had driven. "Later" is the AGV that set off last. The failure needs none of them. But where agents say nothing of
 // their own, they tell faults apart that need the same: who forgets parked AGVs drives into one that has stood for
-// long. By name; empty if the failure is not of two AGVs. Requires: the run was made with Fates::Kept.
+// long. By name; empty if the failure is not of two AGVs. Requires: the run was made with Deliveries::Kept.
 std::map<std::string, double> circumstances_of(const CaseRun& run, const Scenario& scenario);
 
 // What never happened.

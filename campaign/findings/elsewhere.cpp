@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/fitness.hpp"
 #include "core/base/random.hpp"
@@ -16,7 +16,7 @@ constexpr std::size_t kLooksEach = 3;
 
 // What stands in the way of a fleet that is well, taken away.
 Scenario calm(const Scenario& world) {
-  Scenario calm = with_fates_only(world, {});
+  Scenario calm = with_deliveries_only(world, {});
   calm.faults.clear();
   calm.obstacles.clear();
   for (AgvSetup& agv : calm.agvs) agv.sensing = {};

@@ -11,21 +11,21 @@
 
 #include "campaign/findings/ingredients.hpp"
 #include "campaign/findings/word_comparison.hpp"
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 #include "campaign/shrink/fitness.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 #include "campaign/shrink/surgery.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr std::uint32_t kEnoughTries = 4, kFewestTries = 8, kMostTries = 24;
-// A run that seldom fails with other luck may need nothing but that two AGVs meet in some way. That is looked for
+// A run that seldom fails with other draws may need nothing but that two AGVs meet in some way. That is looked for
 // first.
-constexpr std::size_t kFewLucks = 2;
+constexpr std::size_t kFewDraws = 2;
 constexpr std::uint32_t kTriesForNothing = 40;
 // With more of them, what seems needed was tried often enough.
-constexpr std::size_t kManyLucks = 4;
+constexpr std::size_t kManyDraws = 4;
 constexpr std::size_t kMostKinds = 16;  // of messages; with more, no replay would be left for the other ingredients
 
 // What keeps a fleet from its work is told apart by who waits for whom, which is chance.
@@ -37,9 +37,9 @@ bool is_no_progress(std::string_view what) {
 }
 
 // Those of which most messages were lost or late. An agent may give each message a kind of its own.
-std::vector<std::string> adverse_kinds(const std::vector<MessageFate>& fates) {
+std::vector<std::string> adverse_kinds(const std::vector<MessageDelivery>& deliveries) {
   std::map<std::string, std::size_t> counts;
-  for (const MessageFate& message : fates) {
+  for (const MessageDelivery& message : deliveries) {
     if (message.is_adverse() && !message.kind.empty()) ++counts[message.kind];
   }
   std::vector<std::string> kinds;
@@ -65,50 +65,50 @@ class Reduction {
   Reduction(CaseHost& host, const Scenario& scenario) : host_(host), original_(scenario) {}
 
   std::optional<FailureNeeds> find() {
-    const CaseRun run = simulate(original_, Fates::Kept);
+    const CaseRun run = simulate(original_, Deliveries::Kept);
     const auto failure = failure_of(run);
     if (!failure) return std::nullopt;
     likeness_.end = end_of(*failure);
     best_ = {original_, *failure};
     learn_words(run);
     found_.end = likeness_.end;
-    const auto ingredients = ingredients_of(original_, adverse_kinds(run.fates));
+    const auto ingredients = ingredients_of(original_, adverse_kinds(run.deliveries));
     take_out_ingredients(ingredients);
-    if (failing_lucks_.size() <= kManyLucks) try_again(ingredients);
+    if (failing_draws_.size() <= kManyDraws) try_again(ingredients);
     add_traits();
     found_.reduced = std::move(best_);
-    found_.is_rare = !failed_otherwise_ && failing_lucks_.empty();
-    found_.failing_lucks = static_cast<std::uint32_t>(failing_lucks_.size());
+    found_.is_rare = !failed_otherwise_ && failing_draws_.empty();
+    found_.failing_draws = static_cast<std::uint32_t>(failing_draws_.size());
     found_.replays = replays_;
     return std::move(found_);
   }
 
  private:
-  static Scenario another(const Scenario& scenario, std::uint32_t luck) {
-    return with_other_course(scenario, luck, kLatest);
+  static Scenario another(const Scenario& scenario, std::uint32_t draw) {
+    return with_other_timeline(scenario, draw, kLatest);
   }
-  CaseRun simulate(const Scenario& scenario, Fates fates = Fates::Ignored) {
+  CaseRun simulate(const Scenario& scenario, Deliveries deliveries = Deliveries::Ignored) {
     ++replays_;
-    return host_(scenario, fates);
+    return host_(scenario, deliveries);
   }
 
-  // What its agents say when it ends so, and the lucks with which it does.
+  // What its agents say when it ends so, and the draws with which it does.
   void learn_words(const CaseRun& run) {
     learner_.emplace(run);
-    const CaseRun lucky = simulate(with_fates_only(original_, {}));
-    if (!failure_of(lucky)) learner_->hear_lucky(lucky);
+    const CaseRun undisturbed = simulate(with_deliveries_only(original_, {}));
+    if (!failure_of(undisturbed)) learner_->hear_undisturbed(undisturbed);
     std::vector<CaseRun> others;
-    for (std::uint32_t luck = 1; luck <= kOtherRuns; ++luck) {
-      others.push_back(simulate(another(original_, luck)));
+    for (std::uint32_t draw = 1; draw <= kOtherRuns; ++draw) {
+      others.push_back(simulate(another(original_, draw)));
       if (!failure_of(others.back())) learner_->hear_passing(others.back());
     }
     likeness_.words = {{}, learner_->pattern().usual};
     WordComparison comparison(best_.failure);
-    for (std::uint32_t luck = 1; luck <= kOtherRuns; ++luck) {
-      const CaseRun& other = others[luck - 1];
+    for (std::uint32_t draw = 1; draw <= kOtherRuns; ++draw) {
+      const CaseRun& other = others[draw - 1];
       if (!failure_of(other)) comparison.add_passing(other);
       if (!likeness_.match(other)) continue;
-      failing_lucks_.push_back(luck);
+      failing_draws_.push_back(draw);
       learner_->hear_failing(other);
       comparison.add_failing();
     }
@@ -121,7 +121,7 @@ class Reduction {
   }
 
   void take_out_ingredients(const std::vector<Ingredient>& ingredients) {
-    const bool seldom = failing_lucks_.size() < kFewLucks;
+    const bool seldom = failing_draws_.size() < kFewDraws;
     const bool needs_nothing = seldom && fails_after(all_of(ingredients), kTriesForNothing);
     const auto tries =
         std::clamp(replays_left() / static_cast<std::uint32_t>(ingredients.size() + 1), kFewestTries, kMostTries);
@@ -144,7 +144,7 @@ class Reduction {
       const std::uint32_t left = replays_left();
       if (left == 0) return;
       const auto tries = left / static_cast<std::uint32_t>(found_.needs.end() - place);
-      if (fails_with_new_luck(ingredient.take_out, tries)) found_.needs.erase(place);
+      if (fails_with_new_draws(ingredient.take_out, tries)) found_.needs.erase(place);
     }
   }
 
@@ -164,26 +164,26 @@ class Reduction {
     return is_agv(best_.failure.a) && is_agv(best_.failure.b);
   }
 
-  // With the luck that it has now, with those with which the whole scenario failed, and with others.
+  // With the draws that it has now, with those with which the whole scenario failed, and with others.
   bool fails_after(const std::function<void(Scenario&)>& edit, std::uint32_t tries) {
     Scenario less = best_.scenario;
     edit(less);
     if (!is_fair(less)) return false;
     if (fails(less)) return true;
-    std::vector<std::uint32_t> lucks = failing_lucks_;
-    for (std::uint32_t luck = kOtherRuns + 1; lucks.size() < tries; ++luck) lucks.push_back(luck);
-    lucks.resize(tries - 1);
-    const bool failed = std::ranges::any_of(lucks, [&](std::uint32_t luck) { return fails(another(less, luck)); });
+    std::vector<std::uint32_t> draws = failing_draws_;
+    for (std::uint32_t draw = kOtherRuns + 1; draws.size() < tries; ++draw) draws.push_back(draw);
+    draws.resize(tries - 1);
+    const bool failed = std::ranges::any_of(draws, [&](std::uint32_t draw) { return fails(another(less, draw)); });
     failed_otherwise_ |= failed;
     return failed;
   }
-  // With lucks that no other step has tried.
-  bool fails_with_new_luck(const std::function<void(Scenario&)>& edit, std::uint32_t tries) {
+  // With draws that no other step has tried.
+  bool fails_with_new_draws(const std::function<void(Scenario&)>& edit, std::uint32_t tries) {
     Scenario less = best_.scenario;
     edit(less);
     if (!is_fair(less)) return false;
     bool failed = false;
-    for (std::uint32_t i = 0; i < tries && !failed; ++i) failed = fails(another(less, next_new_luck_++));
+    for (std::uint32_t i = 0; i < tries && !failed; ++i) failed = fails(another(less, next_new_draw_++));
     failed_otherwise_ |= failed;
     return failed;
   }
@@ -214,10 +214,10 @@ class Reduction {
   FailureLikeness likeness_;
   FailingCase best_;
   FailureNeeds found_;
-  std::vector<std::uint32_t> failing_lucks_;
+  std::vector<std::uint32_t> failing_draws_;
   std::optional<WordLearner> learner_;
   std::uint64_t replays_ = 0;
-  std::uint32_t next_new_luck_ = kOtherRuns + kTriesForNothing + 1;
+  std::uint32_t next_new_draw_ = kOtherRuns + kTriesForNothing + 1;
   bool needs_third_ = false, failed_otherwise_ = false;
 };
 

@@ -14,8 +14,8 @@ namespace fleetproof {
 inline constexpr std::uint64_t kReplaysPerFailure = 200;
 inline constexpr std::uint32_t kOtherRuns = 16;
 
-// What one failing run needs, found by taking things away and simulating again, with other luck where it takes another
-// course then. What is not named here was taken away, and the run still failed. What is named may be missing in a run
+// What one failing run needs, found by taking things away and simulating again, with other draws where it takes another
+// timeline then. What is not named here was taken away, and the run still failed. What is named may be missing in a run
 // that fails all the same, if such runs are rare.
 struct FailureNeeds {
   std::string end;                  // "too close, two AGVs"
@@ -24,12 +24,12 @@ struct FailureNeeds {
   std::vector<std::string> traits;  // what else was true then: its agents said a word, there was a third AGV; sorted
   std::vector<std::string> said;    // all that the agents of its bodies had declared then; sorted
   FailingCase reduced;              // fails with nothing but what it needs
-  std::uint32_t failing_lucks = 0;  // of kOtherRuns runs of the scenario with other luck: that end alike
-  bool is_rare = false;             // with no other luck it failed alike, so what it needs is not known
+  std::uint32_t failing_draws = 0;  // of kOtherRuns runs of the scenario with other draws: that end alike
+  bool is_rare = false;             // with no other draws it failed alike, so what it needs is not known
   std::uint64_t replays = 0;
 };
 
-inline constexpr const char* kNotKnown = "not known: it failed with this luck only";
+inline constexpr const char* kNotKnown = "not known: it failed with these draws only";
 inline constexpr const char* kThirdAgvTrait = "needs a third AGV";
 
 // "says "x"": as traits have it.

@@ -34,12 +34,12 @@ constexpr std::size_t kMostPercent = 75;
 // Two in three failures that need a kind of messages tell that it is no chance.
 constexpr std::size_t kKindShare = 2, kKindOf = 3;
 
-// Below this, a set of needs may be an accident of the luck with which it was looked for.
+// Below this, a set of needs may be an accident of the draws with which it was looked for.
 constexpr std::size_t kFewMembers = 3, kRareShare = 20;
 // Of the failures that need something, so many have to need nothing else, or the others have another cause. Few
 // failures do not tell.
 constexpr double kRuleShare = 0.3;
-constexpr std::uint32_t kSomeLucks = 4;
+constexpr std::uint32_t kSomeDraws = 4;
 // Fewer failures that say the same have too few sets of needs for one of them to be frequent.
 constexpr std::size_t kEnoughToCount = 10;
 
@@ -295,11 +295,11 @@ class Gathering {
   std::size_t count_ = 0;
 };
 
-// Of those that need no more than the mechanism does: few AGVs, no stroke of luck, an early failure.
+// Of those that need no more than the mechanism does: few AGVs, no rare draw, an early failure.
 std::size_t simplest(std::span<const KnownFailure> failures, const Members& members, const Needs& needs) {
   const auto effort = [&](std::size_t member) {
     const FailureNeeds& failure = failures[member].needs;
-    return std::tuple(failure.needs != needs, failure.reduced.scenario.agvs.size(), failure.failing_lucks < kSomeLucks,
+    return std::tuple(failure.needs != needs, failure.reduced.scenario.agvs.size(), failure.failing_draws < kSomeDraws,
                       failure.reduced.failure.at, failures[member].run);
   };
   return *std::ranges::min_element(members, {}, effort);

@@ -26,7 +26,7 @@ constexpr const char* name_of(FindingStatus status) {
   return kNoWord;
 }
 
-// Runs of the campaign of a finding, and what became of them with other luck, in the software in which it was found.
+// Runs of the campaign of a finding, and what became of them with other draws, in the software in which it was found.
 struct KeptRuns {
   std::vector<std::string> files{};  // of scenarios
   NeighbourCounts counts{};

@@ -18,7 +18,7 @@ bool says_its_words(const Home& home, const FailureNeeds& failure) {
 
 }  // namespace
 
-// A failure with this luck only has no kinds of messages in `needed`: none of them is known to be no chance.
+// A failure with these draws only has no kinds of messages in `needed`: none of them is known to be no chance.
 bool Home::takes(const FailureNeeds& failure, const std::vector<std::string>& needed) const {
   const bool did_so = did_its_doing(*this, failure) || (failure.doings.empty() && needed == needs);
   const bool needs_all = std::ranges::all_of(

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 
 namespace fleetproof {
@@ -16,7 +16,7 @@ void right_sensing(Scenario& scenario) {
 
 void no_copies(Scenario& scenario) {
   scenario.radio.duplicates = 0.0;
-  for (GivenFate& fate : scenario.fates) fate.copied = false;
+  for (GivenDelivery& delivery : scenario.deliveries) delivery.copied = false;
 }
 
 void full_batteries(Scenario& scenario) {
@@ -29,12 +29,12 @@ void weightless_loads(Scenario& scenario) {
 
 void no_delay(Scenario& scenario) {
   scenario.radio.delay_s = 0.0;
-  for (GivenFate& fate : scenario.fates) fate.delay = Duration::zero();
+  for (GivenDelivery& delivery : scenario.deliveries) delivery.delay = Duration::zero();
 }
 
 void no_loss(Scenario& scenario) {
   scenario.radio = without_loss(scenario.radio);
-  for (GivenFate& fate : scenario.fates) fate.lost = false;
+  for (GivenDelivery& delivery : scenario.deliveries) delivery.lost = false;
 }
 
 void no_kind(Scenario& scenario, const std::string& kind) {

@@ -9,7 +9,7 @@
 
 namespace fleetproof {
 
-// Something of a scenario that a failure may need: a kind of bad luck on the radio, of fault, of body.
+// Something of a scenario that a failure may need: a kind of loss or delay on the radio, of fault, of body.
 struct Ingredient {
   std::string name;  // "lost messages", "restart", "GRANT messages": these are lost or late, too
   std::function<void(Scenario&)> take_out;

@@ -4,9 +4,9 @@
 #include <iterator>
 
 #include "campaign/findings/ingredients.hpp"
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 #include "campaign/shrink/all_runs.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 #include "campaign/shrink/surgery.hpp"
 #include "core/base/random.hpp"
 
@@ -79,21 +79,22 @@ bool is_one_of(const KeptFailure& kept, const FailureNeeds& found) {
 }
 
 Neighbourhood::Neighbourhood(CaseHost& host, const KeptFailure& kept) : kept_(kept) {
-  const CaseRun run = host(kept.smallest, Fates::Kept);
+  const CaseRun run = host(kept.smallest, Deliveries::Kept);
   const auto failure = failure_of(run);
-  for (const MessageFate& message : run.fates) {
-    if (!message.fate.lost && (!failure || kStart + message.fate.sent < failure->at)) messages_.push_back(message.fate);
+  for (const MessageDelivery& message : run.deliveries) {
+    if (!message.delivery.lost && (!failure || kStart + message.delivery.sent < failure->at))
+      messages_.push_back(message.delivery);
   }
 }
 
 void Neighbourhood::lose_one_more(Scenario& scenario, double draw) const {
   if (messages_.empty()) return;
-  GivenFate lost = messages_[static_cast<std::size_t>(draw * static_cast<double>(messages_.size()))];
+  GivenDelivery lost = messages_[static_cast<std::size_t>(draw * static_cast<double>(messages_.size()))];
   lost.lost = true;
   lost.copied = false;
   lost.delay = lost.copy_delay = Duration::zero();
-  std::erase_if(scenario.fates, [&](const GivenFate& fate) { return is_same_message(fate, lost); });
-  scenario.fates.push_back(lost);
+  std::erase_if(scenario.deliveries, [&](const GivenDelivery& delivery) { return is_same_message(delivery, lost); });
+  scenario.deliveries.push_back(lost);
 }
 
 bool Neighbourhood::is_of_case(std::uint32_t number) const { return !is_of_runs_ && number % kEveryCase == 0; }
@@ -114,7 +115,7 @@ Scenario Neighbourhood::at(std::uint32_t number) const {
   Dice dice(kept_.world.seed, number);
   const bool of_case = is_of_case(number);
   const Scenario& world = is_of_runs_ ? kept_.runs[world_of(number)] : kept_.world_of(number / kEveryCase);
-  Scenario beside = of_case ? shifted(kept_.smallest, dice) : with_other_course(world, number, kShift);
+  Scenario beside = of_case ? shifted(kept_.smallest, dice) : with_other_timeline(world, number, kShift);
   if (const std::size_t first = first_agv_of(number, beside.agvs.size()); first > 0)
     beside = with_fleet_renumbered(beside, first);
   if (of_case) lose_one_more(beside, dice.next());
@@ -180,7 +181,7 @@ void set_usual_words_apart(NeighbourCounts& counts) {
 void look_closer(CaseHost& host, const Neighbourhood& neighbourhood, NeighbourCounts& counts) {
   for (const auto& numbers : counts.looked_at) {
     const auto make = [&](std::size_t i) { return std::optional(neighbourhood.at(numbers[i])); };
-    const auto runs = all_runs(host, {numbers.size(), make}, Fates::Kept);
+    const auto runs = all_runs(host, {numbers.size(), make}, Deliveries::Kept);
     std::vector<std::map<std::string, double>> failures;
     for (std::size_t i = 0; i < numbers.size(); ++i)
       failures.push_back(circumstances_of(*runs[i], neighbourhood.at(numbers[i])));

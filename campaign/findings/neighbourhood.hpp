@@ -11,8 +11,8 @@
 
 namespace fleetproof {
 
-// A failure as it is kept: the smallest case, and the world that it was cut from, which still draws its luck. Software
-// that sends one message more meets other luck in the world; the case has nothing for it but the messages it names.
+// A failure as it is kept: the smallest case, and the world that it was cut from, which still draws. Software
+// that sends one message more meets other draws in the world; the case has nothing for it but the messages it names.
 struct KeptFailure {
   Scenario smallest{}, world{};
   std::string end{};  // as end_of has it
@@ -57,7 +57,7 @@ class Neighbourhood {
  public:
   // Plays the smallest case, to learn which messages the software sends in it. `kept` outlives the object.
   Neighbourhood(CaseHost& host, const KeptFailure& kept);
-  // Beside its runs instead, which there are: with other luck, as its worlds.
+  // Beside its runs instead, which there are: with other draws, as its worlds.
   static Neighbourhood of_runs(const KeptFailure& kept) { return Neighbourhood(kept); }
   Scenario at(std::uint32_t number) const;
   bool is_of_case(std::uint32_t number) const;
@@ -71,7 +71,7 @@ class Neighbourhood {
 
   const KeptFailure& kept_;
   bool is_of_runs_ = false;
-  std::vector<GivenFate> messages_{};  // that arrive in the smallest case, before it fails
+  std::vector<GivenDelivery> messages_{};  // that arrive in the smallest case, before it fails
 };
 
 // Words and probes of some runs, each list sorted.

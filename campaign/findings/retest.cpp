@@ -44,8 +44,8 @@ bool is_kept_one(const KeptFailure& kept, const FailureNeeds& of_case) {
   return of_case.end == kept.end && shows_the_same(kept, of_case) &&
          std::ranges::any_of(kept.ways, [&](const std::vector<std::string>& way) {
            const auto named = without_kinds(way);
-           const bool any_bad_luck = named.empty() && !way.empty();
-           if (any_bad_luck) return !of_case.needs.empty() && std::ranges::all_of(of_case.needs, is_of_radio);
+           const bool any_loss = named.empty() && !way.empty();
+           if (any_loss) return !of_case.needs.empty() && std::ranges::all_of(of_case.needs, is_of_radio);
            return is_one_of({named}, of_case.needs);
          });
 }
@@ -106,7 +106,7 @@ bool is_rarer_share(std::size_t alike, std::size_t of, std::size_t alike_before,
   return of_before > 0 && fisher_exact(alike, of, alike_before, of_before).first_smaller < kRarerChance;
 }
 
-// Something was mended, not all. Worlds draw their luck, so their share does not change with the timing of the
+// Something was mended, not all. Worlds still draw, so their share does not change with the timing of the
 // software. Where only all neighbours were counted: below three quarters is no accident of timing.
 bool is_rarer(const NeighbourCounts& now, const NeighbourCounts& before) {
   if (before.of_world > 0)

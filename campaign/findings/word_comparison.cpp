@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 
 namespace fleetproof {
 bool WordComparison::is_telling(const std::string& word) const {
@@ -11,7 +11,7 @@ bool WordComparison::is_telling(const std::string& word) const {
                              static_cast<std::uint32_t>(passing_.size())) <= kRareChance;
 }
 
-// On another course, what happens may happen a little later.
+// On another timeline, what happens may happen a little later.
 bool WordComparison::says(const CaseRun& run, const std::string& word) const {
   return std::ranges::any_of(run.first_said, [&](const Declared& said) {
     const bool is_one = !failure_.a.valid() || said.agv == failure_.a || said.agv == failure_.b;

@@ -8,9 +8,9 @@
 
 namespace fleetproof {
 
-// Asks whether runs that fail alike say a word more often than runs of the same scenario with other luck that do not
-// fail. A word that bad luck makes any AGV say ("grant-lost") tells nothing of a failure, though all of its runs say
-// it.
+// Asks whether runs that fail alike say a word more often than runs of the same scenario with other draws that do not
+// fail. A word that losses and delays make any AGV say ("grant-lost") tells nothing of a failure, though all of its
+// runs say it.
 class WordComparison {
  public:
   explicit WordComparison(const Failure& failure) : failure_(failure) {}

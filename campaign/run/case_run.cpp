@@ -112,28 +112,28 @@ class Doings {
 
 class CaseSink final : public TraceSink {
  public:
-  CaseSink(const Scenario& scenario, Fates wanted)
-      : doings(*scenario.map), fates(scenario), itinerary(scenario), wanted_(wanted) {}
+  CaseSink(const Scenario& scenario, Deliveries wanted)
+      : doings(*scenario.map), deliveries(scenario), itinerary(scenario), wanted_(wanted) {}
   void record(const TraceRecord& record, std::string_view text) override {
     declared.record(record, text);
     doings.record(record);
-    if (wanted_ != Fates::Kept) return;
-    fates.record(record, text);
+    if (wanted_ != Deliveries::Kept) return;
+    deliveries.record(record, text);
     notes.record(record, text);
     itinerary.record(record, text);
   }
   void piece_started(const Piece& piece) override {
-    if (wanted_ == Fates::Kept) itinerary.piece_started(piece);
+    if (wanted_ == Deliveries::Kept) itinerary.piece_started(piece);
   }
 
   Declarations declared;
   Doings doings;
-  FateKeeper fates;
+  DeliveryKeeper deliveries;
   NoteKeeper notes;
   ItineraryKeeper itinerary;
 
  private:
-  Fates wanted_;
+  Deliveries wanted_;
 };
 
 // From when on the first cause was what it is: a violation may become a contact after it began.
@@ -150,13 +150,13 @@ SimTime seen_at(const FirstCause& cause, const Outcome& outcome) {
 }  // namespace
 
 CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std::string& agent_config,
-                 const std::vector<std::string>& laws_left_out, Fates fates, const RunWatch& watch) {
+                 const std::vector<std::string>& laws_left_out, Deliveries deliveries, const RunWatch& watch) {
   CaseRun run;
-  CaseSink sink(scenario, fates);
+  CaseSink sink(scenario, deliveries);
   const auto laws = make_default_laws(scenario, laws_left_out);
   run.outcome = simulate(scenario, agent, laws, &sink, agent_config.c_str(), watch);
-  if (fates == Fates::Kept) {
-    run.fates = sink.fates.fates();
+  if (deliveries == Deliveries::Kept) {
+    run.deliveries = sink.deliveries.deliveries();
     run.itinerary = sink.itinerary.take();
   }
   run.all_words = sink.declared.words({}, kForever);
@@ -172,7 +172,7 @@ CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std
     if (!state.empty()) run.states.push_back(std::move(state));
   }
   run.words = sink.declared.words(agvs, cause->at);
-  if (fates == Fates::Kept) run.notes = sink.notes.until(cause->at);
+  if (deliveries == Deliveries::Kept) run.notes = sink.notes.until(cause->at);
   return run;
 }
 

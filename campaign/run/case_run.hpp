@@ -6,7 +6,7 @@
 
 #include "campaign/run/case_notes.hpp"
 #include "campaign/run/itinerary.hpp"
-#include "campaign/run/message_fates.hpp"
+#include "campaign/run/message_deliveries.hpp"
 #include "core/engine/run_watch.hpp"
 #include "core/outcome/outcome.hpp"
 #include "core/scenario/scenario.hpp"
@@ -29,16 +29,16 @@ struct CaseRun {
   // All states and probes that these agents had declared until then, sorted, each once; of the whole fleet if none of
   // its AGVs is known to have failed. And those of the whole fleet in the whole run.
   std::vector<std::string> words, all_words;
-  std::vector<Declared> first_said;  // by each AGV, in the whole run: the first time that it declared each word
-  std::vector<MessageFate> fates;    // of all messages, if they were asked for
-  CaseNotes notes;                   // until the failure, if they were asked for
-  Itinerary itinerary;               // of the whole run, if it was asked for
+  std::vector<Declared> first_said;         // by each AGV, in the whole run: the first time that it declared each word
+  std::vector<MessageDelivery> deliveries;  // of all messages, if they were asked for
+  CaseNotes notes;                          // until the failure, if they were asked for
+  Itinerary itinerary;                      // of the whole run, if it was asked for
 };
-enum class Fates : bool { Ignored, Kept };
+enum class Deliveries : bool { Ignored, Kept };
 
 // Under the default laws without those in `laws_left_out`.
 CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std::string& agent_config,
-                 const std::vector<std::string>& laws_left_out, Fates fates = Fates::Ignored,
+                 const std::vector<std::string>& laws_left_out, Deliveries deliveries = Deliveries::Ignored,
                  const RunWatch& watch = {});
 
 // How a run failed: two runs fail in the same way if their kinds are equal.

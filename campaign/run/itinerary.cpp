@@ -9,7 +9,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kDepartureBytes = 3 * 4 + 2 * 8 + 4 * 8, kDeliveryBytes = 2 * 4 + 8;
+constexpr std::size_t kDepartureBytes = 3 * 4 + 2 * 8 + 4 * 8, kDoneBytes = 2 * 4 + 8;
 
 void put(ByteSink& sink, const Vec2& v) {
   for (const double value : {v.x(), v.y()}) sink.u64(std::bit_cast<std::uint64_t>(value));
@@ -28,7 +28,7 @@ void ItineraryKeeper::record(const TraceRecord& record, std::string_view) {
   std::uint32_t number = read<traced::TransportDone>(record).transport.value;
   for (std::size_t agv = 0; agv < record.entity.index(); ++agv)
     number -= static_cast<std::uint32_t>(scenario_.agvs[agv].transports.size());
-  found_.deliveries.push_back({record.entity, number, record.at});
+  found_.done.push_back({record.entity, number, record.at});
 }
 
 void ItineraryKeeper::turned(const TraceRecord& record) {
@@ -97,8 +97,8 @@ std::vector<Departure> take_departures(ByteSource& source) {
 void put(ByteSink& sink, const Itinerary& itinerary) {
   put(sink, itinerary.departures);
   put(sink, itinerary.turns);
-  sink.u32(static_cast<std::uint32_t>(itinerary.deliveries.size()));
-  for (const auto& [agv, transport, at] : itinerary.deliveries) {
+  sink.u32(static_cast<std::uint32_t>(itinerary.done.size()));
+  for (const auto& [agv, transport, at] : itinerary.done) {
     sink.u32(agv.value);
     sink.u32(transport);
     sink.i64(to_ns(at));
@@ -109,8 +109,8 @@ Itinerary take_itinerary(ByteSource& source) {
   Itinerary itinerary;
   itinerary.departures = take_departures(source);
   itinerary.turns = take_departures(source);
-  itinerary.deliveries.resize(source.count(kDeliveryBytes));
-  for (auto& [agv, transport, at] : itinerary.deliveries) {
+  itinerary.done.resize(source.count(kDoneBytes));
+  for (auto& [agv, transport, at] : itinerary.done) {
     agv.value = source.u32();
     transport = source.u32();
     at = at_ns(source.i64());

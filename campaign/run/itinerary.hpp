@@ -19,7 +19,7 @@ struct Departure {
   Vec2 heading = Vec2::UnitX(), heading_there = Vec2::UnitX();
 };
 // A load is where it was to be brought.
-struct Delivery {
+struct DoneTransport {
   AgvId agv;
   std::uint32_t transport = 0;  // its number among those of the AGV
   SimTime at{};
@@ -29,7 +29,7 @@ struct Delivery {
 struct Itinerary {
   std::vector<Departure> departures;
   std::vector<Departure> turns;  // on the spot: from and to are one station, and the headings are not known
-  std::vector<Delivery> deliveries;
+  std::vector<DoneTransport> done;
 };
 void put(ByteSink& sink, const Itinerary& itinerary);
 Itinerary take_itinerary(ByteSource& source);

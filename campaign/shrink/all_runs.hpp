@@ -8,6 +8,6 @@ namespace fleetproof {
 
 // Simulates all candidates on all workers. In their order; none for those that make no sense.
 std::vector<std::optional<CaseRun>> all_runs(CaseHost& host, const Candidates& candidates,
-                                             Fates fates = Fates::Ignored);
+                                             Deliveries deliveries = Deliveries::Ignored);
 
 }  // namespace fleetproof

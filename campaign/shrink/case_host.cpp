@@ -26,11 +26,11 @@ CaseHost::CaseHost(const CaseAgent& agent, const AgentPrograms& programs, int wo
   isolated_ = std::make_unique<IsolatedRuns>(plan_, programs, hosting);
 }
 
-CaseRun CaseHost::operator()(const Scenario& scenario, Fates fates) {
+CaseRun CaseHost::operator()(const Scenario& scenario, Deliveries deliveries) {
   if (!go_on_()) throw GivenUp("no more cases are simulated");
-  if (isolated_) return isolated_->of_case(scenario, fates);
+  if (isolated_) return isolated_->of_case(scenario, deliveries);
   return run_case(scenario, programs_.find(plan_.agents.front().program, "agent"), plan_.agent_config,
-                  plan_.laws_left_out, fates);
+                  plan_.laws_left_out, deliveries);
 }
 
 std::optional<std::vector<KnownEnd>> CaseHost::ends_in(const Scenario& scenario) {

@@ -40,7 +40,7 @@ class CaseHost {
   // agent is not known.
   CaseHost(const CaseAgent& agent, const AgentPrograms& programs, int workers);
 
-  CaseRun operator()(const Scenario& scenario, Fates fates = Fates::Ignored);
+  CaseRun operator()(const Scenario& scenario, Deliveries deliveries = Deliveries::Ignored);
   // As IsolatedRuns::ends_in; none of a reference agent.
   std::optional<std::vector<KnownEnd>> ends_in(const Scenario& scenario);
   int workers() const { return workers_; }

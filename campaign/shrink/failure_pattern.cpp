@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "campaign/shrink/adverse_fates.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
+#include "campaign/shrink/other_draws.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kRunsWithOtherLuck = 16;
+constexpr std::uint32_t kRunsWithOtherDraws = 16;
 
 }  // namespace
 
@@ -24,12 +24,12 @@ std::optional<Failure> FailurePattern::match(const CaseRun& run) const {
 FailurePattern pattern_of(CaseHost& host, const FailingCase& failing) {
   const CaseRun run = host(failing.scenario);
   WordLearner learner(run);
-  const CaseRun lucky = host(with_fates_only(failing.scenario, {}));
-  const bool lucky_fails = failure_of(lucky).has_value();
-  if (!lucky_fails) learner.hear_lucky(lucky);
+  const CaseRun undisturbed = host(with_deliveries_only(failing.scenario, {}));
+  const bool undisturbed_fails = failure_of(undisturbed).has_value();
+  if (!undisturbed_fails) learner.hear_undisturbed(undisturbed);
   std::vector<CaseRun> others;
-  for (std::uint32_t i = 1; i <= kRunsWithOtherLuck && !run.words.empty(); ++i) {
-    others.push_back(host(with_other_course(failing.scenario, i, kLatest)));
+  for (std::uint32_t i = 1; i <= kRunsWithOtherDraws && !run.words.empty(); ++i) {
+    others.push_back(host(with_other_timeline(failing.scenario, i, kLatest)));
     if (!failure_of(others.back())) learner.hear_passing(others.back());
   }
   FailurePattern pattern{failing.failure.kind, failing.failure.kind.states, {{}, learner.pattern().usual}};
@@ -40,7 +40,7 @@ FailurePattern pattern_of(CaseHost& host, const FailingCase& failing) {
     if (pattern.match(other)) learner.hear_failing(other);
   }
   pattern.words = learner.pattern();
-  if (lucky_fails && learner.passing() == 0) pattern.words.telling.clear();  // nothing to compare with
+  if (undisturbed_fails && learner.passing() == 0) pattern.words.telling.clear();  // nothing to compare with
   return pattern;
 }
 

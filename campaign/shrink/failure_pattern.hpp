@@ -27,7 +27,7 @@ struct FailurePattern {
 };
 
 // The pattern of this failure. Its words are compared with runs of the same scenario without a failure: on a perfect
-// radio, and with other luck.
+// radio, and with other draws.
 FailurePattern pattern_of(CaseHost& host, const FailingCase& failing);
 
 }  // namespace fleetproof

@@ -29,9 +29,8 @@ void place(AgvSetup& setup, AgvId agv, const Itinerary& itinerary, SimTime t, Be
 Scenario without_delivered(const Scenario& scenario, const Itinerary& itinerary, SimTime t) {
   const auto transports = transports_of(scenario);
   return with_transports(scenario, [&](std::size_t i) {
-    return std::ranges::none_of(itinerary.deliveries, [&](const Delivery& delivery) {
-      return delivery.at <= t && delivery.agv.index() == transports[i].agv &&
-             delivery.transport == transports[i].number;
+    return std::ranges::none_of(itinerary.done, [&](const DoneTransport& one) {
+      return one.at <= t && one.agv.index() == transports[i].agv && one.transport == transports[i].number;
     });
   });
 }
@@ -53,7 +52,7 @@ Scenario with_later_start(const Scenario& scenario, const Itinerary& itinerary, 
   for (std::size_t i = 0; i < later.agvs.size(); ++i) place(later.agvs[i], AgvId{i}, itinerary, t, between);
   shorten_faults(later, from);
   std::erase_if(later.obstacles, [from](const ObstacleSetup& obstacle) { return obstacle.leaves <= from; });
-  std::erase_if(later.fates, [from](const GivenFate& fate) { return fate.sent < from; });
+  std::erase_if(later.deliveries, [from](const GivenDelivery& delivery) { return delivery.sent < from; });
   auto& adverse = later.radio.adverse;
   adverse.adverse_from_s = std::max(0.0, adverse.adverse_from_s - to_seconds(from));
   if (adverse.adverse_until_s > 0.0)  // 0 would be no end

@@ -71,7 +71,7 @@ void visit_instants(Scenario& scenario, Visit visit) {
     visit(obstacle.appears);
     if (obstacle.leaves != kLongestDuration) visit(obstacle.leaves);
   }
-  for (GivenFate& fate : scenario.fates) visit(fate.sent);
+  for (GivenDelivery& delivery : scenario.deliveries) visit(delivery.sent);
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ std::vector<NumberEdit> number_edits(const Scenario& scenario);
 
 // All instants of the scenario so much earlier. None gets earlier than the start of the run.
 Scenario earlier_by(const Scenario& scenario, Duration by);
-// The earliest instant of the scenario that is not its beginning: an order, a fault, an obstacle, a call, a given fate.
+// The earliest instant of the scenario that is not its beginning: an order, a fault, an obstacle, a call, a given
+// delivery.
 Duration earliest_instant(const Scenario& scenario);
 
 }  // namespace fleetproof

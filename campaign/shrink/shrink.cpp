@@ -5,11 +5,11 @@
 #include <tuple>
 #include <vector>
 
-#include "campaign/shrink/adverse_fates.hpp"
-#include "campaign/shrink/fate_passes.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
+#include "campaign/shrink/delivery_passes.hpp"
+#include "campaign/shrink/other_draws.hpp"
 #include "campaign/shrink/shrinker.hpp"
-#include "campaign/shrink/sparse_luck.hpp"
+#include "campaign/shrink/sparse_losses.hpp"
 #include "campaign/shrink/surgery.hpp"
 
 namespace fleetproof {
@@ -23,14 +23,14 @@ CaseSize CaseSize::of(const Scenario& scenario) {
           .faults = scenario.faults.size(),
           .obstacles = scenario.obstacles.size(),
           .segments = scenario.map->segment_count(),
-          .fates = scenario.fates.size(),
-          .fates_are_drawn = !is_perfect,
+          .deliveries = scenario.deliveries.size(),
+          .deliveries_are_drawn = !is_perfect,
           .horizon = scenario.horizon};
 }
 
 std::size_t CaseSize::price() const {
   constexpr std::size_t few_agvs = 3, of_an_agv = 4;
-  return fates_are_drawn ? ~std::size_t{0} : fates + of_an_agv * (std::max(agvs, few_agvs) - few_agvs);
+  return deliveries_are_drawn ? ~std::size_t{0} : deliveries + of_an_agv * (std::max(agvs, few_agvs) - few_agvs);
 }
 
 bool CaseSize::is_smaller_than(const CaseSize& other) const {
@@ -43,33 +43,33 @@ bool CaseSize::is_smaller_than(const CaseSize& other) const {
 
 namespace {
 
-// So many ways in which the failure comes about are compared: with sparse luck, and with as much luck as there was.
+// So many ways in which the failure comes about are compared: with sparse losses, and with as many as there were.
 constexpr std::size_t kSparseStarts = 4;
 constexpr std::uint32_t kOtherStarts = 6;
-constexpr std::uint32_t kCourses = 12;  // on which a single adverse message is looked for
-constexpr std::size_t kFew = 2;         // adverse messages: fewer are not looked for elsewhere
+constexpr std::uint32_t kTimelines = 12;  // on which a single adverse message is looked for
+constexpr std::size_t kFew = 2;           // adverse messages: fewer are not looked for elsewhere
 constexpr std::size_t kFewAgvs = 3;
 
 // So long before the failure, at least, a run may start later. A failure that comes soon after the start may need more
-// bad luck at once, so all of them are tried: the last is the run from its beginning.
+// losses and delays at once, so all of them are tried: the last is the run from its beginning.
 constexpr std::array<Duration, 3> kLeadUps = {std::chrono::seconds(10), std::chrono::seconds(3), kLongestDuration};
 
 const OnSmaller kQuietly = [](const FailingCase&, std::string_view) {};
 
 bool is_large(const FailingCase& failing) { return failing.scenario.agvs.size() > kFewAgvs; }
-bool has_luck(const FailingCase& failing) { return CaseSize::of(failing.scenario).fates_are_drawn; }
+bool draws_deliveries(const FailingCase& failing) { return CaseSize::of(failing.scenario).deliveries_are_drawn; }
 
 // What is taken away first: what is left then may need all of the other.
-enum class First : bool { BadLuck, Fleet };
+enum class First : bool { Radio, Fleet };
 
-// While the radio draws, a run that takes another course meets bad luck again. The shorter run comes last: on other
-// courses, it may fail later.
-FailingCase with_luck_drawn(Trials& trials, const FailingCase& original, Duration lead_up, First first,
-                            const OnSmaller& on_smaller) {
-  Shrinker shrinker(trials, original, on_smaller, Shrinker::Courses::Free);
+// While the radio draws, a run that takes another timeline meets losses and delays again. The shorter run comes last:
+// on other timelines, it may fail later.
+FailingCase with_radio_drawn(Trials& trials, const FailingCase& original, Duration lead_up, First first,
+                             const OnSmaller& on_smaller) {
+  Shrinker shrinker(trials, original, on_smaller, Shrinker::Timelines::Free);
   shrinker.end_with_slack();
   shrinker.start_later(lead_up);
-  if (first == First::BadLuck) shrinker.improve_radio();
+  if (first == First::Radio) shrinker.improve_radio();
   shrinker.keep_the_involved();
   for (bool smaller = true; smaller && !trials.ended();) {
     smaller = shrinker.take_out_things();
@@ -81,18 +81,18 @@ FailingCase with_luck_drawn(Trials& trials, const FailingCase& original, Duratio
   return shrinker.best();
 }
 
-FailingCase with_luck_written(Trials& trials, const FailingCase& drawn, const OnSmaller& on_smaller) {
+FailingCase with_deliveries_written(Trials& trials, const FailingCase& drawn, const OnSmaller& on_smaller) {
   Shrinker shrinker(trials, drawn, on_smaller);
-  shrinker.narrow_bad_luck();
-  if (write_least_fates_down(shrinker)) take_out_fates(shrinker);
+  shrinker.narrow_losses();
+  if (write_least_deliveries_down(shrinker)) take_out_deliveries(shrinker);
   return shrinker.best();
 }
 
 // Of the ways in which the failure comes about, the one that needs the fewest adverse messages, and not many AGVs
 // instead. What is quick comes first.
-class LeastBadLuck {
+class FewestLosses {
  public:
-  LeastBadLuck(Trials& trials, const FailingCase& original, const OnSmaller& on_smaller)
+  FewestLosses(Trials& trials, const FailingCase& original, const OnSmaller& on_smaller)
       : trials_(trials), on_smaller_(on_smaller), best_(original) {}
 
   FailingCase find() {
@@ -104,7 +104,7 @@ class LeastBadLuck {
     for (const FailingCase& way : ways_) {
       if (!is_enough()) compare(way);
     }
-    for (const FailingCase& way : ways_) try_sparse_luck(way);
+    for (const FailingCase& way : ways_) try_sparse_losses(way);
     for (const FailingCase& way : ways_) try_other_starts(way);
     return best_;
   }
@@ -113,48 +113,48 @@ class LeastBadLuck {
   bool is_enough() const { return trials_.ended() || price_of(best_) <= kFew; }
   static std::size_t price_of(const FailingCase& failing) { return CaseSize::of(failing.scenario).price(); }
 
-  void try_lead_up(const FailingCase& original, std::size_t i, First first = First::BadLuck) {
-    const bool is_first = i == 0 && first == First::BadLuck;
-    const FailingCase way = with_luck_drawn(trials_, original, kLeadUps[i], first, is_first ? on_smaller_ : kQuietly);
+  void try_lead_up(const FailingCase& original, std::size_t i, First first = First::Radio) {
+    const bool is_first = i == 0 && first == First::Radio;
+    const FailingCase way = with_radio_drawn(trials_, original, kLeadUps[i], first, is_first ? on_smaller_ : kQuietly);
     if (is_first) best_ = way;
     if (!is_first && price_of(way) < price_of(best_)) {
       best_ = way;
       on_smaller_(best_, "perfect radio");
     }
-    if (!has_luck(way)) return;
+    if (!draws_deliveries(way)) return;
     ways_.push_back(way);
     try_single_messages(way);
   }
 
   void try_other_starts(const FailingCase& way) {
-    for (std::uint32_t luck = 1; luck <= kOtherStarts && !is_enough(); ++luck) {
+    for (std::uint32_t draw = 1; draw <= kOtherStarts && !is_enough(); ++draw) {
       const auto start = trials_.first_failing(
-          {1, [&](std::size_t) { return std::optional(with_other_course(way.scenario, luck, kLatest)); }});
+          {1, [&](std::size_t) { return std::optional(with_other_timeline(way.scenario, draw, kLatest)); }});
       if (start) compare(start->is);
     }
   }
 
   void try_single_messages(const FailingCase& way) {
-    for (std::uint32_t course = 0; course < kCourses && !is_enough(); ++course) {
-      Scenario lucky = with_fates_only(way.scenario, {});
-      lucky.horizon = longer(lucky.horizon);
-      if (course > 0) lucky = with_other_course(std::move(lucky), course, kLatest);
-      const auto troubles = troubles_of(trials_.host()(lucky, Fates::Kept).fates, kStart + lucky.horizon,
-                                        seconds(way.scenario.radio.delay_s));
+    for (std::uint32_t timeline = 0; timeline < kTimelines && !is_enough(); ++timeline) {
+      Scenario undisturbed = with_deliveries_only(way.scenario, {});
+      undisturbed.horizon = longer(undisturbed.horizon);
+      if (timeline > 0) undisturbed = with_other_timeline(std::move(undisturbed), timeline, kLatest);
+      const auto troubles = troubles_of(trials_.host()(undisturbed, Deliveries::Kept).deliveries,
+                                        kStart + undisturbed.horizon, seconds(way.scenario.radio.delay_s));
       const auto found = trials_.first_failing({troubles.size(), [&](std::size_t rank) {
-                                                  Scenario unlucky = lucky;
-                                                  unlucky.fates = {troubles[rank]};
-                                                  return std::optional(std::move(unlucky));
+                                                  Scenario disturbed = undisturbed;
+                                                  disturbed.deliveries = {troubles[rank]};
+                                                  return std::optional(std::move(disturbed));
                                                 }});
       if (found) compare(found->is);
     }
   }
 
-  // With less bad luck, a run may fail later.
+  // With fewer losses and delays, a run may fail later.
   static Duration longer(Duration horizon) { return horizon * 5 / 4; }
 
-  void try_sparse_luck(const FailingCase& way) {
-    const auto cases = with_sparse_luck(way.scenario, way.failure.at);
+  void try_sparse_losses(const FailingCase& way) {
+    const auto cases = with_sparse_losses(way.scenario, way.failure.at);
     std::size_t from = 0;
     for (std::size_t start = 0; start < kSparseStarts && from < cases.size() && !is_enough(); ++start) {
       auto found = trials_.first_failing({cases.size() - from, [&](std::size_t rank) {
@@ -169,14 +169,14 @@ class LeastBadLuck {
   }
 
   void compare(const FailingCase& start) {
-    FailingCase other = with_luck_written(trials_, start, kQuietly);
+    FailingCase other = with_deliveries_written(trials_, start, kQuietly);
     if (price_of(other) >= price_of(best_)) return;
     best_ = std::move(other);
     on_smaller_(best_, "fewer adverse messages");
   }
 
   Trials& trials_;
-  std::vector<FailingCase> ways_;  // with luck still drawn
+  std::vector<FailingCase> ways_;  // the radio still draws
   const OnSmaller& on_smaller_;
   FailingCase best_;
 };
@@ -184,8 +184,8 @@ class LeastBadLuck {
 // Why it is not known whether something of the case could be left out alone; empty if it is known.
 std::string why_not_known(const ShrinkResult& result, bool ended) {
   if (ended) return "the time or the trials that were allowed ended before all had been tried";
-  if (result.after.fates_are_drawn)
-    return "the radio still draws: with its fates written down, the run fails otherwise";
+  if (result.after.deliveries_are_drawn)
+    return "the radio still draws: with its deliveries written down, the run fails otherwise";
   const auto has_script = [](const AgvSetup& agv) { return !agv.script.empty(); };
   if (std::ranges::any_of(result.best.scenario.agvs, has_script)) return "segments that a script may name stay";
   return "";
@@ -193,14 +193,14 @@ std::string why_not_known(const ShrinkResult& result, bool ended) {
 
 }  // namespace
 
-// When the fates of messages are written down, each further step must keep the course of the run up to them.
+// When the deliveries of messages are written down, each further step must keep the timeline of the run up to them.
 ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& original, const FailurePattern& pattern,
                     const TrialLimits& limits, const OnSmaller& on_smaller) {
   Trials trials(host, cache, pattern, limits);
-  Shrinker shrinker(trials, LeastBadLuck(trials, original, on_smaller).find(), on_smaller);
+  Shrinker shrinker(trials, FewestLosses(trials, original, on_smaller).find(), on_smaller);
   for (bool smaller = true; smaller && !trials.ended();) {
-    smaller = take_out_fates(shrinker);
-    smaller |= find_fewer_fates(shrinker);
+    smaller = take_out_deliveries(shrinker);
+    smaller |= find_fewer_deliveries(shrinker);
     smaller |= shrinker.take_out_things();
     smaller |= shrinker.take_out_segments();
     smaller |= shrinker.shorten();

@@ -11,19 +11,20 @@ namespace fleetproof {
 
 // How much there is of a scenario. `fates`: of single messages; not counted while the radio draws them.
 struct CaseSize {
-  std::size_t agvs = 0, transports = 0, faults = 0, obstacles = 0, segments = 0, fates = 0;
-  bool fates_are_drawn = true;
+  std::size_t agvs = 0, transports = 0, faults = 0, obstacles = 0, segments = 0, deliveries = 0;
+  bool deliveries_are_drawn = true;
   Duration horizon{};
   static CaseSize of(const Scenario& scenario);
-  // How hard it is to see through, in adverse messages: each AGV beyond the third is as hard as four. While fates are
-  // drawn, more than any list of them.
+  // How hard it is to see through, in adverse messages: each AGV beyond the third is as hard as four. While deliveries
+  // are drawn, more than any list of them.
   std::size_t price() const;
   // By the price, then by the number of things, then by the time.
   bool is_smaller_than(const CaseSize& other) const;
 };
 
 // The smallest case that was found. `one_minimal`: each single AGV, transport, fault, obstacle, segment and message
-// fate was taken away once, and the failure was another one or none. Otherwise `why_not` says why that is not known.
+// delivery was taken away once, and the failure was another one or none. Otherwise `why_not` says why that is not
+// known.
 struct ShrinkResult {
   FailingCase best;
   CaseSize before, after;
@@ -36,9 +37,9 @@ struct ShrinkResult {
 // Hears of each smaller case, with the pass that found it.
 using OnSmaller = std::function<void(const FailingCase& smaller, std::string_view pass)>;
 
-// Makes a failing scenario smaller as long as it fails in the same way: fewer AGVs, less bad luck on the radio, fewer
-// transports, faults and obstacles, a smaller plant, a shorter run, simpler numbers. The result is the same for any
-// number of workers, unless the deadline ends the work. Requires: `original` fails as it says, and shows
+// Makes a failing scenario smaller as long as it fails in the same way: fewer AGVs, fewer losses and delays on the
+// radio, fewer transports, faults and obstacles, a smaller plant, a shorter run, simpler numbers. The result is the
+// same for any number of workers, unless the deadline ends the work. Requires: `original` fails as it says, and shows
 // the pattern.
 ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& original, const FailurePattern& pattern,
                     const TrialLimits& limits, const OnSmaller& on_smaller);

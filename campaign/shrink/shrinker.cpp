@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <utility>
 
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 #include "campaign/shrink/fitness.hpp"
 #include "campaign/shrink/later_start.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 
 namespace fleetproof {
 namespace {
 
-// A smaller case is tried with so many other courses before it is given up. Whether others are involved, and whether
+// A smaller case is tried with so many other timelines before it is given up. Whether others are involved, and whether
 // the radio is, is asked more often: that decides most.
-constexpr std::size_t kOtherCourses = 23, kCoursesOfTheFew = 64;
+constexpr std::size_t kOtherTimelines = 23, kTimelinesOfTheFew = 64;
 constexpr Duration kAfterwards = std::chrono::milliseconds(1), kShortest = std::chrono::milliseconds(10);
-constexpr std::int64_t kSteps = 16;  // of a stretch of time that is narrowed
+constexpr std::int64_t kSteps = 16;  // of a span of time that is narrowed
 
 std::optional<Scenario> if_fair(Scenario scenario) {
   return is_fair(scenario) ? std::optional(std::move(scenario)) : std::nullopt;
@@ -24,12 +24,13 @@ std::optional<Scenario> if_fair(Scenario scenario) {
 
 Duration since_start(SimTime t) { return t - kStart; }
 
-// On another course, a run may fail later.
+// On another timeline, a run may fail later.
 Duration with_slack(Duration seen) { return seen + seen / 2 + std::chrono::seconds(10); }
 
-// Course 0 is the present one.
-Scenario on_course(Scenario scenario, std::size_t course) {
-  return course == 0 ? scenario : with_other_course(std::move(scenario), static_cast<std::uint32_t>(course), kLatest);
+// Timeline 0 is the present one.
+Scenario on_timeline(Scenario scenario, std::size_t timeline) {
+  return timeline == 0 ? scenario
+                       : with_other_timeline(std::move(scenario), static_cast<std::uint32_t>(timeline), kLatest);
 }
 
 }  // namespace
@@ -42,8 +43,8 @@ bool Shrinker::accept(std::optional<Trials::Found> found, std::string_view pass)
 }
 
 std::size_t Shrinker::attempts() const {
-  const bool is_free = courses_ == Courses::Free || CaseSize::of(best_.scenario).fates_are_drawn;
-  return is_free ? 1 + kOtherCourses : 1;
+  const bool is_free = timelines_ == Timelines::Free || CaseSize::of(best_.scenario).deliveries_are_drawn;
+  return is_free ? 1 + kOtherTimelines : 1;
 }
 
 // ---- time
@@ -65,15 +66,15 @@ bool Shrinker::start_later(Duration lead_up) {
     if (10 * with_slack(seen - at + before) < 9 * shortest_) starts.push_back(at - before);
   }
   if (starts.empty()) return false;
-  const Itinerary itinerary = trials_.host()(best_.scenario, Fates::Kept).itinerary;
-  const std::size_t tries = attempts() == 1 ? 1 : kCoursesOfTheFew, count = starts.size() * 2 * tries;
+  const Itinerary itinerary = trials_.host()(best_.scenario, Deliveries::Kept).itinerary;
+  const std::size_t tries = attempts() == 1 ? 1 : kTimelinesOfTheFew, count = starts.size() * 2 * tries;
   const auto make = [&](std::size_t rank) {
     const Duration from = starts[rank % count / tries / 2];
     const Between between = rank / tries % 2 == 0 ? Between::Behind : Between::Ahead;
     Scenario later = with_later_start(best_.scenario, itinerary, from, between);
     later.horizon = with_slack(seen - from);
     if (rank < count) later = with_agvs(later, [&](std::size_t agv) { return is_involved(agv); });
-    return if_fair(on_course(std::move(later), rank % tries));
+    return if_fair(on_timeline(std::move(later), rank % tries));
   };
   auto found = trials_.first_failing({2 * count, make});
   if (found) shortest_ = found->is.scenario.horizon;
@@ -113,8 +114,8 @@ bool Shrinker::end_earliest(std::string_view pass) {
   return smaller;
 }
 
-bool Shrinker::narrow_bad_luck() {
-  if (!CaseSize::of(best_.scenario).fates_are_drawn) return false;
+bool Shrinker::narrow_losses() {
+  if (!CaseSize::of(best_.scenario).deliveries_are_drawn) return false;
   bool smaller = false;
   Duration high = since_start(best_.failure.at);
   for (Duration step = high / kSteps; step > std::chrono::milliseconds(100) && !trials_.ended(); step /= 4) {
@@ -124,7 +125,7 @@ bool Shrinker::narrow_bad_luck() {
                                           Scenario later = best_.scenario;
                                           const auto number = static_cast<std::int64_t>(rank / attempts());
                                           later.radio.adverse.adverse_from_s = to_seconds(high - step * (number + 1));
-                                          return std::optional(on_course(std::move(later), rank % attempts()));
+                                          return std::optional(on_timeline(std::move(later), rank % attempts()));
                                         }});
     smaller |= accept(std::move(found), "perfect radio at first");
     high = since_start(best_.failure.at);
@@ -134,20 +135,20 @@ bool Shrinker::narrow_bad_luck() {
 
 // ---- radio
 
-bool Shrinker::try_with_courses(std::string_view pass, const Scenario& smaller) {
+bool Shrinker::try_with_timelines(std::string_view pass, const Scenario& smaller) {
   if (scenario_digest(smaller) == scenario_digest(best_.scenario)) return false;
-  const auto make = [&](std::size_t course) { return std::optional(on_course(smaller, course)); };
-  return accept(trials_.first_failing({kCoursesOfTheFew, make}), pass);
+  const auto make = [&](std::size_t timeline) { return std::optional(on_timeline(smaller, timeline)); };
+  return accept(trials_.first_failing({kTimelinesOfTheFew, make}), pass);
 }
 
 bool Shrinker::improve_radio() {
-  if (!CaseSize::of(best_.scenario).fates_are_drawn) return false;
-  if (try_with_courses("perfect radio", with_fates_only(best_.scenario, {}))) return true;
+  if (!CaseSize::of(best_.scenario).deliveries_are_drawn) return false;
+  if (try_with_timelines("perfect radio", with_deliveries_only(best_.scenario, {}))) return true;
   bool smaller = false;
   const auto without = [&](std::string_view pass, const std::function<void(RadioSetup&)>& edit) {
     Scenario better = best_.scenario;
     edit(better.radio);
-    smaller |= try_with_courses(pass, better);
+    smaller |= try_with_timelines(pass, better);
   };
   without("no copies", [](RadioSetup& radio) { radio.duplicates = 0.0; });
   without("no delay", [](RadioSetup& radio) { radio.delay_s = 0.0; });
@@ -176,14 +177,14 @@ bool Shrinker::keep_the_involved() {
   for (std::size_t agv = 0; agv < fleet; ++agv) {
     if (!is_involved(agv)) others.push_back(agv);
   }
-  const std::size_t tries = attempts() == 1 ? 1 : kCoursesOfTheFew;
+  const std::size_t tries = attempts() == 1 ? 1 : kTimelinesOfTheFew;
   return accept(trials_.first_failing({others.size() * tries,
                                        [&](std::size_t rank) {
                                          const std::size_t also = others[rank / tries];
                                          Scenario few = with_agvs(best_.scenario, [&](std::size_t agv) {
                                            return is_involved(agv) || agv == also;
                                          });
-                                         return if_fair(on_course(std::move(few), rank % tries));
+                                         return if_fair(on_timeline(std::move(few), rank % tries));
                                        }}),
                 "fewer AGVs");
 }
@@ -204,7 +205,7 @@ bool Shrinker::take_out(std::string_view pass, const Count& count, const Edit& e
                                             Scenario less = edit(best_.scenario, [from = from, to = to](std::size_t i) {
                                               return i < from || i >= to;
                                             });
-                                            return if_fair(on_course(std::move(less), rank % tries));
+                                            return if_fair(on_timeline(std::move(less), rank % tries));
                                           }});
       if (!found) break;
       end = run_of(found->rank).first;

@@ -13,13 +13,13 @@ namespace fleetproof {
 // The passes of shrink(). Each tries smaller cases, keeps what fails in the same way, and says whether it kept any.
 class Shrinker {
  public:
-  // Requires: trials and on_smaller outlive the object. Courses::Free: each smaller case is tried with other courses,
-  // too. Courses::Kept: only where the radio draws.
-  enum class Courses : bool { Kept, Free };
-  Shrinker(Trials& trials, FailingCase original, const OnSmaller& on_smaller, Courses courses = Courses::Kept)
-      : trials_(trials), best_(std::move(original)), on_smaller_(on_smaller), courses_(courses) {}
+  // Requires: trials and on_smaller outlive the object. Timelines::Free: each smaller case is tried with other
+  // timelines, too. Timelines::Kept: only where the radio draws.
+  enum class Timelines : bool { Kept, Free };
+  Shrinker(Trials& trials, FailingCase original, const OnSmaller& on_smaller, Timelines timelines = Timelines::Kept)
+      : trials_(trials), best_(std::move(original)), on_smaller_(on_smaller), timelines_(timelines) {}
 
-  // Ends the run some time after the failure, perhaps later than before: on another course, it may fail later.
+  // Ends the run some time after the failure, perhaps later than before: on another timeline, it may fail later.
   bool end_with_slack();
   // Starts the run before the failure, at least by `lead_up`, from where the AGVs were then.
   bool start_later(Duration lead_up);
@@ -32,8 +32,8 @@ class Shrinker {
   // AGVs, transports, faults, obstacles, sources of radio noise.
   bool take_out_things();
   bool take_out_segments();
-  // The radio is perfect before and after a stretch of time.
-  bool narrow_bad_luck();
+  // The radio is perfect before and after a span of time.
+  bool narrow_losses();
 
   // Of which passes are made. The first candidate that fails in the same way is kept; if there is one, true.
   using Edit = std::function<Scenario(const Scenario& scenario, const Keeps& keeps)>;
@@ -49,14 +49,14 @@ class Shrinker {
 
  private:
   bool end_earliest(std::string_view pass);
-  bool try_with_courses(std::string_view pass, const Scenario& smaller);
+  bool try_with_timelines(std::string_view pass, const Scenario& smaller);
   std::size_t attempts() const;
   bool is_involved(std::size_t agv) const;
 
   Trials& trials_;
   FailingCase best_;
   const OnSmaller& on_smaller_;
-  Courses courses_;
+  Timelines timelines_;
   Duration shortest_ = kLongestDuration;  // of the runs that began later; they may end later again
 };
 

@@ -39,12 +39,12 @@ Scenario with_agvs(const Scenario& scenario, const Keeps& keeps) {
   less.agvs = kept(less.agvs, keeps);
   std::erase_if(less.faults, [&](const Fault& fault) { return !places.has(fault.agv.index()); });
   for (Fault& fault : less.faults) places.renumber(fault.agv);
-  std::erase_if(less.fates, [&](const GivenFate& fate) {
-    return !places.has(fate.sender.index()) || !places.has(fate.receiver.index());
+  std::erase_if(less.deliveries, [&](const GivenDelivery& delivery) {
+    return !places.has(delivery.sender.index()) || !places.has(delivery.receiver.index());
   });
-  for (GivenFate& fate : less.fates) {
-    places.renumber(fate.sender);
-    places.renumber(fate.receiver);
+  for (GivenDelivery& delivery : less.deliveries) {
+    places.renumber(delivery.sender);
+    places.renumber(delivery.receiver);
   }
   return less;
 }
@@ -59,9 +59,9 @@ Scenario with_fleet_renumbered(const Scenario& scenario, std::size_t first) {
     id = std::remove_reference_t<decltype(id)>{(id.index() + fleet - first) % fleet};
   };
   for (Fault& fault : other.faults) renumber(fault.agv);
-  for (GivenFate& fate : other.fates) {
-    renumber(fate.sender);
-    renumber(fate.receiver);
+  for (GivenDelivery& delivery : other.deliveries) {
+    renumber(delivery.sender);
+    renumber(delivery.receiver);
   }
   return other;
 }

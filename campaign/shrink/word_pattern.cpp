@@ -20,10 +20,10 @@ bool WordPattern::match(const Words& words) const {
   return std::ranges::includes(words, telling) && std::ranges::includes(usual, words);
 }
 
-void WordLearner::hear_lucky(const CaseRun& run) {
+void WordLearner::hear_undisturbed(const CaseRun& run) {
   std::erase_if(telling_, [&](const std::string& word) { return has(run.all_words, word); });
   for (const std::string& word : run.all_words) add(usual_, word);
-  lucky_.insert(run.all_words.begin(), run.all_words.end());
+  undisturbed_.insert(run.all_words.begin(), run.all_words.end());
 }
 
 void WordLearner::hear_passing(const CaseRun& run) {
@@ -41,7 +41,7 @@ void WordLearner::keep_telling(const std::function<bool(const std::string& word)
 
 bool WordLearner::is_ordinary(const std::string& word) const {
   const auto said = saying_.find(word);
-  return lucky_.contains(word) || (said != saying_.end() && 2 * said->second >= passing_);
+  return undisturbed_.contains(word) || (said != saying_.end() && 2 * said->second >= passing_);
 }
 
 WordPattern WordLearner::pattern() const {

@@ -27,7 +27,7 @@ class WordLearner {
  public:
   explicit WordLearner(const CaseRun& failing) : telling_(failing.words), usual_(failing.words) {}
   // On a perfect radio, without a failure: whatever is said there is usual.
-  void hear_lucky(const CaseRun& run);
+  void hear_undisturbed(const CaseRun& run);
   void hear_passing(const CaseRun& run);
   void hear_failing(const CaseRun& run);
   // Other words do not tell.
@@ -39,7 +39,7 @@ class WordLearner {
 
  private:
   std::vector<std::string> telling_, usual_;
-  std::set<std::string> lucky_;
+  std::set<std::string> undisturbed_;
   std::map<std::string, std::uint32_t> saying_;  // of the runs without a failure
   std::uint32_t passing_ = 0;
 };

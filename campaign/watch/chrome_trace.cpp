@@ -14,7 +14,7 @@
 namespace fleetproof {
 namespace {
 
-// The rows of a body, from above. Stretches below the safety distance that lie across each other have a row each.
+// The rows of a body, from above. Episodes below the safety distance that lie across each other have a row each.
 enum RowNumber : int { kDoes = 1, kSays, kRadio, kHappens, kDistanceRow };
 constexpr const char* kRowNames[] = {"", "does", "agent says", "radio", "happens", "below the safety distance"};
 constexpr int kMostAtOnce = 200, kGoesOn = 10'000;  // things at one instant on one row; from it to the row that goes on
@@ -118,7 +118,7 @@ void ChromeTrace::record(const TraceRecord& record, std::string_view text) {
     case TraceKind::LostToSource:
       return message(record);
     case TraceKind::Described:
-    case TraceKind::FateDecided:
+    case TraceKind::DeliveryDecided:
     case TraceKind::CallAccepted:
     case TraceKind::Belief:
     case TraceKind::TimerWentOff:

@@ -15,7 +15,7 @@ namespace fleetproof {
 
 // A run in the JSON trace event format of Chrome, which Perfetto and chrome://tracing show. Every body is a process
 // with rows: what it does, what its agent says of itself, the radio, what happened to it. A message that is received is
-// an arrow. A stretch below the safety distance is a bar of its own. Perfetto nests what has no length and happens at
+// an arrow. An episode below the safety distance is a bar of its own. Perfetto nests what has no length and happens at
 // one instant, and drops what lies deeper than 512: a row with more at one instant goes on in rows of its own.
 class ChromeTrace final : public TraceSink {
  public:

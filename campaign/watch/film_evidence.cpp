@@ -35,17 +35,19 @@ const Row* last_until(const std::vector<Row>& rows, std::size_t body, std::int64
 
 }  // namespace
 
-std::string given_fates_text(std::span<const GivenFate> fates) {
-  if (fates.empty()) return {};
-  const auto count = [&](auto is_meant) { return static_cast<std::size_t>(std::ranges::count_if(fates, is_meant)); };
-  const std::size_t lost = count([](const GivenFate& f) { return f.lost; });
-  const std::size_t doubled = count([](const GivenFate& f) { return !f.lost && f.copied; });
+std::string given_deliveries_text(std::span<const GivenDelivery> deliveries) {
+  if (deliveries.empty()) return {};
+  const auto count = [&](auto is_meant) {
+    return static_cast<std::size_t>(std::ranges::count_if(deliveries, is_meant));
+  };
+  const std::size_t lost = count([](const GivenDelivery& f) { return f.lost; });
+  const std::size_t doubled = count([](const GivenDelivery& f) { return !f.lost && f.copied; });
   std::vector<std::string> kinds;
   if (lost > 0) kinds.push_back(fmt::format("{} lost", lost));
   if (doubled > 0) kinds.push_back(fmt::format("{} delivered twice", doubled));
-  if (fates.size() > lost + doubled)
-    kinds.push_back(fmt::format("{} with a given delay", fates.size() - lost - doubled));
-  return fmt::format("{} ({})", count_text(fates.size(), "message"), joined(kinds));
+  if (deliveries.size() > lost + doubled)
+    kinds.push_back(fmt::format("{} with a given delay", deliveries.size() - lost - doubled));
+  return fmt::format("{} ({})", count_text(deliveries.size(), "message"), joined(kinds));
 }
 
 std::string place_text(const Vec2& place_m) {
@@ -137,8 +139,8 @@ std::string FilmEvidence::faults(const std::vector<std::size_t>& bodies, SimTime
     found.push_back(fmt::format("{}{} of {} {:.3f} s before ({:.3f} s)", is_end ? "end of the " : "", h.details,
                                 name(EntityId{h.body}), in_seconds(at_us - h.at_us), in_seconds(h.at_us)));
   }
-  const std::string fates = given_fates_text(scenario_.fates);
-  const std::string radio = fates.empty() ? "" : " The scenario gives the fate of " + fates + ".";
+  const std::string deliveries = given_deliveries_text(scenario_.deliveries);
+  const std::string radio = deliveries.empty() ? "" : " The scenario decides the delivery of " + deliveries + ".";
   if (found.empty()) return "No injected fault struck them in the two minutes before." + radio;
   std::ranges::reverse(found);
   const std::size_t more = found.size() > kMostFaults ? found.size() - kMostFaults : 0;

@@ -10,8 +10,8 @@
 
 namespace fleetproof {
 
-// "2 messages (1 lost, 1 delivered twice)"; empty: the scenario gives no fates.
-std::string given_fates_text(std::span<const GivenFate> fates);
+// "2 messages (1 lost, 1 delivered twice)"; empty: the scenario decides no delivery.
+std::string given_deliveries_text(std::span<const GivenDelivery> deliveries);
 
 // "(30.53, 0.00) m", without a minus before a zero.
 std::string place_text(const Vec2& place_m);

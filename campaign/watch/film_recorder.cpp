@@ -25,18 +25,18 @@ bool is_note(TraceKind kind) {
   return kind == TraceKind::Probe || kind == TraceKind::Log || kind == TraceKind::NotesLeftOut;
 }
 
-web::Fate fate_of(TraceKind kind) {
+web::Receipt receipt_of(TraceKind kind) {
   switch (kind) {
     case TraceKind::LostInOutage:
-      return web::Fate::LostInOutage;
+      return web::Receipt::LostInOutage;
     case TraceKind::LostByInterference:
-      return web::Fate::LostByInterference;
+      return web::Receipt::LostByInterference;
     case TraceKind::LostToSource:
-      return web::Fate::LostToSource;
+      return web::Receipt::LostToSource;
     case TraceKind::Lost:
-      return web::Fate::LostByChance;
+      return web::Receipt::LostByChance;
     default:
-      return web::Fate::Received;
+      return web::Receipt::Received;
   }
 }
 
@@ -56,7 +56,7 @@ const TransportOrder& order_of(const Scenario& scenario, std::size_t number) {
 }  // namespace
 
 FilmRecorder::FilmRecorder(const Scenario& scenario)
-    : scenario_(scenario), context_(scenario), pieces_(*scenario.map), fates_(scenario.fates) {}
+    : scenario_(scenario), context_(scenario), pieces_(*scenario.map), deliveries_(scenario.deliveries) {}
 
 void FilmRecorder::piece_started(const Piece& piece) {
   context_.note(piece);
@@ -87,8 +87,8 @@ void FilmRecorder::record(const TraceRecord& record, std::string_view text) {
     case TraceKind::AgentState:
       film_.states.push_back({record.entity.index(), film_us(record.at), printable(text, kLongestText), order_});
       return;
-    case TraceKind::FateDecided:
-      return note_fate(record);
+    case TraceKind::DeliveryDecided:
+      return note_delivery(record);
     case TraceKind::CallAccepted:
       return note_command(record);
     case TraceKind::Described:
@@ -163,27 +163,27 @@ void FilmRecorder::note_message(const TraceRecord& record) {
 
 void FilmRecorder::note_arrival(const TraceRecord& record, web::Message& message) {
   const Reception reception{message.number, record.entity.index()};
-  web::Arrival arrival{record.entity.index(), fate_of(record.kind), film_us(record.at) - message.sent_us, order_};
+  web::Arrival arrival{record.entity.index(), receipt_of(record.kind), film_us(record.at) - message.sent_us, order_};
   arrival.is_given = given_.contains(reception);
-  if (arrival.fate == web::Fate::LostByChance && arrival.is_given) arrival.fate = web::Fate::LostAsGiven;
+  if (arrival.receipt == web::Receipt::LostByChance && arrival.is_given) arrival.receipt = web::Receipt::LostAsGiven;
   message.arrivals.push_back(arrival);
   const auto known = under_way_.find(reception);
   if (known == under_way_.end()) return;
   // Of two copies, the one that was due is here.
   auto& due_us = known->second;
-  if (arrival.fate == web::Fate::Received && due_us.size() > 1) {
+  if (arrival.receipt == web::Receipt::Received && due_us.size() > 1) {
     due_us.erase(std::ranges::min_element(due_us));
   } else {
     under_way_.erase(known);
   }
 }
 
-void FilmRecorder::note_fate(const TraceRecord& record) {
-  const auto decided = read<traced::FateDecided>(record);
+void FilmRecorder::note_delivery(const TraceRecord& record) {
+  const auto decided = read<traced::DeliveryDecided>(record);
   const AgvId receiver{record.entity.index()};
   const Reception reception{decided.number, receiver.index()};
   if (!decided.lost) under_way_[reception].push_back(film_us(decided.due_after));
-  if (fates_.of({decided.sender, receiver, record.at, decided.ordinal}) != nullptr) given_.insert(reception);
+  if (deliveries_.of({decided.sender, receiver, record.at, decided.ordinal}) != nullptr) given_.insert(reception);
 }
 
 void FilmRecorder::note_belief(const TraceRecord& record) {
@@ -260,7 +260,7 @@ web::Film FilmRecorder::take(SimTime end) {
     const auto& [number, receiver] = reception;
     for (const std::int64_t after_us : due_us)
       film_.messages[message_of_.at(number)].arrivals.push_back(
-          {receiver, web::Fate::Received, after_us, order_, given_.contains(reception)});
+          {receiver, web::Receipt::Received, after_us, order_, given_.contains(reception)});
   }
   std::ranges::stable_sort(film_.activities, {}, &web::ActivityBar::begin_us);
   film_.end_us = film_us(end);

@@ -9,7 +9,7 @@
 #include "campaign/watch/pieces_file.hpp"
 #include "campaign/watch/trace_context.hpp"
 #include "core/outcome/trace.hpp"
-#include "core/radio/given_fates.hpp"
+#include "core/radio/given_deliveries.hpp"
 #include "core/scenario/scenario.hpp"
 #include "reports/replay_page/film.hpp"
 
@@ -32,7 +32,7 @@ class FilmRecorder final : public TraceSink {
  private:
   void note_activity(const TraceRecord& record);
   void note_message(const TraceRecord& record);
-  void note_fate(const TraceRecord& record);
+  void note_delivery(const TraceRecord& record);
   void note_arrival(const TraceRecord& record, web::Message& message);
   void note_belief(const TraceRecord& record);
   void note_waiting(const TraceRecord& record);
@@ -52,13 +52,13 @@ class FilmRecorder final : public TraceSink {
   const Scenario& scenario_;
   TraceContext context_;
   PieceKeeper pieces_;
-  GivenFates fates_;
+  GivenDeliveries deliveries_;
   web::Film film_;
   std::uint64_t order_ = 0;  // of the record that is told
   // A message by its number, at one receiver.
   using Reception = std::pair<std::uint32_t, std::size_t>;
   std::map<Reception, std::vector<std::int64_t>> under_way_;  // when it will arrive, since it was sent
-  std::set<Reception> given_;                                 // the scenario gives its fate
+  std::set<Reception> given_;                                 // the scenario decides its delivery
   std::map<std::size_t, web::ActivityBar> open_;              // by body
   std::map<std::size_t, std::vector<Command>> commands_;      // by body: those that have not led to a drive yet
   std::map<std::size_t, std::size_t> order_of_;               // a transport's place in film_.orders

@@ -5,7 +5,7 @@
 
 #include "campaign/watch/trace_context.hpp"
 #include "core/outcome/trace_records.hpp"
-#include "laws/stretch.hpp"
+#include "laws/episode.hpp"
 
 namespace fleetproof {
 namespace {

@@ -41,9 +41,9 @@ void add_facts(web::Film& film, const Scenario& scenario, const Outcome& outcome
   add("layout", scenario.map->layout().name);
   add("AGVs", fmt::format("{}", scenario.agvs.size()));
   add("horizon", fmt::format("{:g} s", to_seconds(scenario.horizon)));
-  const std::string fates = given_fates_text(scenario.fates);
-  add("loss", percent(scenario.radio.loss) + (fates.empty() ? "" : ", but of messages with a given fate"));
-  if (!fates.empty()) add("given fates", fates);
+  const std::string deliveries = given_deliveries_text(scenario.deliveries);
+  add("loss", percent(scenario.radio.loss) + (deliveries.empty() ? "" : ", but of messages with a given delivery"));
+  if (!deliveries.empty()) add("given deliveries", deliveries);
   add("delay", fmt::format("{:g} s ({})", scenario.radio.delay_s, name_of(scenario.radio.delay_model)));
   if (scenario.radio.outages.mean_outage_s > 0.0)
     add("outages of", fmt::format("{:g} s", scenario.radio.outages.mean_outage_s));

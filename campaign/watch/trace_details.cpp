@@ -151,7 +151,7 @@ std::string trace_details(const TraceRecord& record, std::string_view text, cons
     case TraceKind::Belief:
     case TraceKind::NotesLeftOut:
       return note_details(record, text, context);
-    case TraceKind::FateDecided:
+    case TraceKind::DeliveryDecided:
     case TraceKind::CallAccepted:
     case TraceKind::AgentCrashed:
     case TraceKind::AgentHung:

@@ -16,7 +16,7 @@ namespace {
 
 // Notes that stand in the lines of others, or that only pages have.
 bool is_line(TraceKind kind) {
-  return kind != TraceKind::Described && kind != TraceKind::FateDecided && kind != TraceKind::CallAccepted;
+  return kind != TraceKind::Described && kind != TraceKind::DeliveryDecided && kind != TraceKind::CallAccepted;
 }
 
 double whole_millimetres_m(std::int64_t value_um) { return static_cast<double>(value_um - value_um % 1000) / 1e6; }

@@ -49,8 +49,8 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
   return record;
 }
 
-CaseRun IsolatedRuns::of_case(const Scenario& scenario, Fates fates) {
-  RunOrder order{0, {}, false, cases_.write(scenario), fates == Fates::Kept};
+CaseRun IsolatedRuns::of_case(const Scenario& scenario, Deliveries deliveries) {
+  RunOrder order{0, {}, false, cases_.write(scenario), deliveries == Deliveries::Kept};
   return answer_of(order).run;
 }
 

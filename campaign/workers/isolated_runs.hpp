@@ -52,7 +52,7 @@ class IsolatedRuns {
   // changed. `record`: the record of a failed run has a recording of what its agents did.
   RunRecord operator()(std::uint64_t run_index, bool record = false);
   // The same for one scenario and the first agent of the plan.
-  CaseRun of_case(const Scenario& scenario, Fates fates);
+  CaseRun of_case(const Scenario& scenario, Deliveries deliveries);
   // The calls at which the agents' software crashes or hangs in it, in their order: where these are known, the scenario
   // can be simulated in this process. Nothing if the software does not end at the same call twice.
   std::optional<std::vector<KnownEnd>> ends_in(const Scenario& scenario);

@@ -6,7 +6,7 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kShortestEndBytes = 8 + 1 + 4, kShortestTextBytes = 4,
-                      kShortestFateBytes = 4 * 4 + 4 * 8 + 2 + 4 + 4;
+                      kShortestDeliveryBytes = 4 * 4 + 4 * 8 + 2 + 4 + 4;
 
 void put(ByteSink& sink, const std::vector<std::string>& texts) {
   sink.u32(static_cast<std::uint32_t>(texts.size()));
@@ -19,8 +19,8 @@ std::vector<std::string> take_texts(ByteSource& source) {
   return texts;
 }
 
-void put(ByteSink& sink, const MessageFate& message) {
-  const auto& [sender, receiver, sent, ordinal, lost, delay, copied, copy_delay] = message.fate;
+void put(ByteSink& sink, const MessageDelivery& message) {
+  const auto& [sender, receiver, sent, ordinal, lost, delay, copied, copy_delay] = message.delivery;
   for (const std::uint32_t word : {sender.value, receiver.value, ordinal, message.number}) sink.u32(word);
   for (const Duration time : {sent, delay, copy_delay}) sink.i64(time.count());
   for (const bool flag : {lost, copied}) sink.u8(flag ? 1 : 0);
@@ -29,8 +29,8 @@ void put(ByteSink& sink, const MessageFate& message) {
   sink.i64(message.on_its_way.count());
 }
 
-void take(ByteSource& source, MessageFate& message) {
-  auto& [sender, receiver, sent, ordinal, lost, delay, copied, copy_delay] = message.fate;
+void take(ByteSource& source, MessageDelivery& message) {
+  auto& [sender, receiver, sent, ordinal, lost, delay, copied, copy_delay] = message.delivery;
   for (std::uint32_t* word : {&sender.value, &receiver.value, &ordinal, &message.number}) *word = source.u32();
   for (Duration* time : {&sent, &delay, &copy_delay}) *time = Duration{source.i64()};
   for (bool* flag : {&lost, &copied}) *flag = source.flag();
@@ -54,7 +54,7 @@ std::string encode(const RunOrder& order) {
   sink.u64(order.scenario.layout_digest);
   sink.text(order.scenario.layout);
   sink.text(order.scenario.scenario);
-  sink.u8(order.fates ? 1 : 0);
+  sink.u8(order.deliveries ? 1 : 0);
   return sink.take();
 }
 
@@ -72,7 +72,7 @@ RunOrder decode_order(std::string_view bytes) {
   order.scenario.layout_digest = source.u64();
   order.scenario.layout = source.text();
   order.scenario.scenario = source.text();
-  order.fates = source.flag();
+  order.deliveries = source.flag();
   source.end();
   return order;
 }
@@ -92,8 +92,8 @@ std::string encode(const RunAnswer& answer) {
   put(sink, answer.run.first_said);
   put(sink, answer.run.notes);
   put(sink, answer.run.itinerary);
-  sink.u32(static_cast<std::uint32_t>(answer.run.fates.size()));
-  for (const MessageFate& message : answer.run.fates) put(sink, message);
+  sink.u32(static_cast<std::uint32_t>(answer.run.deliveries.size()));
+  for (const MessageDelivery& message : answer.run.deliveries) put(sink, message);
   return sink.take();
 }
 
@@ -113,8 +113,8 @@ RunAnswer decode_answer(std::string_view bytes) {
   answer.run.first_said = take_declared(source);
   answer.run.notes = take_notes(source);
   answer.run.itinerary = take_itinerary(source);
-  answer.run.fates.resize(source.count(kShortestFateBytes));
-  for (MessageFate& message : answer.run.fates) take(source, message);
+  answer.run.deliveries.resize(source.count(kShortestDeliveryBytes));
+  for (MessageDelivery& message : answer.run.deliveries) take(source, message);
   source.end();
   return answer;
 }

@@ -15,9 +15,9 @@ namespace fleetproof {
 struct RunOrder {
   std::uint64_t run_index = 0;
   std::vector<KnownEnd> known_ends;
-  bool record = false;  // what the agents do, in case the run fails
-  CaseText scenario{};  // empty: the run of the plan
-  bool fates = false;   // of a scenario: of its messages
+  bool record = false;      // what the agents do, in case the run fails
+  CaseText scenario{};      // empty: the run of the plan
+  bool deliveries = false;  // of a scenario: of its messages
 };
 std::string encode(const RunOrder& order);
 RunOrder decode_order(std::string_view bytes);  // throws EngineError on bytes that `encode` did not write

@@ -75,7 +75,7 @@ RunAnswer answer_to(const RunOrder& order, const Stage& stage, WorkerSlot& slot)
     const AgentFactor& agent = stage.plan.agents.front();
     answer.run = run_case(stage.cases.read(order.scenario), stage.programs.find(agent.program, "agent"),
                           stage.plan.config_of(agent), stage.plan.laws_left_out,
-                          order.fates ? Fates::Kept : Fates::Ignored, watch);
+                          order.deliveries ? Deliveries::Kept : Deliveries::Ignored, watch);
   }
   if (order.record && answer.run.outcome.is_failure()) answer.recording = tape.take();
   answer.cpu_ns = cpu_ns() - begin_ns;

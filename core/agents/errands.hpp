@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/agents/controller.hpp"
-#include "core/agents/stretch_planner.hpp"
+#include "core/agents/section_planner.hpp"
 
 namespace fleetproof::agents {
 
-// What the AGV still has to do, in its order, and whose load is on board. Goals that a locked stretch reaches are no
+// What the AGV still has to do, in its order, and whose load is on board. Goals that a locked section reaches are no
 // longer here.
 class Errands {
  public:

@@ -14,7 +14,7 @@ enum LockDraws : std::uint32_t { kTickDraws = 10, kPlaceDraws = 12, kRepeatDraws
 
 constexpr double kTick_s = 1.0;
 constexpr double kRepeat_s = 0.5;
-constexpr double kLongestLead_s = 8.0;  // how long before the end of a stretch the next one is asked for, at most
+constexpr double kLongestLead_s = 8.0;  // how long before the end of a section the next one is asked for, at most
 constexpr double kRetryPlanning_s = 2.0;
 constexpr double kOverdue_s = 5.0;     // an action that takes this much longer than expected may have been stopped
 constexpr double kClockMargin = 1.02;  // clocks may run wrong by up to 1 %
@@ -236,7 +236,7 @@ void HullLock::advance() {
     act();
     protocol_.describe(is_waiting(), is_idle(), out_of_order_);
     if (protocol_.settle()) {
-      adopt_stretch();
+      adopt_section();
     } else if (!protocol_.requesting() && !out_of_order_ && place_known_) {
       plan();
       if (!protocol_.requesting() && (way_.acting() || way_.empty())) break;
@@ -291,11 +291,11 @@ void HullLock::begin(Leg leg) {
   way_.begin(leg, protocol_.held().heading, now_s());
 }
 
-void HullLock::adopt_stretch() {
-  for (const Leg& leg : stretch_.legs) way_.append(leg);
-  errands_.reached(stretch_.goals);
+void HullLock::adopt_section() {
+  for (const Leg& leg : section_.legs) way_.append(leg);
+  errands_.reached(section_.goals);
   has_locked_ = true;
-  if (stretch_.goals > 0) seniority_.meet();  // an AGV that gets on only step by step stays old
+  if (section_.goals > 0) seniority_.meet();  // an AGV that gets on only step by step stays old
   right_of_way_.got_on();
   charging_ = false;  // of the AGVs that charge, only one that makes way locks floor
   const double took_s = std::min(now_s() - requested_at_s_, kLongestLead_s);
@@ -338,7 +338,7 @@ void HullLock::plan_making_way() {
   request(way_out(Yields::ToAll), Purpose::MakeWay);
 }
 
-Stretch HullLock::way_out(Yields to) {
+Section HullLock::way_out(Yields to) {
   if (!options_.progress.makes_way) return {};
   const auto goes_first = [&](std::uint32_t agv, const Neighbour& n) {
     return right_of_way_.goes_first(to, seniority_.since_ns(), agv, n);
@@ -347,18 +347,18 @@ Stretch HullLock::way_out(Yields to) {
                                  controller_.random(kPlaceDraws), goes_first);
 }
 
-void HullLock::request(Stretch stretch, Purpose purpose, std::int64_t demand_ns) {
-  if (stretch.empty()) {
+void HullLock::request(Section section, Purpose purpose, std::int64_t demand_ns) {
+  if (section.empty()) {
     plan_after_s_ = now_s() + kRetryPlanning_s;
     return;
   }
-  if (purpose == Purpose::Transport) stretch.onward = planner_.way_on_from(stretch, goals_now());
-  if (!options_.progress.whole_stretches) cut_after_first_lane(stretch);
-  stretch_ = std::move(stretch);
+  if (purpose == Purpose::Transport) section.onward = planner_.way_on_from(section, goals_now());
+  if (!options_.progress.whole_sections) cut_after_first_lane(section);
+  section_ = std::move(section);
   purpose_ = purpose;
   requested_at_s_ = now_s();
   if (demand_ns < 0) demand_ns = seniority_.since_ns();
-  if (!protocol_.request(stretch_.path, demand_ns < 0 ? controller_.now_ns() : demand_ns, stretch_.onward))
+  if (!protocol_.request(section_.path, demand_ns < 0 ? controller_.now_ns() : demand_ns, section_.onward))
     plan_after_s_ = now_s() + kRetryPlanning_s;
 }
 
@@ -367,7 +367,7 @@ void HullLock::reconsider() {
   if (!protocol_.requesting() || !is_waiting() || out_of_order_ || !is_time_to_reconsider()) return;
   if (!protocol_.is_held(protocol_.requested())) return;
   const Purpose purpose = errands_.empty() ? Purpose::MakeWay : Purpose::Transport;
-  Stretch other = purpose == Purpose::Transport ? way_on() : way_out(Yields::ToAll);
+  Section other = purpose == Purpose::Transport ? way_on() : way_out(Yields::ToAll);
   if (!other.empty() && !(other.path == protocol_.requested()) && !protocol_.is_held(other.path)) {
     controller_.sometimes("another-way-round");
     return request(std::move(other), purpose);
@@ -375,7 +375,7 @@ void HullLock::reconsider() {
   if (protocol_.waiting_inside(protocol_.requested()) == FP_NONE) return;
   const Yields to = right_of_way_.when_blocked(protocol_.own_held(), seniority_.since_ns());
   if (to == Yields::ToNobody) return;
-  Stretch retreat = way_out(to);
+  Section retreat = way_out(to);
   if (retreat.empty() || retreat.path == protocol_.requested()) return;
   controller_.sometimes("retreat");
   const std::int64_t eldest_ns = right_of_way_.eldest_demand_ns(protocol_.own_held(), seniority_.since_ns());

@@ -14,15 +14,15 @@
 #include "core/agents/map_view.hpp"
 #include "core/agents/neighbours.hpp"
 #include "core/agents/right_of_way.hpp"
+#include "core/agents/section_planner.hpp"
 #include "core/agents/settings.hpp"
-#include "core/agents/stretch_planner.hpp"
 #include "core/agents/way_ahead.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
 namespace fleetproof::agents {
 
-// Control software that carries out transports and drives only on floor that it has locked. It plans a stretch, locks
-// it and drives it. It requests the next stretch while the AGV still drives: as long before the end as locking took
+// Control software that carries out transports and drives only on floor that it has locked. It plans a section, locks
+// it and drives it. It requests the next section while the AGV still drives: as long before the end as locking took
 // recently.
 class HullLock {
  public:
@@ -62,16 +62,16 @@ class HullLock {
   void act();
   void begin(Leg leg);
   void roll_on();
-  void adopt_stretch();
+  void adopt_section();
   void plan();
   void plan_transport();
   void plan_making_way();
   void reconsider();
   // In a divided fleet, it waits longer: with many AGVs, the way round is long to work out.
   bool is_time_to_reconsider() { return !neighbours_.audience().is_divided() || ++ticks_waited_ % 9 == 0; }
-  void request(Stretch stretch, Purpose purpose, std::int64_t demand_ns = -1);
-  Stretch way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), goals_now()); }
-  Stretch way_out(Yields to);
+  void request(Section section, Purpose purpose, std::int64_t demand_ns = -1);
+  Section way_on() { return planner_.towards(end_of(map_, protocol_.held()), budget(), goals_now()); }
+  Section way_out(Yields to);
   // The AGV starts without a load, and only bodies without loads are promised to be apart then (agent.h). The floor
   // under its load is its own when it has locked its way from there.
   bool must_lock_first() const { return !has_locked_ && !way_.empty() && way_.next().kind == Leg::Kind::Pick; }
@@ -98,11 +98,11 @@ class HullLock {
   HullGeometry geometry_;
   Neighbours neighbours_;
   LockProtocol protocol_;
-  StretchPlanner planner_;
+  SectionPlanner planner_;
   RightOfWay right_of_way_;
 
   WayAhead way_;
-  bool has_locked_ = false;        // a stretch, since this boot
+  bool has_locked_ = false;        // a section, since this boot
   bool current_released_ = false;  // the lane of the current leg was released before its end
   double started_s_ = 0.0;
   bool out_of_order_ = false;  // broken down or empty; the AGV may be repaired
@@ -117,7 +117,7 @@ class HullLock {
   std::uint32_t looks_ = 0;  // at the battery, since a charger was chosen
 
   std::uint32_t ticks_waited_ = 0;
-  Stretch stretch_;  // the requested stretch
+  Section section_;  // the requested section
   Purpose purpose_ = Purpose::Transport;
   double requested_at_s_ = 0.0;
   Seniority seniority_;  // to go on with its transports

@@ -59,7 +59,7 @@ struct ProgressOptions {
   bool order_is_common = true;       // of two requests, both AGVs let the same one go first, not each the other's
   bool smaller_number_first = true;  // of two demands of the same age
   bool one_way_aisles = true;        // AGVs of a crowded fleet prefer one direction of a long aisle
-  bool whole_stretches = true;       // an AGV locks the way to a waiting place at once, not lane by lane
+  bool whole_sections = true;        // an AGV locks the way to a waiting place at once, not lane by lane
 };
 
 struct LockOptions {

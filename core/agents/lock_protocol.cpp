@@ -41,12 +41,12 @@ void LockProtocol::stand(const Path& standing) {
   if (zones_) zones_->announce();
 }
 
-bool LockProtocol::request(const Path& stretch, std::int64_t demand_ns, std::span<const std::uint32_t> onward) {
-  if (!continues_held(stretch)) {
+bool LockProtocol::request(const Path& section, std::int64_t demand_ns, std::span<const std::uint32_t> onward) {
+  if (!continues_held(section)) {
     withdraw();
     return false;
   }
-  claim_.request = stretch;
+  claim_.request = section;
   claim_.request.heading = end_of(map_, claim_.held).heading;
   ++request_version_;
   claim_.demand_ns = demand_ns;
@@ -70,10 +70,10 @@ void LockProtocol::announce(std::span<const std::uint32_t> onward) {
   if (zones_) zones_->announce();
 }
 
-bool LockProtocol::continues_held(const Path& stretch) const {
-  const double claim_m = length_m(map_, claim_.held) + length_m(map_, stretch);
-  return stretch.station == end_of(map_, claim_.held).station && is_driveable(map_, stretch) &&
-         stretch.count <= kPathLanesMax - claim_.held.count &&
+bool LockProtocol::continues_held(const Path& section) const {
+  const double claim_m = length_m(map_, claim_.held) + length_m(map_, section);
+  return section.station == end_of(map_, claim_.held).station && is_driveable(map_, section) &&
+         section.count <= kPathLanesMax - claim_.held.count &&
          claim_m <= neighbours_.claim_limit_m() + kClaimRounding_m;
 }
 

@@ -52,7 +52,7 @@
 //
 // What i holds contains its body. The proof above is about held paths; these rules tie the body to the held path:
 // - At the start and at a restart, i holds the standing body or the lanes to be driven (see Restarts).
-// - The held path is always one way that can be driven: it grows only by a stretch that begins where it ends
+// - The held path is always one way that can be driven: it grows only by a section that begins where it ends
 //   (continues_held), and loses only its first lane.
 // - i moves only over the first held lane (may_drive), and gives no action while another one may be under way, but for
 //   one: while i drives the first held lane, it may give the move over the second one (may_drive_next). That move
@@ -134,11 +134,11 @@ class LockProtocol {
   const Path& requested() const { return claim_.request; }
   Epoch epoch() const { return claim_.epoch; }
 
-  // Requests `stretch` in addition to the held path. Replaces an open request. `demand_ns`: since when the AGV has
+  // Requests `section` in addition to the held path. Replaces an open request. `demand_ns`: since when the AGV has
   // wanted to go on. If two AGVs wait for each other, the older demand comes first. `onward`: the lanes that the AGV
   // means to drive afterwards. Announced early, they need no consent of AGVs with other ways.
-  // False if `stretch` does not begin where the held path ends, or is too long. Nothing is requested then.
-  bool request(const Path& stretch, std::int64_t demand_ns, std::span<const std::uint32_t> onward = {});
+  // False if `section` does not begin where the held path ends, or is too long. Nothing is requested then.
+  bool request(const Path& section, std::int64_t demand_ns, std::span<const std::uint32_t> onward = {});
   void withdraw();
   // True if the held path begins with this lane. The AGV must drive no other lane.
   bool may_drive(std::uint32_t lane) const { return !claim_.held.empty() && claim_.held.lane_ids[0] == lane; }
@@ -172,7 +172,7 @@ class LockProtocol {
   };
   enum class Answer : std::uint8_t { Grant, GrantAndStepBack, Defer };
 
-  bool continues_held(const Path& stretch) const;
+  bool continues_held(const Path& section) const;
   void announce(std::span<const std::uint32_t> onward);
   // Whether it has heard the way that contains the request. Then it counts on nothing that was announced before.
   bool knows_request(const Neighbour& neighbour) const {

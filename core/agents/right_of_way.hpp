@@ -48,7 +48,7 @@ class RightOfWay {
   // few seconds. If it still stands there much later, the older demands cannot get on without its help, because they
   // themselves are in the way of younger ones: then it yields to all.
   Yields when_blocked(const OwnPath& held, std::int64_t demand_ns);
-  // The AGV has locked a stretch: its patience begins anew.
+  // The AGV has locked a section: its patience begins anew.
   void got_on() { blocked_since_s_ = -1.0; }
 
   // Whether another AGV requests floor that this AGV holds.

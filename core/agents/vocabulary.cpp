@@ -10,7 +10,7 @@ constexpr Word kWords[] = {
     {"answers", "the number of the request that it answers"},
     {"holds", "the way that is its own: where it stands or drives, until it has passed it"},
     {"of boot", "the number counts from a restart of the computer on: boot 1 is after the first one"},
-    {"requesting", "it has asked for the next stretch of its way"},
+    {"requesting", "it has asked for the next section of its way"},
     {"waiting", "it stands, and cannot go on yet"},
     {"out of order", "it is broken down, empty or stopped by a contact"},
     {"negotiation", "it asked the AGVs whose consent it needs"},

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/agents/map_view.hpp"
-#include "core/agents/stretch_planner.hpp"
+#include "core/agents/section_planner.hpp"
 
 namespace fleetproof::agents {
 

@@ -13,7 +13,7 @@ namespace {
 using Elapsed = std::int64_t;
 
 // A phase of the profile on one part of the curve.
-struct Stretch {
+struct MotionPhase {
   Elapsed change;  // where it ends, in the sense walked
   std::size_t phase = 0, part = 0;
 };
@@ -22,7 +22,7 @@ struct Stretch {
 // one nanosecond. The error does not grow: every phase starts from the exact pose, with the speed that the phase itself
 // has at the instant. The profile may still give the speed of the neighbouring phase there. This speed is wrong by a
 // nanometre per second, which would move a body by nanometres in a few seconds.
-Stretch phase_from(const MotionProfile& profile, Elapsed now, TimeSense sense) {
+MotionPhase phase_from(const MotionProfile& profile, Elapsed now, TimeSense sense) {
   const auto& ends = profile.phase_ends();
   std::size_t phase = 0;
   if (sense == TimeSense::Forward) {
@@ -33,21 +33,21 @@ Stretch phase_from(const MotionProfile& profile, Elapsed now, TimeSense sense) {
   return {phase == 0 ? 0 : ends[phase - 1].count(), phase};
 }
 
-Stretch stretch_from(const Piece& piece, Elapsed now, TimeSense sense) {
-  Stretch stretch = phase_from(piece.profile, now, sense);
-  if (piece.manner != Manner::Drive || piece.curve->parts().size() < 2) return stretch;
+MotionPhase span_from(const Piece& piece, Elapsed now, TimeSense sense) {
+  MotionPhase span = phase_from(piece.profile, now, sense);
+  if (piece.manner != Manner::Drive || piece.curve->parts().size() < 2) return span;
   const auto ends = piece.curve->ends_m();
   const double way = piece.way_begin_m + piece.profile.position(to_seconds(Duration{now}));
   const auto joint = [&](std::size_t i) { return seconds(piece.profile.time_at(ends[i] - piece.way_begin_m)).count(); };
-  stretch.part = piece.curve->part_at(way);
+  span.part = piece.curve->part_at(way);
   if (sense == TimeSense::Forward) {
-    while (stretch.part + 1 < ends.size() && joint(stretch.part) <= now) ++stretch.part;
-    if (stretch.part + 1 < ends.size()) stretch.change = std::min(stretch.change, joint(stretch.part));
+    while (span.part + 1 < ends.size() && joint(span.part) <= now) ++span.part;
+    if (span.part + 1 < ends.size()) span.change = std::min(span.change, joint(span.part));
   } else {
-    while (stretch.part > 0 && joint(stretch.part - 1) >= now) --stretch.part;
-    if (stretch.part > 0) stretch.change = std::max(stretch.change, joint(stretch.part - 1));
+    while (span.part > 0 && joint(span.part - 1) >= now) --span.part;
+    if (span.part > 0) span.change = std::max(span.change, joint(span.part - 1));
   }
-  return stretch;
+  return span;
 }
 
 // The bounds that follow from how the curve bends. With the lever l, the arm r, the speed v, its change a, the
@@ -112,15 +112,15 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   // The body moves now. Or, seen backwards, it stands after its arrival: then it rests until then. What follows holds
   // for one phase of the profile and one part of the curve.
   const bool has_arrived = now > arrival;
-  const Stretch stretch = has_arrived ? Stretch{arrival} : stretch_from(piece, now, sense);
-  const Elapsed change = forward ? std::min(stretch.change, last) : std::max(stretch.change, last);
+  const MotionPhase span = has_arrived ? MotionPhase{arrival} : span_from(piece, now, sense);
+  const Elapsed change = forward ? std::min(span.change, last) : std::max(span.change, last);
   motion.change = piece.begin + Duration{change};
   motion.lasts_s = to_seconds(Duration{std::abs(change - now)});
   if (has_arrived) return motion;
   const double sign = piece.moves_against_heading() ? -1.0 : 1.0;
-  motion.speed = piece.profile.speed_in_phase(stretch.phase, to_seconds(Duration{now})) * (forward ? sign : -sign);
-  motion.acceleration = piece.profile.acceleration_in_phase(stretch.phase) * sign;
-  const double later = piece.profile.speed_in_phase(stretch.phase, to_seconds(Duration{change}));
+  motion.speed = piece.profile.speed_in_phase(span.phase, to_seconds(Duration{now})) * (forward ? sign : -sign);
+  motion.acceleration = piece.profile.acceleration_in_phase(span.phase) * sign;
+  const double later = piece.profile.speed_in_phase(span.phase, to_seconds(Duration{change}));
   motion.top_speed = std::max(std::abs(motion.speed), std::abs(later));
   motion.top_acceleration = std::abs(motion.acceleration);
   // The motion along the way is known. What is left is how the body turns: on the spot, or with a bend.
@@ -128,8 +128,8 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   if (motion.turns_on_spot) {
     motion.curvature = 1.0;
     bound_turning(motion, {1.0, 0.0, 0.0});
-  } else if (const CurvePart& part = piece.curve->parts()[stretch.part]; !part.is_straight()) {
-    const auto [per_m, per_m2] = piece.curve->bending_in(stretch.part, piece.way_at(t));
+  } else if (const CurvePart& part = piece.curve->parts()[span.part]; !part.is_straight()) {
+    const auto [per_m, per_m2] = piece.curve->bending_in(span.part, piece.way_at(t));
     motion.curvature = sign * per_m;
     motion.bending = per_m2;
     bound_turning(motion, part.most());

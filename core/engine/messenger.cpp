@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t kAirTimeEnds = 0x80000000U, kCopy = 0x40000000U, kContended = 0x20000000U, kSlot = 0x1fffffffU;
 static_assert(kLongestMessage_bytes == FP_MESSAGE_BYTES_MAX);
 
-TraceKind cause_of(const Fate& lost) {
+TraceKind cause_of(const Delivery& lost) {
   if (lost.to_source) return TraceKind::LostToSource;
   return lost.in_outage ? TraceKind::LostInOutage : TraceKind::Lost;
 }
@@ -22,7 +22,7 @@ TraceKind cause_of(const Fate& lost) {
 Messenger::Messenger(RunContext& run, AgentHostPort agents)
     : run_(run),
       agents_(agents),
-      radio_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.scenario.fates, run.draw_numbers),
+      radio_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.scenario.deliveries, run.draw_numbers),
       channel_(run.scenario.radio, run.scenario.seed_of(Stream::Radio), run.draw_numbers),
       hearers_(run),
       air_time_{0, run.scenario.radio.air_time(0)},
@@ -76,7 +76,7 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   deliver_together(slot, heard_by.size(), [&](std::size_t i) { return Hearer{AgvId{heard_by.data()[i]}, number}; });
 }
 
-// Not so simple a message: to one AGV, or with fates of many kinds.
+// Not so simple a message: to one AGV, or with deliveries of many kinds.
 [[gnu::noinline]] void Messenger::deliver_one_by_one(std::uint32_t slot, std::uint32_t to) {
   const AgvId sender = pool_[slot].sender;
   const bool spared = pool_[slot].spared;
@@ -89,7 +89,8 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   for (std::size_t i = 0; i < hearers.size(); ++i) deliver(hearers[i], draws_[i], slot, from_m);
 }
 
-// As deliver() for each hearer, if nothing but its draws decides its fate, nobody notes it, and all are equally late.
+// As deliver() for each hearer, if nothing but its draws decides its delivery, nobody notes it, and all are equally
+// late.
 template <class HearerAt>
 void Messenger::deliver_together(std::uint32_t slot, std::size_t hearing, HearerAt hearer_at) {
   Message& message = pool_[slot];
@@ -141,36 +142,36 @@ void Messenger::deliver(const Hearer& hearer, const Block& draws, std::uint32_t 
   Counters& counters = run_.counters;
   LinkPlaces places{from_m, {}};
   if (needs_places_) places.receiver_m = run_.pose_now(receiver).position_m;
-  const Fate fate = radio_.fate(message.sender, hearer, run_.now, draws, places, message.spared);
+  const Delivery delivery = radio_.delivery(message.sender, hearer, run_.now, draws, places, message.spared);
   const SimTime on_air_until = message.on_air.end;
-  const SimTime arrival = std::max(run_.now + fate.delay, on_air_until);
+  const SimTime arrival = std::max(run_.now + delivery.delay, on_air_until);
   ++counters.receptions;
   counters.delay_sum_ns += static_cast<std::uint64_t>((arrival - run_.now).count());
-  if (run_.writer.has_sink()) note_fate(hearer, message, fate);
-  if (fate.lost) return lose(receiver, message, cause_of(fate));
+  if (run_.writer.has_sink()) note_delivery(hearer, message, delivery);
+  if (delivery.lost) return lose(receiver, message, cause_of(delivery));
   std::uint32_t arriving = slot;
-  if (contended_ && !fate.given) {
+  if (contended_ && !delivery.given) {
     run_.queue.push(on_air_until, receiver, Event::Kind::MessageArrives, slot | kAirTimeEnds);
     arriving |= kContended;
   }
   run_.queue.push_arrivals(arrival, {&receiver, 1}, arriving);
-  message.copies += fate.copy_delay ? 2 : 1;
-  if (fate.copy_delay) {
-    run_.queue.push(std::max(run_.now + *fate.copy_delay, on_air_until), receiver, Event::Kind::MessageArrives,
+  message.copies += delivery.copy_delay ? 2 : 1;
+  if (delivery.copy_delay) {
+    run_.queue.push(std::max(run_.now + *delivery.copy_delay, on_air_until), receiver, Event::Kind::MessageArrives,
                     arriving | kCopy);
   }
 }
 
-void Messenger::note_fate(const Hearer& hearer, const Message& message, const Fate& fate) {
+void Messenger::note_delivery(const Hearer& hearer, const Message& message, const Delivery& delivery) {
   const auto& [receiver, ordinal] = hearer;
   const Duration least = message.on_air.end - run_.now;
-  traced::FateDecided decided{
-      .sender = message.sender, .ordinal = ordinal, .lost = fate.lost, .number = message.number};
-  decided.due_after = std::max(fate.delay, least);
+  traced::DeliveryDecided decided{
+      .sender = message.sender, .ordinal = ordinal, .lost = delivery.lost, .number = message.number};
+  decided.due_after = std::max(delivery.delay, least);
   run_.note(receiver, decided);
-  if (fate.lost || !fate.copy_delay) return;
+  if (delivery.lost || !delivery.copy_delay) return;
   decided.is_copy = true;
-  decided.due_after = std::max(*fate.copy_delay, least);
+  decided.due_after = std::max(*delivery.copy_delay, least);
   run_.note(receiver, decided);
 }
 

@@ -110,8 +110,8 @@ class Messenger {
   void deliver_plainly(std::uint32_t slot, std::span<const Hearer> hearers);
   void count_receptions(Message& message, std::size_t hearing, std::size_t arriving);
   void deliver(const Hearer& hearer, const Block& draws, std::uint32_t slot, const Vec2& from_m);
-  // For an observer that wants to write the run's fates down.
-  void note_fate(const Hearer& hearer, const Message& message, const Fate& fate);
+  // For an observer that wants to write the run's deliveries down.
+  void note_delivery(const Hearer& hearer, const Message& message, const Delivery& delivery);
   void lose(AgvId receiver, const Message& message, TraceKind cause);
   bool is_heard(AgvId receiver, std::uint32_t bits);
   void air_time_ends(AgvId receiver, std::uint32_t slot);
@@ -128,9 +128,9 @@ class Messenger {
     Duration lasts;
   } air_time_;         // of a message that is as long as the last one
   bool contended_;     // transmissions compete for air
-  bool needs_places_;  // the fate of a message depends on where its ends are
-  // Of a message that is not spared: nothing but its draws decides its fate, and nobody notes it; and they only decide
-  // whether it is lost.
+  bool needs_places_;  // the delivery of a message depends on where its ends are
+  // Of a message that is not spared: nothing but its draws decides its delivery, and nobody notes it; and they only
+  // decide whether it is lost.
   bool draws_decide_, losses_decide_;
   std::size_t others_;                // so many AGVs but the sender
   std::vector<AgvState> agv_states_;  // by AGV

@@ -15,7 +15,7 @@ double limit_on(const CurvePart& part, double speed_mps, double lateral_mps2) {
   return std::min(speed_mps, std::max(kSlowest_mps, std::sqrt(lateral_mps2 / part.most().per_m)));
 }
 
-// Cuts the curve where straight and bent stretches meet.
+// Cuts the curve where straight and bent parts meet.
 void cut(const Curve& curve, double speed_mps, double lateral_mps2, double from_m, std::vector<Leg>& legs) {
   legs.clear();
   const auto ends = curve.ends_m();

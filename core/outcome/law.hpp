@@ -24,7 +24,7 @@ struct DriveChecks {
 };
 
 struct LawResults {
-  std::vector<Violation> violations;      // ordered by (first, a, b); one entry per uninterrupted stretch
+  std::vector<Violation> violations;      // ordered by (first, a, b); one entry per uninterrupted episode
   std::vector<Incident> incidents;        // everything else that the law accuses
   std::vector<ProbeCount> met;            // what the run met; from a law that counts and accuses nothing
   std::optional<double> min_clearance_m;  // exact below 0.5 m, otherwise absent; always absent in snapshot laws

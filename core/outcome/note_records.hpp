@@ -73,8 +73,8 @@ struct NotesLeftOut {
 
 // Decided at the instant of sending; the entity is the receiver. Interference may still destroy the message. A message
 // that arrives twice has two of these notes.
-struct FateDecided {
-  static constexpr TraceKind kKind = TraceKind::FateDecided;
+struct DeliveryDecided {
+  static constexpr TraceKind kKind = TraceKind::DeliveryDecided;
   AgvId sender;
   std::uint32_t ordinal = 0;  // as in MessageKey
   bool lost = false;
@@ -88,7 +88,7 @@ struct FateDecided {
     r.bytes = (lost ? 1U : 0U) | (is_copy ? 2U : 0U);
     r.more = number;
   }
-  static constexpr FateDecided of(const TraceRecord& r) {
+  static constexpr DeliveryDecided of(const TraceRecord& r) {
     return {id_in<AgvId>(r.a),
             static_cast<std::uint32_t>(r.a >> 32),
             (r.bytes & 1U) != 0,

@@ -40,7 +40,7 @@ constexpr const char* name_of(OutcomeClass c) {
   return kNoWord;
 }
 
-// A stretch of time in which two bodies were closer than the minimal safety distance. `a` < `b`.
+// An unbroken time in which two bodies were closer than the minimal safety distance. `a` < `b`.
 struct Violation {
   EntityId a, b;
   SimTime first{}, last{};

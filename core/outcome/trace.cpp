@@ -21,7 +21,7 @@ const char* name_of_note(TraceKind kind) {
          : kind == TraceKind::Belief       ? "believes"
          : kind == TraceKind::NotesLeftOut ? "notes left out"
          : kind == TraceKind::CallAccepted ? "accepted"
-                                           : "fate";
+                                           : "delivery";
 }
 
 // A block that nobody keeps. Each thread has some that are used again and again: they are so large that the allocator
@@ -107,7 +107,7 @@ const char* name_of(TraceKind kind) {
     case TraceKind::AgentState:
     case TraceKind::Belief:
     case TraceKind::NotesLeftOut:
-    case TraceKind::FateDecided:
+    case TraceKind::DeliveryDecided:
     case TraceKind::CallAccepted:
       return name_of_note(kind);
   }

@@ -53,8 +53,8 @@ enum class TraceKind : std::uint32_t {
   Belief = 42,        // where the agent believes another AGV to be
   NotesLeftOut = 43,  // how many notes of an activation were too many
   // To a TraceSink only, as well:
-  FateDecided = 44,   // what will become of a message at one receiver, at the instant of sending
-  CallAccepted = 45,  // an action that the agent called for: it begins now, or after the action under way
+  DeliveryDecided = 44,  // what will become of a message at one receiver, at the instant of sending
+  CallAccepted = 45,     // an action that the agent called for: it begins now, or after the action under way
 };
 const char* name_of(TraceKind kind);
 

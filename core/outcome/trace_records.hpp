@@ -101,16 +101,18 @@ struct Sent {
   static constexpr Sent of(const TraceRecord& r) { return {id_in<AgvId>(r.a), r.b, r.bytes, r.more}; }
 };
 
-// What became of a message at one receiver, which is the entity. `fate` is Received or one of the kinds of losses.
+// What became of a message at one receiver, which is the entity. `delivery` is Received or one of the kinds of losses.
 struct Reception {
-  TraceKind fate = TraceKind::Received;
+  TraceKind delivery = TraceKind::Received;
   AgvId sender;
   std::uint64_t message_hash = 0;
   std::uint32_t number = 0;  // of the message, as Sent has it; not in the digest
 
   static constexpr bool describes(TraceKind kind) { return kind == TraceKind::Received || is_loss(kind); }
-  constexpr bool is_lost() const { return is_loss(fate); }
-  constexpr void put(TraceRecord& r) const { r.kind = fate, r.a = sender.value, r.b = message_hash, r.more = number; }
+  constexpr bool is_lost() const { return is_loss(delivery); }
+  constexpr void put(TraceRecord& r) const {
+    r.kind = delivery, r.a = sender.value, r.b = message_hash, r.more = number;
+  }
   static constexpr Reception of(const TraceRecord& r) { return {r.kind, id_in<AgvId>(r.a), r.b, r.more}; }
 };
 

@@ -8,7 +8,8 @@
 
 namespace fleetproof {
 
-// Identifies one message at one receiver. All draws for its fate depend on this key and the seed, and on nothing else.
+// Identifies one message at one receiver. All draws for its delivery depend on this key and the seed, and on nothing
+// else.
 struct MessageKey {
   AgvId sender, receiver;
   SimTime sent{};

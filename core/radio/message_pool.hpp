@@ -42,7 +42,7 @@ struct Message {
   std::uint32_t number = 0;     // in its run, from 1 on; 0: not sent yet
   std::uint32_t copies = 0;     // receptions that are under way or unread
   std::uint32_t next_free = 0;  // of a free slot: the slot that became free before it
-  bool spared = false;          // see Radio::fate
+  bool spared = false;          // see Radio::delivery
 };
 static_assert(sizeof(Message) == 64, "the place of a slot is a shift away");
 

@@ -8,8 +8,8 @@
 namespace fleetproof {
 namespace {
 
-// Each stretch has two blocks of draws: one for its lengths, one that decides whether an outage ends at its beginning.
-// Stretch 0 begins at time zero, and its second block decides the state there.
+// Each cycle has two blocks of draws: one for its lengths, one that decides whether an outage ends at its beginning.
+// Cycle 0 begins at time zero, and its second block decides the state there.
 enum class Use : std::uint32_t { Lengths = 0, Beginning = 1 };
 
 Block draw(const ProcessKey& key, std::uint64_t number, Use use) {
@@ -20,7 +20,7 @@ Block draw(const ProcessKey& key, std::uint64_t number, Use use) {
 
 double unit_exponential(std::uint64_t bits) { return -natural_log(1.0 - unit_interval(bits)); }
 
-constexpr Duration kShortest{1};  // every stretch takes time, so that the process advances
+constexpr Duration kShortest{1};  // every cycle takes time, so that the process advances
 
 SimTime later(SimTime t, Duration by) { return by >= kForever - std::max(t, kStart) ? kForever : t + by; }
 
@@ -66,7 +66,7 @@ void OutageProcess::start() {
   const bool bad = unit_interval(word64(block, 0)) < law_.bad_share;
   const double rest = 1.0 - unit_interval(word64(block, 1));
   if (law_.sojourn == OutageLaw::Sojourn::Uniform) {
-    if (!bad) return draw_stretch();
+    if (!bad) return draw_cycle();
     // An instant drawn at random lies in a long outage more often, in proportion to its length.
     const Block more = draw(key_, 0, Use::Lengths);
     const double low = law_.min_s * law_.min_s, high = law_.max_s * law_.max_s;
@@ -82,18 +82,18 @@ void OutageProcess::start() {
                                : -natural_log(rest) * law_.mean_bad_s;
     bad_since_ = kStart - seconds(age_s);
   }
-  draw_stretch();
+  draw_cycle();
 }
 
 void OutageProcess::step() {
   ++number_;
   from_ = until_;
   if (law_.sojourn == OutageLaw::Sojourn::Uniform || (bad_since_ != kForever && !survives())) bad_since_ = kForever;
-  draw_stretch();
+  draw_cycle();
 }
 
-// Draws the end of the stretch, and the instant in it at which the state turns bad.
-void OutageProcess::draw_stretch() {
+// Draws the end of the cycle, and the instant in it at which the state turns bad.
+void OutageProcess::draw_cycle() {
   const Block block = draw(key_, number_, Use::Lengths);
   if (law_.sojourn == OutageLaw::Sojourn::Uniform) {
     bad_since_ = later(from_, seconds(unit_exponential(word64(block, 0)) * mean_good_s_));

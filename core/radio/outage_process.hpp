@@ -47,15 +47,15 @@ class OutageProcess {
  private:
   void start();
   void step();
-  void draw_stretch();
+  void draw_cycle();
   bool survives() const;
 
   OutageLaw law_{};
   ProcessKey key_{};
   double hazard_ = 0.0, scale_s_ = 0.0;  // the hazard rate of an outage at age 0; the scale of the Lomax law
   double mean_good_s_ = 0.0;
-  std::uint64_t number_ = 0;           // number of the current stretch
-  SimTime from_ = kForever, until_{};  // the current stretch: [from_, until_)
+  std::uint64_t number_ = 0;           // number of the current cycle
+  SimTime from_ = kForever, until_{};  // the current cycle: [from_, until_)
   SimTime bad_since_ = kForever;       // the state is bad from here to until_
 };
 

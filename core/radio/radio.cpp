@@ -97,7 +97,8 @@ double loss_at_distance(double loss, const RadioSetup& setup, const LinkPlaces& 
 
 }  // namespace
 
-Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenFate> fates, DrawNumbers numbers)
+Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenDelivery> deliveries,
+             DrawNumbers numbers)
     : setup_(setup),
       keys_{.draws = RoundKeys(stream_key(world_seed, Stream::Radio)),
             .states = stream_key(world_seed, Stream::RadioState),
@@ -108,7 +109,7 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const 
       depends_on_place_(setup.places.roaming_border_m > 0.0 || setup.range_falloff_m > 0.0 || !setup.sources.empty() ||
                         (setup.outages.mean_outage_s > 0.0 && setup.outages.scope == OutageSetup::Scope::Place)),
       numbers_(std::move(numbers)),
-      given_(fates),
+      given_(deliveries),
       recorded_(setup.trace),
       places_(setup.places, outage_law(setup.loss), keys_.states),
       crossings_(setup.places, keys_.states),
@@ -117,10 +118,10 @@ Radio::Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const 
                 setup.adverse.adverse_from_s == 0.0 && setup.adverse.adverse_until_s == 0.0),
       loss_limit_(static_cast<std::uint64_t>(std::ceil(setup.loss * kDrawRange))) {}
 
-Fate Radio::fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places,
-                 bool spared) {
+Delivery Radio::delivery(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places,
+                         bool spared) {
   const Hearer hearer{receiver, ordinal};
-  return fate(sender, hearer, sent, draw_for(key_of(sender, hearer, sent), keys_.draws.key()), places, spared);
+  return delivery(sender, hearer, sent, draw_for(key_of(sender, hearer, sent), keys_.draws.key()), places, spared);
 }
 
 void Radio::draw(AgvId sender, SimTime sent, std::span<const Hearer> hearers, Block* draws) const {
@@ -138,51 +139,51 @@ void Radio::draw(AgvId sender, SimTime sent, std::span<const Hearer> hearers, Bl
   }
 }
 
-Fate Radio::fate(AgvId sender, const Hearer& hearer, SimTime sent, const Block& draws, const LinkPlaces& places,
-                 bool spared) {
+Delivery Radio::delivery(AgvId sender, const Hearer& hearer, SimTime sent, const Block& draws, const LinkPlaces& places,
+                         bool spared) {
   const auto& [receiver, ordinal] = hearer;
-  if (const GivenFate* given = given_.empty() ? nullptr : given_.of({sender, receiver, sent, ordinal})) {
-    Fate fate{.lost = given->lost, .delay = given->delay, .given = true};
-    if (given->copied) fate.copy_delay = given->copy_delay;
-    return fate;
+  if (const GivenDelivery* given = given_.empty() ? nullptr : given_.of({sender, receiver, sent, ordinal})) {
+    Delivery delivery{.lost = given->lost, .delay = given->delay, .given = true};
+    if (given->copied) delivery.copy_delay = given->copy_delay;
+    return delivery;
   }
   if (spared || !setup_.adverse.contains(sent)) return {};
-  return drawn_fate(key_of(sender, hearer, sent), draws, places);
+  return drawn_delivery(key_of(sender, hearer, sent), draws, places);
 }
 
-Fate Radio::drawn_fate(const MessageKey& message, const Block& draws, const LinkPlaces& places) {
+Delivery Radio::drawn_delivery(const MessageKey& message, const Block& draws, const LinkPlaces& places) {
   const auto& [sender, receiver, sent, ordinal] = message;
   const double loss_draw = unit_interval(word64(draws, 0));
-  Fate fate;
-  fate.lost = loss_draw < loss_at_distance(setup_.loss, setup_, places);
-  fate.delay = delay(draws);
-  if (has_states_) weigh_states(fate, loss_draw, sender, receiver, sent, places);
+  Delivery delivery;
+  delivery.lost = loss_draw < loss_at_distance(setup_.loss, setup_, places);
+  delivery.delay = delay(draws);
+  if (has_states_) weigh_states(delivery, loss_draw, sender, receiver, sent, places);
   if (!recorded_.empty()) {
     if (const auto* recorded = recorded_.at(sender, receiver, sent)) {
-      fate = Fate{.lost = !recorded->delay, .delay = recorded->delay.value_or(Duration::zero())};
+      delivery = Delivery{.lost = !recorded->delay, .delay = recorded->delay.value_or(Duration::zero())};
     }
   }
   // A message that is already lost keeps its cause. One more source therefore does not change the other counts.
-  if (!fate.lost) fate.lost = fate.to_source = sources_.destroy(message, places.receiver_m);
-  if (setup_.duplicates > 0.0) fate.copy_delay = copy_of(message);
-  return fate;
+  if (!delivery.lost) delivery.lost = delivery.to_source = sources_.destroy(message, places.receiver_m);
+  if (setup_.duplicates > 0.0) delivery.copy_delay = copy_of(message);
+  return delivery;
 }
 
-void Radio::weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId receiver, SimTime sent,
+void Radio::weigh_states(Delivery& delivery, double loss_draw, AgvId sender, AgvId receiver, SimTime sent,
                          const LinkPlaces& places) {
   double loss = setup_.asymmetry > 0.0 ? loss_of(sender, receiver) : setup_.loss;
   if (setup_.outages.mean_outage_s > 0.0) {
     const bool by_place = setup_.outages.scope == OutageSetup::Scope::Place;
-    fate.in_outage =
+    delivery.in_outage =
         by_place ? places_.cell_is_out(places.receiver_m, sent) : process_of(sender, receiver).bad_at(sent);
     const auto [good, bad] = losses_by_state(loss);
-    loss = fate.in_outage ? bad : good;
+    loss = delivery.in_outage ? bad : good;
   }
-  fate.lost = loss_draw < loss_at_distance(loss, setup_, places);
+  delivery.lost = loss_draw < loss_at_distance(loss, setup_, places);
   const bool at_border = places_.has_borders() &&
                          (places_.is_roaming(places.sender_m, sent) || places_.is_roaming(places.receiver_m, sent));
   if (at_border || crossings_.is_deaf(sender, sent) || crossings_.is_deaf(receiver, sent))
-    fate.lost = fate.in_outage = true;
+    delivery.lost = delivery.in_outage = true;
 }
 
 // If the nominal loss is outside [loss_good, loss_bad], the process has one state only, with that loss. The losses of

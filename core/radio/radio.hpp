@@ -10,7 +10,7 @@
 
 #include "core/base/random.hpp"
 #include "core/geometry/pose.hpp"
-#include "core/radio/given_fates.hpp"
+#include "core/radio/given_deliveries.hpp"
 #include "core/radio/message_key.hpp"
 #include "core/radio/outage_process.hpp"
 #include "core/radio/radio_channel.hpp"
@@ -79,7 +79,7 @@ class RadioSources {
 };
 
 // What happens to one message at one receiver. Air time and interference are not included.
-struct Fate {
+struct Delivery {
   bool lost = false;
   // The link or place is in an outage, or one of the two AGVs changes its access point. Set for received messages too.
   bool in_outage = false;
@@ -100,13 +100,13 @@ struct Hearer {
   std::uint32_t ordinal = 0;  // of the message, see MessageKey
 };
 
-// The radio as a function of message key and places. One more message changes the fate of no other message. A higher
-// loss rate only adds losses. The object stores the progress of each outage process, only for speed.
-// Threads: one object serves one run on one thread.
+// The radio as a function of message key and places. One more message changes the delivery of no other message. A
+// higher loss rate only adds losses. The object stores the progress of each outage process, only for speed. Threads:
+// one object serves one run on one thread.
 class Radio {
  public:
   // `fates` go over what the models draw. The models know AGVs by their draw numbers alone.
-  Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenFate> fates = {},
+  Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenDelivery> deliveries = {},
         DrawNumbers numbers = {});
   bool depends_on_place() const { return depends_on_place_; }
   // Call this for every piece that starts after time zero. Roaming depends on the path of the AGV.
@@ -118,15 +118,15 @@ class Radio {
   }
   // Call this when the operator carries the AGV to another place. That is not a crossing.
   void forget_path(AgvId agv) { crossings_.forget_path(numbers_.of(agv)); }
-  // `spared`: it is of a kind that is neither lost nor late unless a given fate says so.
-  Fate fate(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {},
-            bool spared = false);
+  // `spared`: it is of a kind that is neither lost nor late unless a given delivery says so.
+  Delivery delivery(AgvId sender, AgvId receiver, SimTime sent, std::uint32_t ordinal, const LinkPlaces& places = {},
+                    bool spared = false);
   // The same in two steps: first the draws of all that hear a message, which is cheaper than one by one.
   // Requires: there is room for three draws more.
   void draw(AgvId sender, SimTime sent, std::span<const Hearer> hearers, Block* draws) const;
-  Fate fate(AgvId sender, const Hearer& hearer, SimTime sent, const Block& draws, const LinkPlaces& places,
-            bool spared);
-  // Whether the fate of every message that is not spared is that of its draws alone: lost or not, its delay, and
+  Delivery delivery(AgvId sender, const Hearer& hearer, SimTime sent, const Block& draws, const LinkPlaces& places,
+                    bool spared);
+  // Whether the delivery of every message that is not spared is that of its draws alone: lost or not, its delay, and
   // nothing else.
   bool is_plain() const { return is_plain_; }
   // The same, but all are equally late, and AGVs have no draw numbers of their own: a message is lost or not.
@@ -165,14 +165,15 @@ class Radio {
   MessageKey key_of(AgvId sender, const Hearer& hearer, SimTime sent) const {
     return {numbers_.of(sender), numbers_.of(hearer.receiver), sent, hearer.ordinal};
   }
-  Fate drawn_fate(const MessageKey& message, const Block& draws, const LinkPlaces& places);
+  Delivery drawn_delivery(const MessageKey& message, const Block& draws, const LinkPlaces& places);
   struct StateLoss {
     double good, bad;
   };
   StateLoss losses_by_state(double loss) const;
   OutageLaw outage_law(double loss) const;
   double loss_of(AgvId sender, AgvId receiver) const;
-  void weigh_states(Fate& fate, double loss_draw, AgvId sender, AgvId receiver, SimTime sent, const LinkPlaces& places);
+  void weigh_states(Delivery& delivery, double loss_draw, AgvId sender, AgvId receiver, SimTime sent,
+                    const LinkPlaces& places);
   std::optional<Duration> copy_of(const MessageKey& message) const;
 
   RadioSetup setup_;
@@ -183,7 +184,7 @@ class Radio {
   DelayModel delay_;
   bool has_states_, depends_on_place_;
   DrawNumbers numbers_;
-  GivenFates given_;
+  GivenDeliveries given_;
   RecordedRadio recorded_;
   RadioPlaces places_;
   RadioCrossings crossings_;

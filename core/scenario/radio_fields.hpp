@@ -166,16 +166,16 @@ void visit_fields(Radio& radio, Visit&& visit) {
               .left_out = sources.empty()},
         sources);
   visit(Field{.key = "trace",
-              .text = "a recording that decides the fate of messages; a campaign names a CSV file",
+              .text = "a recording that decides the delivery of messages; a campaign names a CSV file",
               .left_out = trace == nullptr || trace->empty()},
         trace);
 }
 
-template <FieldsOf<GivenFate> Given, class Visit>
-void visit_fields(Given& fate, Visit&& visit) {
-  auto& [sender, receiver, sent, ordinal, lost, delay, copied, copy_delay] = fate;
+template <FieldsOf<GivenDelivery> Given, class Visit>
+void visit_fields(Given& delivery, Visit&& visit) {
+  auto& [sender, receiver, sent, ordinal, lost, delay, copied, copy_delay] = delivery;
   visit(Field{.key = "sender", .text = "name of the AGV that sends the message", .needed = true}, sender);
-  visit(Field{.key = "receiver", .text = "name of the AGV at which it has this fate", .needed = true}, receiver);
+  visit(Field{.key = "receiver", .text = "name of the AGV to which this applies", .needed = true}, receiver);
   visit(Field{.key = "sent_s", .text = "when it is sent, to the nanosecond", .high = 1e9, .needed = true}, sent);
   visit(Field{.key = "ordinal",
               .text = "which of the messages from the one to the other at that instant, from 0 on",

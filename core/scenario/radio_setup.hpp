@@ -99,7 +99,7 @@ struct RadioSource {
   friend bool operator==(const RadioSource&, const RadioSource&) = default;
 };
 
-// The fate of one recorded message.
+// The delivery of one recorded message.
 struct RecordedMessage {
   AgvId sender, receiver;
   Duration sent{};                // since the beginning of the recording
@@ -110,9 +110,9 @@ struct RecordedMessage {
 // In order of (sender, receiver, sent); times from 0 on.
 using RadioTrace = std::vector<RecordedMessage>;
 
-// What becomes of one message at one receiver, whatever the models of the radio would draw for it. The fate of no other
-// message moves. A message of this key that is never sent, or is out of range, has no fate.
-struct GivenFate {
+// What becomes of one message at one receiver, whatever the models of the radio would draw for it. The delivery of no
+// other message moves. A message of this key that is never sent, or is out of range, has no delivery.
+struct GivenDelivery {
   AgvId sender, receiver;
   Duration sent{};            // since the start of the run
   std::uint32_t ordinal = 0;  // among the messages from this sender to this receiver at that instant, from 0 on
@@ -121,7 +121,7 @@ struct GivenFate {
   bool copied = false;    // a second copy arrives
   Duration copy_delay{};  // the delay of this copy, if there is one
 
-  friend bool operator==(const GivenFate&, const GivenFate&) = default;
+  friend bool operator==(const GivenDelivery&, const GivenDelivery&) = default;
 };
 
 // Which messages the radio loses, delays and copies. All others arrive at once and once: those that are sent before
@@ -160,9 +160,9 @@ struct RadioSetup {
   PlaceSetup places{};
   InterferenceSetup contention{};
   std::vector<RadioSource> sources{};  // one more source only adds losses, also to recorded pairs
-  // The recording decides the fate of every message between the pairs that it contains: the fate of the first recorded
-  // message at or after the instant of sending. After its last instant it starts again. Other pairs use the models
-  // above. The runs of a campaign share one recording.
+  // The recording decides the delivery of every message between the pairs that it contains: the delivery of the first
+  // recorded message at or after the instant of sending. After its last instant it starts again. Other pairs use the
+  // models above. The runs of a campaign share one recording.
   std::shared_ptr<const RadioTrace> trace{};
 
   Duration air_time(std::size_t bytes) const {

@@ -123,7 +123,8 @@ struct Scenario {
   ScannerSetup scanner;
   OperatorSetup operator_help;
   RadioSetup radio;
-  std::vector<GivenFate> fates;  // of single messages, over what the radio draws; in any order, each message once
+  std::vector<GivenDelivery>
+      deliveries;  // of single messages, over what the radio draws; in any order, each message once
   AgentClockSetup agent_clock;
   LawSetup law;
   bool contact_stops = true;  // bodies that touch stand still afterwards

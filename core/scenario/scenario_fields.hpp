@@ -176,7 +176,7 @@ void visit_fields(Expected& expected, Visit&& visit) {
 
 template <FieldsOf<Scenario> Given, class Visit>
 void visit_fields(Given& scenario, Visit&& visit) {
-  auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, fates, agent_clock, law,
+  auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, deliveries, agent_clock, law,
          contact_stops, horizon, stuck_after, seed, stream_seeds, agent, agent_config, expected] = scenario;
   visit(Field{.key = "name", .text = "name of the scenario"}, name);
   visit(kSeed, seed);
@@ -212,8 +212,8 @@ void visit_fields(Given& scenario, Visit&& visit) {
   visit(Field{.key = "fates",
               .text = "what becomes of single messages, whatever the radio would draw for them",
               .home = FieldHome::ScenarioOnly,
-              .left_out = fates.empty()},
-        fates);
+              .left_out = deliveries.empty()},
+        deliveries);
   visit(Field{.key = "layout", .text = "the logical map", .needed = true}, map);
 }
 

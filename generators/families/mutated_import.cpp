@@ -41,39 +41,41 @@ void move(Layout& layout, Draws& draws) {
   }
 }
 
-enum class Fate : std::uint8_t { AsItIs, Turned, LeftOut };
+enum class Delivery : std::uint8_t { AsItIs, Turned, LeftOut };
 
 // By segment.
-std::vector<Fate> draw_fates(const Layout& base, Draws& draws) {
+std::vector<Delivery> draw_deliveries(const Layout& base, Draws& draws) {
   const std::uint32_t left_out_percent = draws.below(kMostLeftOut_percent + 1),
                       turned_percent = draws.below(kMostTurned_percent + 1);
   // If only one segment of a ring is reversed, stations usually become unreachable. If all of them are reversed, every
   // station stays reachable.
   const bool all_turned = draws.below(4) == 0;
-  std::vector<Fate> fates(base.segments.size());
-  for (std::size_t i = 0; i < fates.size(); ++i) {
+  std::vector<Delivery> deliveries(base.segments.size());
+  for (std::size_t i = 0; i < deliveries.size(); ++i) {
     const bool left_out = draws.below(100) < left_out_percent, turned = draws.below(100) < turned_percent;
-    fates[i] = left_out                                                  ? Fate::LeftOut
-               : turned != all_turned && !base.segments[i].bidirectional ? Fate::Turned
-                                                                         : Fate::AsItIs;
+    deliveries[i] = left_out                                                  ? Delivery::LeftOut
+                    : turned != all_turned && !base.segments[i].bidirectional ? Delivery::Turned
+                                                                              : Delivery::AsItIs;
   }
-  return fates;
+  return deliveries;
 }
 
 // Which stations reach each other afterwards. This comes before any segment is copied, because it refuses most draws.
-StrongComponents parts_left(const Layout& base, const std::vector<Fate>& fates) {
+StrongComponents parts_left(const Layout& base, const std::vector<Delivery>& deliveries) {
   std::vector<Arrow> arrows;
-  arrows.reserve(2 * fates.size());
-  for (std::size_t i = 0; i < fates.size(); ++i) {
+  arrows.reserve(2 * deliveries.size());
+  for (std::size_t i = 0; i < deliveries.size(); ++i) {
     const auto& segment = base.segments[i];
-    if (fates[i] == Fate::LeftOut) continue;
-    if (segment.bidirectional || fates[i] == Fate::AsItIs) arrows.push_back({segment.from.value, segment.to.value});
-    if (segment.bidirectional || fates[i] == Fate::Turned) arrows.push_back({segment.to.value, segment.from.value});
+    if (deliveries[i] == Delivery::LeftOut) continue;
+    if (segment.bidirectional || deliveries[i] == Delivery::AsItIs)
+      arrows.push_back({segment.from.value, segment.to.value});
+    if (segment.bidirectional || deliveries[i] == Delivery::Turned)
+      arrows.push_back({segment.to.value, segment.from.value});
   }
   return strong_components(base.stations.size(), arrows);
 }
 
-Layout what_is_left(const Layout& base, const std::vector<Fate>& fates) {
+Layout what_is_left(const Layout& base, const std::vector<Delivery>& deliveries) {
   Layout layout;
   layout.name = fmt::format("{}/{}", kMutatedImport, base.name);
   layout.stations = base.stations;
@@ -83,11 +85,11 @@ Layout what_is_left(const Layout& base, const std::vector<Fate>& fates) {
     station.heading.reset();
   }
   layout.blocks = base.blocks;
-  layout.segments.reserve(fates.size());
-  for (std::size_t i = 0; i < fates.size(); ++i) {
-    if (fates[i] == Fate::LeftOut) continue;
+  layout.segments.reserve(deliveries.size());
+  for (std::size_t i = 0; i < deliveries.size(); ++i) {
+    if (deliveries[i] == Delivery::LeftOut) continue;
     auto& segment = layout.segments.emplace_back(base.segments[i]);
-    if (fates[i] != Fate::Turned) continue;
+    if (deliveries[i] != Delivery::Turned) continue;
     std::swap(segment.from, segment.to);
     std::ranges::reverse(segment.control_points_m);
   }
@@ -109,10 +111,10 @@ std::shared_ptr<const LogicalMap> draw_mutated_map(const Layout& base, Draws& dr
     ++counts.of(kind);
     return nullptr;
   };
-  const auto fates = draw_fates(base, draws);
-  const auto parts = parts_left(base, fates);
+  const auto deliveries = draw_deliveries(base, draws);
+  const auto parts = parts_left(base, deliveries);
   if (2 * parts.largest_size < base.stations.size() || parts.largest_size < 2) return refused(ProblemKind::WeakCore);
-  Layout layout = what_is_left(base, fates);
+  Layout layout = what_is_left(base, deliveries);
   move(layout, draws);
   fit_floor(layout, kMargin_m);  // it holds all points
   if (!on_the_floor(layout.floor_low_m) || !on_the_floor(layout.floor_high_m))

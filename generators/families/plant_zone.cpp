@@ -107,8 +107,8 @@ void PlantRing::divide(Lane lane, Side side) {
   std::vector<std::int64_t> places;
   for (const auto& [place, station] : stations_[lane][side]) places.push_back(place);
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-    const std::int64_t stretch = places[i + 1] - places[i], steps = (stretch + kLongestStep_mm - 1) / kLongestStep_mm;
-    for (std::int64_t k = 1; k < steps; ++k) on_lane(lane, side, places[i] + stretch * k / steps);
+    const std::int64_t length = places[i + 1] - places[i], steps = (length + kLongestStep_mm - 1) / kLongestStep_mm;
+    for (std::int64_t k = 1; k < steps; ++k) on_lane(lane, side, places[i] + length * k / steps);
   }
 }
 

@@ -65,7 +65,7 @@ class PlantRing {
   // well: these cross the nearer lane at places without a station.
   StationId mouth(Side side, std::int64_t place, Facing facing, std::int64_t radius, bool crosses);
 
-  // Connects the stations of both lanes, with more of them where a stretch is long. Call it once, after everything that
+  // Connects the stations of both lanes, with more of them where a length is long. Call it once, after everything that
   // adds stations.
   void connect();
 

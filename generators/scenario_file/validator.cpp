@@ -205,7 +205,7 @@ class MeaningCheck {
             "an obstacle leaves after it has appeared");
     }
     for (std::size_t i = 0; i < scenario_.faults.size(); ++i) fault(i);
-    fates();
+    deliveries();
     draw_numbers();
   }
 
@@ -248,18 +248,18 @@ class MeaningCheck {
         fmt::format("{} has {} transports; they count from 0", in_quotes(agv.name), agv.transports.size()));
   }
 
-  void fates() {
+  void deliveries() {
     std::set<std::tuple<AgvId, AgvId, Duration, std::uint32_t>> seen;
-    for (std::size_t i = 0; i < scenario_.fates.size(); ++i) {
-      const GivenFate& fate = scenario_.fates[i];
+    for (std::size_t i = 0; i < scenario_.deliveries.size(); ++i) {
+      const GivenDelivery& delivery = scenario_.deliveries[i];
       const auto bad = [&](std::string_view key, const char* sentence) {
         add(ProblemKind::UnknownReference, fmt::format("/fates/{}{}", i, key), sentence);
       };
-      if (fate.sender.index() >= scenario_.agvs.size()) bad("/sender", "there is no such AGV");
-      if (fate.receiver.index() >= scenario_.agvs.size()) bad("/receiver", "there is no such AGV");
-      if (fate.sender == fate.receiver) bad("/receiver", "no AGV sends to itself; name another AGV");
-      if (!seen.emplace(fate.sender, fate.receiver, fate.sent, fate.ordinal).second)
-        bad("", "this message has a fate already; give each message one");
+      if (delivery.sender.index() >= scenario_.agvs.size()) bad("/sender", "there is no such AGV");
+      if (delivery.receiver.index() >= scenario_.agvs.size()) bad("/receiver", "there is no such AGV");
+      if (delivery.sender == delivery.receiver) bad("/receiver", "no AGV sends to itself; name another AGV");
+      if (!seen.emplace(delivery.sender, delivery.receiver, delivery.sent, delivery.ordinal).second)
+        bad("", "this message has a delivery already; give each message one");
     }
   }
 

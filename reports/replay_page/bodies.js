@@ -174,7 +174,7 @@ const drawMessages = (context, all, t_s, label) => {
     context.globalAlpha = 1;
     const old_s = Math.min(t_s - a.sent_s, a.age_s);
     const old = (old_s < 0.1 ? seconds(old_s) : old_s.toFixed(1) + ' s') + ' old' + (a.again ? ', a copy' : '');
-    const age = lost ? a.fate : old;
+    const age = lost ? a.receipt : old;
     if ((!crowded || between) && isInView(x, y))
       label(a.kind + contentOf(a.number) + ', ' + age, x, y - 6, lost ? colours.bad : colours.message);
   }

@@ -103,7 +103,7 @@ std::string path_of(const ClearanceCurve& curve, const Scale& scale) {
   return path;
 }
 
-// The stretches below the safety distance as fields from top to bottom.
+// The episodes below the safety distance as fields from top to bottom.
 void add_broken(Element& svg, const Film& film, const ClearanceCurve& curve, const Scale& scale) {
   for (const TooClose& v : film.violations) {
     if (v.a != curve.a || v.b != curve.b || v.first_us >= scale.to_us) continue;

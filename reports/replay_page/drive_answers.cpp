@@ -124,7 +124,7 @@ std::vector<AnswerLine> lost_asks(const FilmTalk& talk, const Setting& setting, 
     if (!d.is_lost() && !is_late) continue;
     lines.push_back({d.sent.at_us,
                      fmt::format("{}, sent {} s: {}", text_of(*d.message), time_text(d.sent.at_us),
-                                 d.is_lost() ? word_of(d.fate) : "still under way then"),
+                                 d.is_lost() ? word_of(d.receipt) : "still under way then"),
                      true});
   }
   if (lines.empty()) return lines;
@@ -203,7 +203,7 @@ SenderAnswers answers_of(const FilmTalk& talk, const Setting& setting, std::size
 std::string told(const Setting& setting, const Film& film, const FilmTalk& talk, const Delivery& d) {
   std::string text = fmt::format("{}, sent {} s", text_of(*d.message), time_text(d.sent.at_us));
   if (d.is_lost()) {
-    text += fmt::format(": {}", word_of(d.fate));
+    text += fmt::format(": {}", word_of(d.receipt));
   } else if (d.arrives.at_us > film.end_us) {
     text += ": still under way at the end of the run";
   } else if (d.arrives >= setting.begin) {

@@ -300,12 +300,12 @@ class ReasonTeller {
     }
     if (last == nullptr) return;
     const std::string received = fmt::format("received {} s", time_text(last->arrives.at_us));
-    const std::string fate = last->is_lost()                      ? word_of(last->fate)
-                             : last->arrives.at_us > film_.end_us ? "still under way at the end of the run"
-                             : last->arrives >= setting_.begin    ? "still under way then, " + received
-                                                                  : received;
+    const std::string delivery = last->is_lost()                      ? word_of(last->receipt)
+                                 : last->arrives.at_us > film_.end_us ? "still under way at the end of the run"
+                                 : last->arrives >= setting_.begin    ? "still under way then, " + received
+                                                                      : received;
     item(last->sent.at_us, fmt::format("{} itself had last answered {} with {}, sent {} s, {}.", name(drive_.body),
-                                       name(other), text_of(*last->message), time_text(last->sent.at_us), fate));
+                                       name(other), text_of(*last->message), time_text(last->sent.at_us), delivery));
   }
 
   void tell_change(const Delivery& before, const Delivery& answer) {

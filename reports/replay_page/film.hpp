@@ -90,15 +90,22 @@ struct Loaded {
   bool on = false;
 };
 
-enum class Fate : std::uint8_t { Received, LostByChance, LostInOutage, LostByInterference, LostToSource, LostAsGiven };
+enum class Receipt : std::uint8_t {
+  Received,
+  LostByChance,
+  LostInOutage,
+  LostByInterference,
+  LostToSource,
+  LostAsGiven
+};
 // A message that arrives twice at one receiver has two arrivals there. An arrival after the end of the run: the message
 // is still under way.
 struct Arrival {
   std::size_t receiver = 0;
-  Fate fate = Fate::Received;
+  Receipt receipt = Receipt::Received;
   std::int64_t after_us = 0;  // since the message was sent, also of a loss
   std::uint64_t order = 0;
-  bool is_given = false;  // the scenario gives this fate
+  bool is_given = false;  // the scenario decides it
 };
 struct Message {
   std::uint32_t number = 0, bytes = 0;

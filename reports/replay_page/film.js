@@ -40,7 +40,7 @@ const beliefsOf = byBody(film.beliefs_ms_mm_mrad).map(rows => {
 });
 
 // Every arrival of a message at one receiver, in order of sending. `age_s` null: lost. `again`: its second copy.
-const kFates = ['received', 'lost by chance', 'lost in an outage', 'lost by interference', 'lost to a source',
+const kReceipts = ['received', 'lost by chance', 'lost in an outage', 'lost by interference', 'lost to a source',
                 'lost on purpose by the scenario'];
 const arrivals = [], whole = new Set();
 for (const [number, sender, to, sent_ms, kind, bytes, ...pairs] of film.messages_ms) {
@@ -48,7 +48,7 @@ for (const [number, sender, to, sent_ms, kind, bytes, ...pairs] of film.messages
     const lost = pairs[i + 1] < 0, key = number * 65536 + pairs[i], again = whole.has(key);
     whole.add(key);
     arrivals.push({again, number, sender, receiver: pairs[i], sent_s: sent_ms / 1e3, kind: word(kind), bytes, to,
-                   age_s: lost ? null : pairs[i + 1] / 1e3, fate: kFates[lost ? -pairs[i + 1] : 0]});
+                   age_s: lost ? null : pairs[i + 1] / 1e3, receipt: kReceipts[lost ? -pairs[i + 1] : 0]});
   }
 }
 // The kinds of messages. Each has a colour, and a letter or two that no other kind has.

@@ -93,10 +93,10 @@ std::string message_json(const Message& message, Words& words) {
   std::string text = fmt::format("[{},{},{},{},{},{}", message.number, message.sender, or_none(message.receiver),
                                  milliseconds(message.sent_us), words.index_of(message.kind), message.bytes);
   for (const Arrival& arrival : message.arrivals) {
-    const bool received = arrival.fate == Fate::Received;
+    const bool received = arrival.receipt == Receipt::Received;
     text += fmt::format(",{},{}", arrival.receiver,
                         received ? milliseconds(message.sent_us + arrival.after_us) - milliseconds(message.sent_us)
-                                 : -static_cast<std::int64_t>(arrival.fate));
+                                 : -static_cast<std::int64_t>(arrival.receipt));
   }
   return text + "]";
 }

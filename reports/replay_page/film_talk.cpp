@@ -22,9 +22,9 @@ FilmTalk::FilmTalk(const Film& film) : sent_by_(film.bodies.size()), restarts_(f
       const Moment arrives{message.sent_us + arrival.after_us, arrival.order};
       const bool is_copy = !link.empty() && link.back().message == &message;
       if (!is_copy) {
-        link.push_back({&message, arrival.fate, {message.sent_us, message.order}, arrives, {}});
-      } else if (link.back().is_lost() || arrival.fate != Fate::Received) {
-        link.back().fate = arrival.fate;
+        link.push_back({&message, arrival.receipt, {message.sent_us, message.order}, arrives, {}});
+      } else if (link.back().is_lost() || arrival.receipt != Receipt::Received) {
+        link.back().receipt = arrival.receipt;
         link.back().arrives = arrives;
       } else {
         link.back().again = std::max(link.back().arrives, arrives);

@@ -14,11 +14,11 @@ namespace fleetproof::web {
 // One message at one receiver, with its copy if it arrives twice.
 struct Delivery {
   const Message* message = nullptr;
-  Fate fate = Fate::Received;
+  Receipt receipt = Receipt::Received;
   Moment sent, arrives;         // of a loss: when it was lost
   std::optional<Moment> again;  // the copy, later than the first
 
-  bool is_lost() const { return fate != Fate::Received; }
+  bool is_lost() const { return receipt != Receipt::Received; }
   bool is_to_one() const { return message->receiver.has_value(); }
 };
 

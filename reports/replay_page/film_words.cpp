@@ -14,11 +14,11 @@ std::string thousandths(std::int64_t millionths) {
 std::string time_text(std::int64_t us) { return thousandths(us); }
 std::string metres_text(std::int64_t um) { return thousandths(um); }
 
-const char* word_of(Fate fate) {
+const char* word_of(Receipt receipt) {
   constexpr const char* kWords[] = {"received",          "lost by chance",
                                     "lost in an outage", "lost by interference",
                                     "lost to a source",  "lost on purpose by the scenario"};
-  return kWords[static_cast<std::size_t>(fate)];
+  return kWords[static_cast<std::size_t>(receipt)];
 }
 
 std::string text_of(const Message& message) {

@@ -13,7 +13,7 @@ std::string time_text(std::int64_t us);
 std::string metres_text(std::int64_t um);  // "0.034"
 
 // "received", "lost by chance".
-const char* word_of(Fate fate);
+const char* word_of(Receipt receipt);
 
 // "GRANT #118", and its content if there is one: "GRANT #118 (answers 7.0)".
 std::string text_of(const Message& message);

@@ -199,7 +199,7 @@ class OwnRequestFinder {
     std::string text = fmt::format("{}, sent {} s", text_of(*asking.message), time_text(asking.sent.at_us));
     for (const Delivery& d : sent_within(talk_.between(setting_.body, other_), asking.sent.at_us, until_)) {
       if (d.message != asking.message) continue;
-      if (d.is_lost()) return text + ": " + word_of(d.fate);
+      if (d.is_lost()) return text + ": " + word_of(d.receipt);
       return text + (d.arrives < until_ ? fmt::format(", received {} s", time_text(d.arrives.at_us))
                                         : ": still under way then");
     }

@@ -66,9 +66,9 @@ const aboutMessages = (body, t_s) => {
     const arrived = a.age_s !== null && a.sent_s + a.age_s <= t_s;
     const toAll = sends && a.to === -1;
     const whom = !sends ? 'from ' + nameOf(a.sender) : toAll ? 'to all' : 'to ' + nameOf(a.to);
-    const fate = a.age_s === null ? a.fate : (a.again ? 'again, ' : '') +
+    const receipt = a.age_s === null ? a.receipt : (a.again ? 'again, ' : '') +
       (arrived ? 'after ' + seconds(a.age_s) : 'under way');
-    const end = toAll ? '' : [fate, a.age_s === null || a.again ? 'bad' : 'soft'];
+    const end = toAll ? '' : [receipt, a.age_s === null || a.again ? 'bad' : 'soft'];
     lines.push([seconds(a.sent_s), whom, a.kind + contentOf(a.number), end]);
   }
   return lines;

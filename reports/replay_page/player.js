@@ -225,7 +225,7 @@ if (!film.involved.length) byId('failure').textContent = 'Closest pair';
 byId('failure').hidden = !kSubject.length;
 byId('flat').hidden = kOrder.every(body => lookOf(body) === kTall);
 byId('player').hidden = false;
-document.documentElement.classList.add('ready');  // before the first drawing: then the course is as high as it stays
+document.documentElement.classList.add('ready');  // before the first drawing: then the event log is as high as it stays
 readAddress();
 if (selected === null || kSubject.includes(selected)) showPair([kFocus_s, player.t_s]);
 else showPair([player.t_s], [selected], 6);

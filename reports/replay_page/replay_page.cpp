@@ -7,12 +7,12 @@
 #include "reports/markup/section_tables.hpp"
 #include "reports/replay_page/assets.hpp"
 #include "reports/replay_page/clearance_chart.hpp"
-#include "reports/replay_page/course_part.hpp"
 #include "reports/replay_page/drive_reasons.hpp"
+#include "reports/replay_page/event_log_part.hpp"
 #include "reports/replay_page/film_budget.hpp"
 #include "reports/replay_page/film_json.hpp"
 #include "reports/replay_page/film_tables.hpp"
-#include "reports/replay_page/given_fate_lines.hpp"
+#include "reports/replay_page/given_delivery_lines.hpp"
 
 namespace fleetproof::web {
 namespace {
@@ -66,7 +66,7 @@ Element header_of(const Film& film, const ReasonLine* decisive) {
     story.add(text_element("p", film.story[i]));
     if (i == 0 && decisive != nullptr) story.add(instant(*decisive, "decisive"));
   }
-  for (const ReasonLine& line : given_fate_lines(film)) story.add(instant(line, "given"));
+  for (const ReasonLine& line : given_delivery_lines(film)) story.add(instant(line, "given"));
   return header.add(story);
 }
 
@@ -155,8 +155,8 @@ std::string replay_page(Film film) {
   const ReasonLine* decisive = reasons.empty() || !reasons.front().is_fatal ? nullptr : reasons.front().decisive();
   open_at_decision(film, reasons);
   Element tables("div", {{"id", "record"}});
-  const Course course = course_of(film);
-  if (!course.lines.empty()) tables.add(course_part(course));
+  const EventLog event_log = event_log_of(film);
+  if (!event_log.lines.empty()) tables.add(event_log_part(event_log));
   if (!film.clearances.empty()) tables.add(clearance_part(film));
   if (!film.strip.frames.empty()) tables.add(pictures_part(film));
   for (const Element& part : table_parts(film)) tables.add(part);

@@ -104,7 +104,7 @@ TEST(QuickestWay, BeginsAsTheWayOfAWholeSearch) {
   EXPECT_GT(no_way, 20U);
 }
 
-// Ways of several stretches.
+// Ways of several sections.
 TEST(QuickestWay, BeginsSoOnALargeMapToo) {
   std::size_t lanes = 0, no_way = 0;
   for (std::uint64_t seed = 20; seed < 24; ++seed) {

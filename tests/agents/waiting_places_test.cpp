@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/agents/stretch_planner.hpp"
+#include "core/agents/section_planner.hpp"
 #include "tests/agents/drawn_map.hpp"
 
 namespace fleetproof::agents::waiting_places_test {
@@ -138,7 +138,7 @@ TEST(WaitingPlaces, MayBeInFrontOfAOneWayCrossing) {
 }
 
 // Beside a place where an AGV stands there is no room to turn: if it wants to turn as well, both stay for ever.
-TEST(CrampedPlaces, AreNoEndOfAStretch) {
+TEST(CrampedPlaces, AreNoEndOfASection) {
   DrawnMap drawn;
   for (const double x_m : {0.0, 12.5, 16.0, 28.0}) drawn.station(x_m, 0);
   const auto east = drawn.station(28, -20), west = drawn.station(0, -20), beside = drawn.station(12.5, 1.95),
@@ -151,7 +151,7 @@ TEST(CrampedPlaces, AreNoEndOfAStretch) {
   const TestFleet fleet(drawn.map(), 2);
   HullGeometry geometry(map, fleet.briefing(0, 0));
   Neighbours neighbours(map, geometry, fleet.briefing(0, 0));
-  StretchPlanner planner(map, geometry, neighbours, 0);
+  SectionPlanner planner(map, geometry, neighbours, 0);
   const std::vector<Goal> goals{{3, Leg::Kind::Pick}};
   const auto end = [&] { return end_of(map, planner.towards({}, {40.0, kPathLanesMax}, goals).path).station; };
   EXPECT_EQ(end(), 1U);
@@ -164,12 +164,12 @@ TEST(CrampedPlaces, AreNoEndOfAStretch) {
 
 class Planning : public ::testing::Test {
  protected:
-  Stretch towards(std::uint32_t from, std::vector<Goal> goals, double budget_m = 40.0) {
+  Section towards(std::uint32_t from, std::vector<Goal> goals, double budget_m = 40.0) {
     Path standing;
     standing.station = from;
     return planner.towards(standing, {budget_m, kPathLanesMax}, goals);
   }
-  std::uint32_t end(const Stretch& s) { return end_of(map, s.path).station; }
+  std::uint32_t end(const Section& s) { return end_of(map, s.path).station; }
   void put(std::uint32_t agv, std::uint32_t station) {
     Message m;
     m.status.stamp_ms = ++stamp;
@@ -183,19 +183,19 @@ class Planning : public ::testing::Test {
   TestFleet fleet{street.drawn.map(), 3};
   HullGeometry geometry{map, fleet.briefing(0, 0)};
   Neighbours neighbours{map, geometry, fleet.briefing(0, 0)};
-  StretchPlanner planner{map, geometry, neighbours, 0};
+  SectionPlanner planner{map, geometry, neighbours, 0};
   std::uint32_t stamp = 0;
 };
 
-TEST_F(Planning, StretchEndsAtAWaitingPlaceFarEnough) {
-  const Stretch s = towards(0, {{5, Leg::Kind::Pick}});
+TEST_F(Planning, SectionEndsAtAWaitingPlaceFarEnough) {
+  const Section s = towards(0, {{5, Leg::Kind::Pick}});
   EXPECT_EQ(end(s), 3U);
   EXPECT_EQ(s.goals, 0U);
   EXPECT_EQ(s.legs.size(), 3U);
 }
 
 TEST_F(Planning, GoesOnFromAGoalWhereOneMustNotWait) {
-  const Stretch s = towards(0, {{1, Leg::Kind::Pick}, {8, Leg::Kind::Drop}});
+  const Section s = towards(0, {{1, Leg::Kind::Pick}, {8, Leg::Kind::Drop}});
   EXPECT_EQ(end(s), 8U);
   EXPECT_EQ(s.goals, 2U);
   ASSERT_EQ(s.legs.size(), 4U);
@@ -204,7 +204,7 @@ TEST_F(Planning, GoesOnFromAGoalWhereOneMustNotWait) {
 }
 
 TEST_F(Planning, AfterTheLastGoalItLeavesForAWaitingPlace) {
-  const Stretch s = towards(0, {{2, Leg::Kind::Drop}});
+  const Section s = towards(0, {{2, Leg::Kind::Drop}});
   EXPECT_EQ(s.goals, 1U);
   EXPECT_TRUE(planner.places().is_safe(end(s)));
   EXPECT_EQ(s.legs.back().kind, Leg::Kind::Drive);
@@ -212,7 +212,7 @@ TEST_F(Planning, AfterTheLastGoalItLeavesForAWaitingPlace) {
 
 // It stays there until it is charged, whoever asks for the place: it must not hold a way on meanwhile.
 TEST_F(Planning, EndsAtTheChargerEvenIfItIsNoWaitingPlace) {
-  const Stretch s = towards(0, {{2, Leg::Kind::Charge}, {8, Leg::Kind::Drop}});
+  const Section s = towards(0, {{2, Leg::Kind::Charge}, {8, Leg::Kind::Drop}});
   EXPECT_FALSE(planner.places().is_safe(2));
   EXPECT_EQ(end(s), 2U);
   EXPECT_EQ(s.goals, 1U);
@@ -221,7 +221,7 @@ TEST_F(Planning, EndsAtTheChargerEvenIfItIsNoWaitingPlace) {
 
 TEST_F(Planning, GoesRoundAWaitingAgv) {
   put(1, 3);
-  const Stretch s = towards(0, {{5, Leg::Kind::Pick}});
+  const Section s = towards(0, {{5, Leg::Kind::Pick}});
   EXPECT_TRUE(end(s) == 6U || end(s) == 7U) << end(s);
 }
 
@@ -236,7 +236,7 @@ TEST_F(Planning, GetsOutOfTheWayOfWhatIsHeld) {
   Path standing;
   standing.station = 3;
   for (const double draw : {0.0, 0.3, 0.6, 0.9}) {
-    const Stretch s = planner.out_of_the_way(standing, {40.0, kPathLanesMax}, false, false, draw, {});
+    const Section s = planner.out_of_the_way(standing, {40.0, kPathLanesMax}, false, false, draw, {});
     ASSERT_FALSE(s.empty());
     EXPECT_TRUE(end(s) == 0U || end(s) == 6U || end(s) == 7U) << end(s);
   }

@@ -54,7 +54,7 @@ TEST(RunOrder, IsWhatWasEncoded) {
   const RunOrder decoded = decode_order(encode(order));
   EXPECT_EQ(decoded.run_index, order.run_index);
   EXPECT_EQ(decoded.known_ends, order.known_ends);
-  EXPECT_TRUE(decoded.record && decoded.fates);
+  EXPECT_TRUE(decoded.record && decoded.deliveries);
   EXPECT_EQ(decoded.scenario.layout_digest, 5U);
   EXPECT_EQ(decoded.scenario.layout, "a plant");
   EXPECT_EQ(decoded.scenario.scenario, "{}");
@@ -72,15 +72,15 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   answer.run.words = {"driving", "late"};
   answer.run.all_words = {"late"};
   answer.run.first_said = {{AgvId{3U}, "late", at_ns(9)}};
-  MessageFate& message = answer.run.fates.emplace_back();
-  message.fate = {AgvId{1U}, AgvId{2U}, Duration{3}, 4, true, Duration{5}, true, Duration{6}};
+  MessageDelivery& message = answer.run.deliveries.emplace_back();
+  message.delivery = {AgvId{1U}, AgvId{2U}, Duration{3}, 4, true, Duration{5}, true, Duration{6}};
   message.kind = "GRANT";
   message.number = 7;
   message.content = "answers 1";
   message.on_its_way = Duration{8};
   const Departure departure{AgvId{1U}, at_ns(8), at_ns(9), StationId{2U}, StationId{3U}, {0.6, 0.8}, {-1.0, 0.0}};
   answer.run.itinerary.departures = {departure};
-  answer.run.itinerary.deliveries = {{AgvId{2U}, 4, at_ns(10)}};
+  answer.run.itinerary.done = {{AgvId{2U}, 4, at_ns(10)}};
   const std::string bytes = encode(answer);
   const RunAnswer decoded = decode_answer(bytes);
   EXPECT_TRUE(decoded.failed);
@@ -94,20 +94,20 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   ASSERT_EQ(decoded.run.first_said.size(), 1U);
   EXPECT_EQ(std::tuple(decoded.run.first_said[0].agv, decoded.run.first_said[0].word, decoded.run.first_said[0].at),
             std::tuple(EntityId{AgvId{3U}}, "late", at_ns(9)));
-  ASSERT_EQ(decoded.run.fates.size(), 1U);
-  EXPECT_EQ(decoded.run.fates[0].fate, message.fate);
-  EXPECT_EQ(std::tuple(decoded.run.fates[0].kind, decoded.run.fates[0].number),
+  ASSERT_EQ(decoded.run.deliveries.size(), 1U);
+  EXPECT_EQ(decoded.run.deliveries[0].delivery, message.delivery);
+  EXPECT_EQ(std::tuple(decoded.run.deliveries[0].kind, decoded.run.deliveries[0].number),
             std::tuple(message.kind, message.number));
-  EXPECT_EQ(decoded.run.fates[0].content, message.content);
-  EXPECT_EQ(decoded.run.fates[0].arrives(), kStart + message.fate.sent + Duration{8});
+  EXPECT_EQ(decoded.run.deliveries[0].content, message.content);
+  EXPECT_EQ(decoded.run.deliveries[0].arrives(), kStart + message.delivery.sent + Duration{8});
   ASSERT_EQ(decoded.run.itinerary.departures.size(), 1U);
   const Departure& there = decoded.run.itinerary.departures[0];
   EXPECT_EQ(std::tuple(there.agv, there.at, there.arrives, there.from, there.to),
             std::tuple(departure.agv, departure.at, departure.arrives, departure.from, departure.to));
   EXPECT_EQ(there.heading, departure.heading);
   EXPECT_EQ(there.heading_there, departure.heading_there);
-  ASSERT_EQ(decoded.run.itinerary.deliveries.size(), 1U);
-  const auto& [agv, transport, at] = decoded.run.itinerary.deliveries[0];
+  ASSERT_EQ(decoded.run.itinerary.done.size(), 1U);
+  const auto& [agv, transport, at] = decoded.run.itinerary.done[0];
   EXPECT_EQ(std::tuple(agv, transport, at), std::tuple(AgvId{2U}, 4U, at_ns(10)));
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_THROW(decode_answer(std::string_view(bytes).substr(0, length)), EngineError) << length;

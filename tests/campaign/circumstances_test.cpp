@@ -9,11 +9,11 @@ using testing::HasSubstr;
 
 SimTime at_s(double t_s) { return kStart + seconds(t_s); }
 
-MessageFate message(std::uint32_t from, std::uint32_t to, double sent_s, double arrives_s) {
-  MessageFate message;
-  message.fate.sender = AgvId{from};
-  message.fate.receiver = AgvId{to};
-  message.fate.sent = seconds(sent_s);
+MessageDelivery message(std::uint32_t from, std::uint32_t to, double sent_s, double arrives_s) {
+  MessageDelivery message;
+  message.delivery.sender = AgvId{from};
+  message.delivery.receiver = AgvId{to};
+  message.delivery.sent = seconds(sent_s);
   message.on_its_way = seconds(arrives_s - sent_s);
   return message;
 }
@@ -44,9 +44,9 @@ CaseRun close_call() {
   violation.first = violation.last = violation.closest_at = at_s(10.0);
   run.outcome.violations.push_back(violation);
   run.itinerary.departures = {drive(1, 0.0, 3.0), drive(0, 1.0, 4.0), drive(0, 8.0, 12.0), drive(1, 11.0, 13.0)};
-  run.fates = {message(1, 0, 6.0, 7.5), message(1, 0, 8.5, 9.0), message(1, 0, 9.5, 10.5), message(0, 1, 1.0, 2.0),
-               message(0, 1, 2.0, 3.0), message(0, 1, 9.0, 9.0), message(0, 2, 9.0, 9.1)};
-  run.fates[5].fate.lost = true;
+  run.deliveries = {message(1, 0, 6.0, 7.5), message(1, 0, 8.5, 9.0), message(1, 0, 9.5, 10.5), message(0, 1, 1.0, 2.0),
+                    message(0, 1, 2.0, 3.0), message(0, 1, 9.0, 9.0), message(0, 2, 9.0, 9.1)};
+  run.deliveries[5].delivery.lost = true;
   return run;
 }
 

@@ -10,7 +10,7 @@
 namespace fleetproof::explain_sentences_test {
 namespace {
 
-// A case whose luck is not written down: had one of these messages arrived, it would not fail.
+// A case whose losses are not written down: had one of these messages arrived, it would not fail.
 TEST(Explain, MessagesThatTheRadioDrewAreAskedForToo) {
   AgentPrograms programs;
   CaseHost host({"timeout-grant", ""}, programs, 2);
@@ -27,7 +27,7 @@ TEST(Explain, MessagesThatTheRadioDrewAreAskedForToo) {
     for (const MessageNeed& need : needs) {
       EXPECT_TRUE(need.is_needed);
       EXPECT_TRUE(need.message.is_adverse());
-      EXPECT_LT(kStart + need.message.fate.sent, failure->at);
+      EXPECT_LT(kStart + need.message.delivery.sent, failure->at);
       EXPECT_TRUE(host(need.claims[0].run).outcome.violations.empty()) << need.claims[0].sentence;
     }
   }
@@ -103,12 +103,12 @@ TEST(Explain, TheSentencesTellWhichAgentCrashed) {
 // Counting messages instead of senders: two GRANTs of one AGV.
 TEST(Explain, TheSentencesTellThatTwoMessagesSayTheSame) {
   MadeUp made;
-  MessageFate second;
+  MessageDelivery second;
   second.kind = "GRANT";
   second.content = "answers 7";
   second.number = 9;
-  second.fate = {.sender = made.b, .receiver = made.a, .sent = seconds(2.0)};
-  MessageFate first = second;
+  second.delivery = {.sender = made.b, .receiver = made.a, .sent = seconds(2.0)};
+  MessageDelivery first = second;
   first.number = 8;
   const Claim held{"", {}, "none", true, {}};
   const auto is_told = [&] {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "campaign/explain/sentences.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 #include "campaign/shrink/shrink.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -78,9 +78,9 @@ TEST(Explain, WhatLetItSetOffIsSimulated) {
     ASSERT_FALSE(explained.is.set_offs.empty());
     for (const SetOff& set_off : explained.is.set_offs) {
       const auto sets_off = [&](const Claim& claim) {
-        return sets_off_then(explained.host(claim.run, Fates::Kept), set_off.drive);
+        return sets_off_then(explained.host(claim.run, Deliveries::Kept), set_off.drive);
       };
-      EXPECT_TRUE(sets_off_then(explained.host(explained.is.small.scenario, Fates::Kept), set_off.drive));
+      EXPECT_TRUE(sets_off_then(explained.host(explained.is.small.scenario, Deliveries::Kept), set_off.drive));
       for (const Leave& leave : set_off.leaves) {
         ASSERT_EQ(leave.kinds.size(), leave.claims.size());
         for (const Claim& claim : leave.claims) EXPECT_FALSE(sets_off(claim)) << claim.sentence;
@@ -91,12 +91,12 @@ TEST(Explain, WhatLetItSetOffIsSimulated) {
         for (const GoAhead& key : leave.keys) {
           ++keys;
           EXPECT_FALSE(sets_off(key.claim)) << key.claim.sentence;
-          EXPECT_EQ(key.message.fate.receiver, set_off.agv);
-          EXPECT_LE(kStart + key.message.fate.sent, set_off.drive.at);
+          EXPECT_EQ(key.message.delivery.receiver, set_off.agv);
+          EXPECT_LE(kStart + key.message.delivery.sent, set_off.drive.at);
           for (const Question& asked : key.asked) {
             ++questions;
-            EXPECT_LE(asked.message.arrives(), kStart + key.message.fate.sent);
-            EXPECT_GT(asked.message.arrives(), kStart + asked.message.fate.sent) << "the air takes a millisecond";
+            EXPECT_LE(asked.message.arrives(), kStart + key.message.delivery.sent);
+            EXPECT_GT(asked.message.arrives(), kStart + asked.message.delivery.sent) << "the air takes a millisecond";
           }
         }
       }
@@ -120,19 +120,19 @@ TEST(Explain, TheSentencesTellWhatLetItSetOff) {
   drive.at = kStart + std::chrono::seconds(4);
   drive.from = StationId{0U};
   drive.to = StationId{1U};
-  MessageFate grant, asked;
+  MessageDelivery grant, asked;
   grant.kind = "GRANT";
   grant.number = 7;
-  grant.fate = {.sender = other, .receiver = agv, .sent = seconds(2.0), .delay = seconds(1.5), .copied = true};
+  grant.delivery = {.sender = other, .receiver = agv, .sent = seconds(2.0), .delay = seconds(1.5), .copied = true};
   asked.kind = "REQUEST";
   asked.number = 5;
-  asked.fate = {.sender = agv, .receiver = other, .sent = seconds(1.0)};
+  asked.delivery = {.sender = agv, .receiver = other, .sent = seconds(1.0)};
   const Claim held{"", {}, "none", true, {}};
   grant.content = "answers 7";
-  MessageFate last = asked;
+  MessageDelivery last = asked;
   last.number = 6;
   last.content = "asks with 8";
-  last.fate.sent = seconds(3.0);
+  last.delivery.sent = seconds(3.0);
   const Question question{asked, 2, last};
   is.set_offs = {{agv, drive, {{other, {"GRANT"}, {held}, held, {{grant, held, {question}, drive, true}}}}}};
   is.notes.declared = {{other, "gave-way", kStart + std::chrono::seconds(2)}};
@@ -266,7 +266,7 @@ TEST(NoReturn, WhatDecidedItLiesBeforeItWasCertain) {
     for (const std::uint32_t count : counts) {
       Branching& branching = curve.emplace_back();
       branching.at = kStart + std::chrono::seconds(curve.size());
-      for (std::uint32_t luck = 1; luck <= count; ++luck) branching.failing_lucks.push_back(luck);
+      for (std::uint32_t draw = 1; draw <= count; ++draw) branching.failing_draws.push_back(draw);
     }
     const NoReturn found = judged(std::move(curve));
     const auto second = [](SimTime at) { return (at - kStart) / std::chrono::seconds(1); };
@@ -282,8 +282,8 @@ TEST(NoReturn, WhatDecidedItLiesBeforeItWasCertain) {
 
 // Where many fail, another failure of the run says nothing about this one.
 void expect_the_same_bodies(CaseHost& host, const Branching& branching, const Failure& failure) {
-  for (const std::uint32_t luck : branching.failing_lucks) {
-    const auto found = failure_of(host(with_other_radio(branching.run, luck)));
+  for (const std::uint32_t draw : branching.failing_draws) {
+    const auto found = failure_of(host(with_other_radio(branching.run, draw)));
     ASSERT_TRUE(found);
     EXPECT_EQ(std::minmax(found->a.value, found->b.value), std::minmax(failure.a.value, failure.b.value));
   }
@@ -313,7 +313,7 @@ TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
     if (!curve.certain_from || 3 * curve.curve.front().failing() > kBranches) continue;
     ++with_end;
     // The silence that it takes for consent overlaps the window that the curve marks.
-    const CaseNotes notes = host(scenario, Fates::Kept).notes;
+    const CaseNotes notes = host(scenario, Deliveries::Kept).notes;
     std::optional<SimTime> first_said, said;  // both may say it, and again
     for (const Declared& declared : notes.declared) {
       const bool involved = declared.agv == failure->a || declared.agv == failure->b;
@@ -331,7 +331,7 @@ TEST(NoReturn, IsAtTheMessageThatDecidesIt) {
     EXPECT_LE(curve.acted_by.value_or(failure->at), failure->at);
   }
   EXPECT_EQ(with_end, 10U);
-  EXPECT_GE(before_certain, 9U);  // in another one, each luck has a silence of its own
+  EXPECT_GE(before_certain, 9U);  // in another one, each draw has a silence of its own
   EXPECT_GE(in_window, 7U);       // in others, what came after the silence could still have helped
   EXPECT_EQ(acted_by, 10U) << "it sets off when it has taken silence for consent";
 }

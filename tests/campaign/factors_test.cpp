@@ -182,7 +182,7 @@ TEST(CallCost, VariesOverTheSameWorldAndSlowsTheAgentsDown) {
     return simulate(source.scenario(index), programs.find(source.place(index).cell.agent, "test"), {});
   };
   EXPECT_NE(run(1).digest, run(3).digest);
-  // Over all worlds: in a single one, an agent that is late may be lucky.
+  // Over all worlds: in a single one, an agent that is late may escape.
   std::array<std::uint64_t, 2> driven_um{};
   for (std::uint64_t index = 0; index < plan.cell_count(); ++index)
     driven_um[source.scenario(index).agent_clock.call_cost_s > 0.0 ? 1 : 0] += run(index).counters.distance_um;
@@ -232,11 +232,11 @@ std::string orders(const Scenario& scenario) {
   return text;
 }
 
-// The fates of a hundred messages as the engine would draw them.
-std::string fates(const Scenario& scenario) {
+// The deliveries of a hundred messages as the engine would draw them.
+std::string deliveries(const Scenario& scenario) {
   Radio radio({.loss = 0.5}, scenario.seed_of(Stream::Radio));
   std::string text;
-  for (int i = 0; i < 100; ++i) text += radio.fate(AgvId{0U}, AgvId{1U}, at_seconds(i), 0, {}).lost ? 'x' : '.';
+  for (int i = 0; i < 100; ++i) text += radio.delivery(AgvId{0U}, AgvId{1U}, at_seconds(i), 0, {}).lost ? 'x' : '.';
   return text;
 }
 
@@ -257,7 +257,7 @@ TEST(HeldStreams, ALayoutAndItsFleetStayWhileTheRadioVaries) {
     EXPECT_EQ(to_text(scenario.map->layout()), to_text(held.map->layout())) << run;
     EXPECT_EQ(starts(scenario), starts(held));
     EXPECT_EQ(orders(scenario), orders(held));
-    radios.insert(fates(scenario));
+    radios.insert(deliveries(scenario));
   }
   EXPECT_EQ(radios.size(), 6U);
   CampaignPlan free = plan;
@@ -274,7 +274,7 @@ TEST(HeldStreams, TheRadioStaysWhileTheWorldVaries) {
   std::set<std::string> layouts;
   for (std::uint64_t run = 0; run < 6; ++run) {
     const Scenario scenario = source.scenario(run), unheld = ScenarioSource(free).scenario(run);
-    EXPECT_EQ(fates(scenario), fates(source.scenario(0)));
+    EXPECT_EQ(deliveries(scenario), deliveries(source.scenario(0)));
     EXPECT_EQ(starts(scenario), starts(unheld));
     EXPECT_EQ(orders(scenario), orders(unheld));
     layouts.insert(to_text(scenario.map->layout()));

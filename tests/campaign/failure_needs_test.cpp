@@ -41,7 +41,7 @@ TEST(FailureNeeds, AForgottenLaneNeedsARestart) {
   EXPECT_THAT(found->needs, Not(Contains(kCopiedMessages)));
 }
 
-// Of a failure that hardly another luck meets, a need is believed only after all replays that are allowed.
+// Of a failure that hardly any other draw meets, a need is believed only after all replays that are allowed.
 TEST(FailureNeeds, WhatARareFailureSeemsToNeedIsTriedAgain) {
   Bench bench("timeout-grant");
   std::size_t rare = 0;
@@ -49,7 +49,7 @@ TEST(FailureNeeds, WhatARareFailureSeemsToNeedIsTriedAgain) {
     Scenario scenario = bad_night(seed);
     scenario.radio.loss = 0.15;
     const auto found = needs_of(bench.host, scenario);
-    if (!found || found->failing_lucks > 4 || found->needs.empty()) continue;
+    if (!found || found->failing_draws > 4 || found->needs.empty()) continue;
     ++rare;
     EXPECT_GE(found->replays, kReplaysPerFailure - 3);
     EXPECT_LE(found->replays, kReplaysPerFailure);
@@ -67,7 +67,7 @@ TEST(FailureNeeds, AnAgentMayGiveEachMessageAKindOfItsOwn) {
     Scenario scenario = bad_night(seed);
     scenario.radio.loss = 0.15;
     const auto found = needs_of(host, scenario);
-    if (!found || found->failing_lucks > 4) continue;
+    if (!found || found->failing_draws > 4) continue;
     ++rare;
     EXPECT_LE(found->replays, kReplaysPerFailure);
     EXPECT_LE(found->needs.size(), 16 + ingredients_of(scenario, {}).size());

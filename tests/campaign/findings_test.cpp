@@ -40,7 +40,8 @@ TEST(Ingredients, NothingIsLeftWhenAllAreTakenOut) {
                                  "bodies that change with a load", "late messages", "lost messages"));
   EXPECT_TRUE(ingredients_of(bare, {}).empty());
   Bench bench("hull-lock");
-  for (const MessageFate& message : bench.host(bare, Fates::Kept).fates) EXPECT_FALSE(message.is_adverse());
+  for (const MessageDelivery& message : bench.host(bare, Deliveries::Kept).deliveries)
+    EXPECT_FALSE(message.is_adverse());
 }
 
 // ---- findings
@@ -85,8 +86,8 @@ TEST(Findings, WhoSharesTheRarestNeedJoinsThoseOfWhichThereAreMany) {
   EXPECT_EQ(findings_of(failures).size(), 3U) << "three that need the same may have a fault of their own";
 }
 
-// Which kinds of messages are chance is not known of those that failed with one luck only. They join all the same.
-TEST(Findings, WhatFailedWithOneLuckOnlyKeepsItsKindsOfMessages) {
+// Which kinds of messages are chance is not known of those that failed with one draw only. They join all the same.
+TEST(Findings, WhatFailedWithOneDrawOnlyKeepsItsKindsOfMessages) {
   auto rare = failure("a", {"restart", "late messages", "STATE messages"});
   rare.needs.is_rare = true;
   auto failures = times(4, rare);
@@ -182,7 +183,7 @@ TEST(Findings, WordsTellFindingsApartButGiveNoName) {
   EXPECT_EQ(findings[0].mechanism.text(), "too close, two AGVs; needs nothing; says \"oops\"");
 }
 
-TEST(Findings, WhatFailedWithOneLuckOnlyJoinsOrIsNotKnown) {
+TEST(Findings, WhatFailedWithOneDrawOnlyJoinsOrIsNotKnown) {
   auto rare = failure("a", {"restart", "lost messages"});
   rare.needs.is_rare = true;
   auto failures = times(4, rare);
@@ -190,7 +191,7 @@ TEST(Findings, WhatFailedWithOneLuckOnlyJoinsOrIsNotKnown) {
   add(failures, times(2, rare));
   const auto alone = findings_of(failures);
   ASSERT_EQ(alone.size(), 1U);
-  EXPECT_EQ(alone[0].mechanism.text(), "too close, two AGVs; needs not known: it failed with this luck only");
+  EXPECT_EQ(alone[0].mechanism.text(), "too close, two AGVs; needs not known: it failed with these draws only");
   add(failures, times(3, failure("a", {"lost messages"})));
   const auto joined = findings_of(failures);
   ASSERT_EQ(joined.size(), 2U);
@@ -303,7 +304,7 @@ TEST(Findings, AFaultThatNeedsLittleDoesNotTakeThoseOfManyOthers) {
   EXPECT_EQ(findings_of(failures).size(), 1U) << "so many need nothing that the others may need theirs by chance";
 }
 
-// Without the restart, no luck failed; with it, some of them did without lost messages.
+// Without the restart, no draw failed; with it, some of them did without lost messages.
 TEST(Findings, WhatWasTriedFirstAndIsNeededDecides) {
   auto failures = times(20, failure("a", {"lost messages"}));
   add(failures, times(10, failure("a", {"restart"})));

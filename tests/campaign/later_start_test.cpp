@@ -16,7 +16,7 @@ struct Night {
     scenario.radio = RadioSetup{};
     scenario.faults.clear();
     scenario.horizon = seconds(300);
-    run = bench.host(scenario, Fates::Kept);
+    run = bench.host(scenario, Deliveries::Kept);
   }
   const Itinerary& itinerary() const { return run.itinerary; }
 
@@ -44,7 +44,7 @@ TEST(Itinerary, IsAWayThroughTheMap) {
     since[departure.agv] = departure.arrives;
   }
   EXPECT_GT(night.itinerary().departures.size(), 20U);
-  EXPECT_EQ(night.itinerary().deliveries.size(), night.run.outcome.counters.transports_done);
+  EXPECT_EQ(night.itinerary().done.size(), night.run.outcome.counters.transports_done);
   EXPECT_GT(night.run.outcome.counters.transports_done, 0U);
 }
 
@@ -74,7 +74,7 @@ TEST(LaterStart, TakesTheTimeBeforeOutOfAllInstants) {
     night.scenario.faults.push_back(
         {.kind = Fault::Kind::Breakdown, .agv = AgvId{agv}, .at = at, .transport = {}, .lasts = seconds(5)});
   Itinerary known;
-  known.deliveries = {{AgvId{1U}, 0, kStart + seconds(9)}, {AgvId{2U}, 0, kStart + seconds(11)}};
+  known.done = {{AgvId{1U}, 0, kStart + seconds(9)}, {AgvId{2U}, 0, kStart + seconds(11)}};
   const Scenario later = with_later_start(night.scenario, known, seconds(10), Between::Behind);
   EXPECT_EQ(later.horizon, night.scenario.horizon - seconds(10));
   ASSERT_EQ(later.faults.size(), 2U) << "one was over";

@@ -8,7 +8,7 @@
 #include "campaign/findings/finding_record.hpp"
 #include "campaign/findings/ingredients.hpp"
 #include "campaign/findings/whole_failures.hpp"
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 #include "campaign/shrink/fitness.hpp"
 #include "tests/support/known_failure.hpp"
 
@@ -23,7 +23,7 @@ using test::known_failure;
 
 constexpr std::uint32_t kSome = 200;
 
-TEST(Retest, TellsAFixFromALuckyEscape) {
+TEST(Retest, TellsAFixFromAnEscapeByChance) {
   Bench bench("timeout-grant");
   const Known known = known_failure(bench);
   EXPECT_GE(known.before.alike, 100U) << "of 1000";
@@ -53,7 +53,7 @@ TEST(Retest, SaysWhetherTheNeighboursCouldTell) {
 }
 
 // On a better radio the same software fails in fewer worlds, as one does in which a part of the fault was mended.
-TEST(Retest, ComparesTheWorldsThatDrawTheirLuck) {
+TEST(Retest, ComparesTheWorldsThatStillDraw) {
   Bench bench("timeout-grant");
   Known known = known_failure(bench);
   EXPECT_EQ(known.before.of_world, 3 * known.before.of / 4);
@@ -123,7 +123,7 @@ TEST(Retest, AFaultThatIsLeftInAnotherWorldIsFound) {
   Known known = known_failure(bench);
   ASSERT_FALSE(known.kept.other_worlds.empty());
   for (Scenario* mended : {&known.kept.smallest, &known.kept.world}) {
-    *mended = with_fates_only(*mended, {});
+    *mended = with_deliveries_only(*mended, {});
     mended->horizon = std::chrono::seconds(1);
   }
   const Retest left = retest(bench.host, known.kept, known.before, kSome);
@@ -244,7 +244,7 @@ TEST(Retest, AWordThatNobodySaidBeforeShowsANewKind) {
 TEST(Retest, AKnownFailureOfTheSameSoftwareIsNotNew) {
   Bench bench("timeout-grant");
   Known known = known_failure(bench);
-  known.kept.smallest = with_fates_only(known.kept.smallest, {});  // the case passes
+  known.kept.smallest = with_deliveries_only(known.kept.smallest, {});  // the case passes
   const auto ways = std::exchange(known.kept.ways, {{"obstacles"}});
   EXPECT_EQ(retest(bench.host, known.kept, known.before, kSome).verdict, RetestVerdict::NewKind);
   const KnownRuns also{{}, {{{.end = known.kept.end, .ways = ways}}}};

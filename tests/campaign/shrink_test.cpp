@@ -9,8 +9,8 @@
 
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/scenario_source.hpp"
-#include "campaign/shrink/adverse_fates.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
+#include "campaign/shrink/other_draws.hpp"
 #include "campaign/shrink/surgery.hpp"
 #include "campaign/shrink/trial_file.hpp"
 #include "core/engine/simulation.hpp"
@@ -36,11 +36,11 @@ struct Bench : test::CaseBench {
 
 // On a perfect radio, it may take a larger fleet to fail. Two AGVs and a lost message are easier to see through.
 TEST(Shrink, AFewMessagesArePreferredToALargeFleet) {
-  const auto price = [](std::size_t agvs, std::size_t fates) {
+  const auto price = [](std::size_t agvs, std::size_t deliveries) {
     CaseSize size;
     size.agvs = agvs;
-    size.fates = fates;
-    size.fates_are_drawn = false;
+    size.deliveries = deliveries;
+    size.deliveries_are_drawn = false;
     return size.price();
   };
   EXPECT_LT(price(2, 1), price(4, 0));
@@ -109,8 +109,8 @@ TEST(Shrink, ASmallCaseFailsInTheSameWay) {
     // its own word for what it does wrong
     EXPECT_TRUE(std::ranges::binary_search(again.words, "silence-taken-for-consent"));
     EXPECT_LE(result.after.agvs, 3U);
-    EXPECT_FALSE(result.after.fates_are_drawn);
-    EXPECT_LE(result.after.fates, 8U);
+    EXPECT_FALSE(result.after.deliveries_are_drawn);
+    EXPECT_LE(result.after.deliveries, 8U);
     EXPECT_LE(result.after.horizon, result.best.failure.seen - kStart + std::chrono::seconds(1));
   }
 }
@@ -125,9 +125,9 @@ TEST(Shrink, NothingOfItCanBeLeftOutAlone) {
   const Scenario& least = result.best.scenario;
   const auto still_fails = [&](const Scenario& less) { return pattern.match(bench.host(less)).has_value(); };
   ASSERT_TRUE(still_fails(least));
-  for (std::size_t i = 0; i < least.fates.size(); ++i) {
+  for (std::size_t i = 0; i < least.deliveries.size(); ++i) {
     Scenario less = least;
-    less.fates.erase(less.fates.begin() + static_cast<std::ptrdiff_t>(i));
+    less.deliveries.erase(less.deliveries.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_FALSE(still_fails(less)) << "message " << i;
   }
   for (std::size_t agv = 0; agv < least.agvs.size(); ++agv) {
@@ -138,7 +138,7 @@ TEST(Shrink, NothingOfItCanBeLeftOutAlone) {
       EXPECT_FALSE(still_fails(less)) << "transport " << i << " of AGV " << agv;
     }
   }
-  ASSERT_FALSE(least.fates.empty());
+  ASSERT_FALSE(least.deliveries.empty());
 }
 
 TEST(Shrink, GivesTheSameCaseForAnyNumberOfWorkers) {
@@ -198,7 +198,7 @@ TEST(Shrink, EndsInTime) {
 
 // ---- what it rests on
 
-// The run is the same when its luck is written down instead of drawn.
+// The run is the same when its deliveries are written down instead of drawn.
 // Two AGVs that make the same mistake at once are rarer than one that makes it.
 TEST(FailurePatterns, AskForAStateOfBothAgvsOnce) {
   test::CaseBench bench("counts-messages");
@@ -217,20 +217,20 @@ TEST(FailurePatterns, AskForAStateOfBothAgvsOnce) {
   EXPECT_FALSE(pattern.match(none));
 }
 
-TEST(WrittenFates, GiveTheSameRun) {
+TEST(WrittenDeliveries, GiveTheSameRun) {
   Bench bench("hull-lock");
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     Scenario scenario = bad_radio(seed);
     scenario.radio.duplicates = 0.1;
-    const CaseRun drawn = bench.host(scenario, Fates::Kept);
-    std::vector<GivenFate> fates;
-    for (const MessageFate& message : adverse_of(drawn.fates)) fates.push_back(message.fate);
-    EXPECT_GT(fates.size(), 100U);
-    const CaseRun written = bench.host(with_fates_only(scenario, fates));
+    const CaseRun drawn = bench.host(scenario, Deliveries::Kept);
+    std::vector<GivenDelivery> deliveries;
+    for (const MessageDelivery& message : adverse_of(drawn.deliveries)) deliveries.push_back(message.delivery);
+    EXPECT_GT(deliveries.size(), 100U);
+    const CaseRun written = bench.host(with_deliveries_only(scenario, deliveries));
     EXPECT_EQ(written.outcome.digest, drawn.outcome.digest);
-    fates.pop_back();
-    fates.erase(fates.begin());
-    EXPECT_NE(bench.host(with_fates_only(scenario, fates)).outcome.digest, drawn.outcome.digest);
+    deliveries.pop_back();
+    deliveries.erase(deliveries.begin());
+    EXPECT_NE(bench.host(with_deliveries_only(scenario, deliveries)).outcome.digest, drawn.outcome.digest);
   }
 }
 
@@ -255,8 +255,8 @@ TEST(AdverseScope, NothingOfASparedKindIsLostOrLate) {
   Scenario scenario = bad_radio(4);
   scenario.radio.adverse.spared_kinds = {"GRANT", "REQUEST"};
   std::map<std::string, std::size_t> adverse, all;
-  const CaseRun run = bench.host(scenario, Fates::Kept);
-  for (const MessageFate& message : run.fates) {
+  const CaseRun run = bench.host(scenario, Deliveries::Kept);
+  for (const MessageDelivery& message : run.deliveries) {
     ++all[message.kind];
     adverse[message.kind] += message.is_adverse() ? 1 : 0;
   }
@@ -274,8 +274,8 @@ TEST(AdverseScope, NothingIsLostOrLateOutsideItsTime) {
   scenario.radio.adverse.adverse_from_s = 20.0;
   scenario.radio.adverse.adverse_until_s = 25.0;
   std::size_t inside = 0;
-  for (const MessageFate& message : bench.host(scenario, Fates::Kept).fates) {
-    const bool is_inside = message.fate.sent >= seconds(20.0) && message.fate.sent < seconds(25.0);
+  for (const MessageDelivery& message : bench.host(scenario, Deliveries::Kept).deliveries) {
+    const bool is_inside = message.delivery.sent >= seconds(20.0) && message.delivery.sent < seconds(25.0);
     inside += is_inside ? 1 : 0;
     EXPECT_TRUE(is_inside || !message.is_adverse());
   }
@@ -285,30 +285,31 @@ TEST(AdverseScope, NothingIsLostOrLateOutsideItsTime) {
 TEST(Surgery, WhatReferredToAnAgvGoesWithIt) {
   Scenario scenario = bad_radio(1);
   for (std::uint32_t agv = 0; agv < 5; ++agv) scenario.faults.push_back({.agv = AgvId{agv}, .transport = 0U});
-  scenario.fates = {{AgvId{0U}, AgvId{1U}, {}, 0, true}, {AgvId{3U}, AgvId{4U}, {}, 0, true}};
+  scenario.deliveries = {{AgvId{0U}, AgvId{1U}, {}, 0, true}, {AgvId{3U}, AgvId{4U}, {}, 0, true}};
   const Scenario less = with_agvs(scenario, [](std::size_t agv) { return agv >= 3; });
   ASSERT_EQ(less.agvs.size(), 2U);
   EXPECT_EQ(less.agvs[0].name, scenario.agvs[3].name);
   EXPECT_EQ(less.agvs[0].draws_as, 3U);
   ASSERT_EQ(less.faults.size(), 2U);
   EXPECT_EQ(less.faults[1].agv, AgvId{1U});
-  ASSERT_EQ(less.fates.size(), 1U);
-  EXPECT_EQ(less.fates[0].sender, AgvId{0U});
-  EXPECT_EQ(less.fates[0].receiver, AgvId{1U});
+  ASSERT_EQ(less.deliveries.size(), 1U);
+  EXPECT_EQ(less.deliveries[0].sender, AgvId{0U});
+  EXPECT_EQ(less.deliveries[0].receiver, AgvId{1U});
   const Scenario one = with_agvs(less, [](std::size_t agv) { return agv == 1; });
   EXPECT_EQ(one.agvs[0].draws_as, 4U);
 }
 
 TEST(Surgery, AFleetThatIsNumberedOtherwiseKeepsWhatItHad) {
   Scenario scenario = test::bad_night(125);
-  scenario.fates.push_back({.sender = AgvId{0U}, .receiver = AgvId{3U}, .sent = std::chrono::seconds(1), .lost = true});
+  scenario.deliveries.push_back(
+      {.sender = AgvId{0U}, .receiver = AgvId{3U}, .sent = std::chrono::seconds(1), .lost = true});
   const Scenario other = with_fleet_renumbered(scenario, 2);
   EXPECT_EQ(other.agvs[0].start, scenario.agvs[2].start);
   EXPECT_EQ(other.agvs[3].start, scenario.agvs[0].start);
   EXPECT_EQ(other.agvs[3].draws_as, 0U);
   EXPECT_EQ(other.faults[0].agv.index(), 3U);
-  EXPECT_EQ(other.fates.back().sender.index(), 3U);
-  EXPECT_EQ(other.fates.back().receiver.index(), 1U);
+  EXPECT_EQ(other.deliveries.back().sender.index(), 3U);
+  EXPECT_EQ(other.deliveries.back().receiver.index(), 1U);
   EXPECT_EQ(scenario_digest(with_fleet_renumbered(other, 3)),
             scenario_digest(with_agvs(scenario, [](std::size_t) { return true; })));
 }

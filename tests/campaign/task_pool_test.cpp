@@ -127,8 +127,8 @@ TEST(TaskPool, PassesOnWhatARunThrows) {
   EXPECT_THROW(drain(pool), std::runtime_error);
 }
 
-// A stop lets the stretch that was begun come to its end, and begins no other.
-TEST(TaskPool, StopsAfterTheStretchThatWasBegun) {
+// A stop lets the group that was begun come to its end, and begins no other.
+TEST(TaskPool, StopsAfterTheGroupThatWasBegun) {
   for (const std::uint64_t held : {0ULL, 9ULL, 12ULL, 95ULL}) {
     std::atomic<bool> begun{false}, release{false};
     Pool pool({.workers = 1, .end = 97}, [&](std::uint64_t index) {
@@ -137,18 +137,18 @@ TEST(TaskPool, StopsAfterTheStretchThatWasBegun) {
       return index;
     });
     while (!begun) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    pool.stop_after_stretch(10);
-    pool.stop_after_stretch(10);
+    pool.stop_after_group(10);
+    pool.stop_after_group(10);
     release = true;
     EXPECT_EQ(drain(pool).size(), std::min<std::uint64_t>(97, (held / 10 + 1) * 10)) << held;
   }
 }
 
-// Each thread that is at work when all of them are has one stretch, from its first run on.
-TEST(TaskPool, AThreadStaysWithItsStretch) {
+// Each thread that is at work when all of them are has one group, from its first run on.
+TEST(TaskPool, AThreadStaysWithItsGroup) {
   std::mutex mutex;
-  std::map<std::uint64_t, std::set<std::thread::id>> threads;  // by stretch
-  Pool pool({.workers = 2, .end = 400, .stretch = 8}, [&](std::uint64_t index) {
+  std::map<std::uint64_t, std::set<std::thread::id>> threads;  // by group
+  Pool pool({.workers = 2, .end = 400, .group = 8}, [&](std::uint64_t index) {
     std::this_thread::sleep_for(std::chrono::microseconds(200));
     const std::lock_guard lock(mutex);
     threads[index / 8].insert(std::this_thread::get_id());
@@ -156,13 +156,13 @@ TEST(TaskPool, AThreadStaysWithItsStretch) {
   });
   EXPECT_EQ(drain(pool).size(), 400U);
   EXPECT_EQ(threads.size(), 50U);
-  const auto shared = std::ranges::count_if(threads, [](const auto& stretch) { return stretch.second.size() > 1; });
+  const auto shared = std::ranges::count_if(threads, [](const auto& group) { return group.second.size() > 1; });
   EXPECT_LE(shared, 2) << "only the last ones are shared";
 }
 
-TEST(TaskPool, OneSlowRunDoesNotHoldUpItsStretch) {
+TEST(TaskPool, OneSlowRunDoesNotHoldUpItsGroup) {
   const Waiting others =
-      beside_a_slow_task({.workers = 2, .end = 1000, .window = 50, .done = {7, 8, 30}, .stretch = 10}, 46);
+      beside_a_slow_task({.workers = 2, .end = 1000, .window = 50, .done = {7, 8, 30}, .group = 10}, 46);
   EXPECT_EQ(*others.before.begin(), 1U);
   EXPECT_EQ(*others.before.rbegin(), 49U);
   EXPECT_EQ(others.newest, 49U) << "task 50 would be more than a window ahead of task 0";

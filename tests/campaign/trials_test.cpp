@@ -6,17 +6,17 @@
 #include <thread>
 
 #include "campaign/shrink/all_runs.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 #include "generators/worlds/world_maker.hpp"
 
 namespace fleetproof::trials_test {
 namespace {
 
-constexpr std::size_t kLucks = 40;
+constexpr std::size_t kDraws = 40;
 
 // Draws of one scenario of which some fail and some do not.
-struct Lucks {
-  Lucks() {
+struct Draws {
+  Draws() {
     WorldSpec spec;
     spec.fleet_size = 3;
     spec.horizon = std::chrono::seconds(30);
@@ -27,18 +27,18 @@ struct Lucks {
     scenario.radio.delay_s = 1.0;
   }
   Candidates from(std::size_t first) const {
-    return {kLucks - first, [this, first](std::size_t rank) {
-              return std::optional(with_other_luck(scenario, static_cast<std::uint32_t>(first + rank)));
+    return {kDraws - first, [this, first](std::size_t rank) {
+              return std::optional(with_other_draws(scenario, static_cast<std::uint32_t>(first + rank)));
             }};
   }
   Scenario scenario;
 };
 
 TEST(Trials, TheFirstInOrderCountsForAnyNumberOfWorkers) {
-  const Lucks lucks;
+  const Draws draws;
   AgentPrograms programs;
   CaseHost alone({"timeout-grant", ""}, programs, 1), crowd({"timeout-grant", ""}, programs, 7);
-  const auto runs = all_runs(crowd, lucks.from(0));
+  const auto runs = all_runs(crowd, draws.from(0));
   std::optional<FailurePattern> pattern;
   std::size_t failing = 0;
   for (const auto& run : runs) {
@@ -47,17 +47,17 @@ TEST(Trials, TheFirstInOrderCountsForAnyNumberOfWorkers) {
     if (failure && !pattern) pattern = FailurePattern{failure->kind};
   }
   ASSERT_GT(failing, 1U);
-  ASSERT_LT(failing, kLucks);
-  for (std::size_t first = 0; first < kLucks; first += 3) {
+  ASSERT_LT(failing, kDraws);
+  for (std::size_t first = 0; first < kDraws; first += 3) {
     std::optional<std::size_t> expected;
-    for (std::size_t i = first; i < kLucks && !expected; ++i) {
-      if (pattern->match(alone(*lucks.from(0).make(i)))) expected = i - first;
+    for (std::size_t i = first; i < kDraws && !expected; ++i) {
+      if (pattern->match(alone(*draws.from(0).make(i)))) expected = i - first;
     }
     TrialCache cache;
     Trials trials(crowd, cache, *pattern, {});
-    const auto found = trials.first_failing(lucks.from(first));
+    const auto found = trials.first_failing(draws.from(first));
     EXPECT_EQ(found ? std::optional(found->rank) : std::nullopt, expected) << first;
-    EXPECT_EQ(trials.count(), expected ? *expected + 1 : kLucks - first);
+    EXPECT_EQ(trials.count(), expected ? *expected + 1 : kDraws - first);
   }
 }
 
@@ -71,16 +71,16 @@ struct CountingCache : TrialCache {
 };
 
 TEST(Trials, NoneIsMadeBeyondTheLimit) {
-  const Lucks lucks;
+  const Draws draws;
   AgentPrograms programs;
   CaseHost host({"timeout-grant", ""}, programs, 2);
   CountingCache cache;
   Trials trials(host, cache, FailurePattern{{"never seen", {}}}, {{}, 7});
-  EXPECT_FALSE(trials.first_failing(lucks.from(0)));
+  EXPECT_FALSE(trials.first_failing(draws.from(0)));
   EXPECT_EQ(trials.count(), 7U);
   EXPECT_EQ(cache.added, 7U);
   EXPECT_TRUE(trials.ended());  // 33 were not tried
-  EXPECT_FALSE(trials.first_failing(lucks.from(10)));
+  EXPECT_FALSE(trials.first_failing(draws.from(10)));
   EXPECT_TRUE(trials.ended());
   EXPECT_EQ(cache.added, 7U);
 }
@@ -88,26 +88,26 @@ TEST(Trials, NoneIsMadeBeyondTheLimit) {
 // A search with little time gets to where the earlier one ended: what that one has found out costs no time.
 TEST(Trials, KnownAnswersTakeNoTimeAndNoWorkers) {
   using namespace std::chrono_literals;
-  const Lucks lucks;
+  const Draws draws;
   AgentPrograms programs;
   CaseHost host({"timeout-grant", ""}, programs, 2);
   const FailurePattern none{{"never seen", {}}};
   TrialCache cache;
-  EXPECT_FALSE(Trials(host, cache, none, {}).first_failing(lucks.from(1)));
+  EXPECT_FALSE(Trials(host, cache, none, {}).first_failing(draws.from(1)));
   const auto caller = std::this_thread::get_id();
-  const Candidates slow{kLucks - 1, [&](std::size_t rank) {
+  const Candidates slow{kDraws - 1, [&](std::size_t rank) {
                           EXPECT_EQ(std::this_thread::get_id(), caller);
                           std::this_thread::sleep_for(5ms);
-                          return lucks.from(1).make(rank);
+                          return draws.from(1).make(rank);
                         }};
   Trials again(host, cache, none, {std::chrono::steady_clock::now() + 100ms, {}});
   EXPECT_FALSE(again.first_failing(slow));
   EXPECT_FALSE(again.first_failing(slow));
   EXPECT_FALSE(again.ended());
-  EXPECT_EQ(again.count(), 2 * (kLucks - 1));
+  EXPECT_EQ(again.count(), 2 * (kDraws - 1));
   const Candidates unknown{1, [&](std::size_t) {
                              std::this_thread::sleep_for(500ms);
-                             return lucks.from(0).make(0);
+                             return draws.from(0).make(0);
                            }};
   EXPECT_FALSE(again.first_failing(unknown));
   EXPECT_FALSE(again.first_failing(unknown));

@@ -4,7 +4,7 @@
 
 #include "campaign/findings/ingredients.hpp"
 #include "campaign/findings/retest.hpp"
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 #include "tests/support/known_failure.hpp"
 
 namespace fleetproof::whole_failures_test {
@@ -22,7 +22,7 @@ Known with_mended_worlds(Bench& bench) {
   Known known = known_failure(bench);
   known.kept.other_worlds.clear();
   for (Scenario* mended : {&known.kept.smallest, &known.kept.world}) {
-    *mended = with_fates_only(*mended, {});
+    *mended = with_deliveries_only(*mended, {});
     mended->horizon = std::chrono::seconds(1);
   }
   known.kept.runs = {bench.failing(125)};
@@ -63,7 +63,7 @@ TEST(WholeRuns, ShowWhatIsBrokenInstead) {
 TEST(WholeRuns, AreAskedWhereHardlyAnyNeighbourFails) {
   Bench bench("timeout-grant");
   Known known = known_failure(bench);
-  known.kept.smallest = with_fates_only(known.kept.smallest, {});
+  known.kept.smallest = with_deliveries_only(known.kept.smallest, {});
   const auto lose = [&](double share) {
     known.kept.world.radio.loss = share;
     for (Scenario& world : known.kept.other_worlds) world.radio.loss = share;

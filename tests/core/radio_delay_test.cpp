@@ -18,7 +18,8 @@ const AgvId kA{0U}, kB{1U};
 std::vector<double> delays_s(const RadioSetup& setup) {
   Radio radio(setup, 31);
   std::vector<double> found;
-  for (int i = 0; i < kMessages; ++i) found.push_back(to_seconds(radio.fate(kA, kB, at_ns(i * 1'000'003LL), 0).delay));
+  for (int i = 0; i < kMessages; ++i)
+    found.push_back(to_seconds(radio.delivery(kA, kB, at_ns(i * 1'000'003LL), 0).delay));
   return found;
 }
 
@@ -70,15 +71,15 @@ TEST(RadioCopies, HaveTheirShareAndADelayOfTheirOwn) {
   std::uint64_t copy_comes_first = 0, copies_of_received = 0, received = 0;
   for (int i = 0; i < kMessages; ++i) {
     const SimTime at = at_ns(i * 1'000'003LL);
-    const Fate fate = with.fate(kA, kB, at, 0), alone = without.fate(kA, kB, at, 0);
-    ASSERT_EQ(fate.lost, alone.lost);  // copies change nothing about the originals
-    ASSERT_EQ(fate.delay, alone.delay);
+    const Delivery delivery = with.delivery(kA, kB, at, 0), alone = without.delivery(kA, kB, at, 0);
+    ASSERT_EQ(delivery.lost, alone.lost);  // copies change nothing about the originals
+    ASSERT_EQ(delivery.delay, alone.delay);
     ASSERT_FALSE(alone.copy_delay.has_value());
-    received += fate.lost ? 0 : 1;
-    if (!fate.copy_delay) continue;
-    copies_s.push_back(to_seconds(*fate.copy_delay));
-    copy_comes_first += *fate.copy_delay < fate.delay ? 1 : 0;
-    copies_of_received += fate.lost ? 0 : 1;
+    received += delivery.lost ? 0 : 1;
+    if (!delivery.copy_delay) continue;
+    copies_s.push_back(to_seconds(*delivery.copy_delay));
+    copy_comes_first += *delivery.copy_delay < delivery.delay ? 1 : 0;
+    copies_of_received += delivery.lost ? 0 : 1;
   }
   EXPECT_TRUE(test::is_binomial(copies_s.size(), kMessages, 0.03));
   EXPECT_TRUE(test::is_binomial(copies_of_received, received, 0.03));

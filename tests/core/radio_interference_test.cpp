@@ -32,7 +32,7 @@ struct Case {
 class Saturated : public testing::TestWithParam<Case> {};
 
 // Sender 0 among n that always have a message ready. Its messages within ten windows of each other are not independent
-// (a sender that has just sent waits), so one of them counts in each such stretch: beyond it, what is left of the
+// (a sender that has just sent waits), so one of them counts in each such time: beyond it, what is left of the
 // dependence is below 1e-8.
 TEST_P(Saturated, BroadcastersHitEachOtherAsOftenAsTheClosedFormSays) {
   const auto [senders, contention_window, air_time] = GetParam();

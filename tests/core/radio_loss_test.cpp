@@ -29,10 +29,11 @@ Tally a_million_messages(const RadioSetup& setup, SimTime at, std::uint32_t send
   for (std::uint32_t world = 0; world < kWorlds; ++world) {
     Radio radio(setup, 77'000 + world);
     for (std::uint32_t r = 0; r < kReceivers; ++r) {
-      const Fate fate = radio.fate(AgvId{sender}, AgvId{r + 2000}, at, 0, {Vec2::Zero(), Vec2(100.0 * r + 1.0, 1.0)});
-      tally.lost += fate.lost ? 1 : 0;
-      tally.in_outage += fate.in_outage ? 1 : 0;
-      tally.lost_in_outage += fate.lost && fate.in_outage ? 1 : 0;
+      const Delivery delivery =
+          radio.delivery(AgvId{sender}, AgvId{r + 2000}, at, 0, {Vec2::Zero(), Vec2(100.0 * r + 1.0, 1.0)});
+      tally.lost += delivery.lost ? 1 : 0;
+      tally.in_outage += delivery.in_outage ? 1 : 0;
+      tally.lost_in_outage += delivery.lost && delivery.in_outage ? 1 : 0;
     }
   }
   return tally;
@@ -127,8 +128,8 @@ TEST(RadioLoss, AsymmetryKeepsTheMeanAndPartsTheDirections) {
   std::uint64_t there = 0, back = 0;
   for (std::uint64_t i = 0; i < kMessages; ++i) {
     const SimTime at = at_ns(static_cast<std::int64_t>(i) * 10'000'019);
-    there += radio.fate(AgvId{3U}, AgvId{9U}, at, 0).lost ? 1 : 0;
-    back += radio.fate(AgvId{9U}, AgvId{3U}, at, 0).lost ? 1 : 0;
+    there += radio.delivery(AgvId{3U}, AgvId{9U}, at, 0).lost ? 1 : 0;
+    back += radio.delivery(AgvId{9U}, AgvId{3U}, at, 0).lost ? 1 : 0;
   }
   EXPECT_GT(there > back ? there - back : back - there, kMessages / 100);
   // A sum of two binomials of unlike p varies less than one of their mean, so the bound is a little wide.
@@ -173,18 +174,18 @@ TEST_P(LossLevels, AHigherLossRateOnlyAddsLosses) {
     const SimTime at = at_ns(std::int64_t{i} * 10'000'019);
     const AgvId sender{i % 5}, receiver{(i + 1 + i / 5 % 4) % 5};
     const LinkPlaces places{Vec2(i % 300, 5.0), Vec2(5.0, i % 170)};
-    std::optional<Fate> milder;
+    std::optional<Delivery> milder;
     for (std::size_t k = 0; k < radios.size(); ++k) {
-      const Fate fate = radios[k].fate(sender, receiver, at, 0, places);
-      losses[k] += fate.lost ? 1 : 0;
+      const Delivery delivery = radios[k].delivery(sender, receiver, at, 0, places);
+      losses[k] += delivery.lost ? 1 : 0;
       if (milder) {
-        ASSERT_TRUE(fate.lost || !milder->lost) << "message " << i << " is lost at level " << k - 1 << " alone";
-        ASSERT_TRUE(fate.in_outage || !milder->in_outage)
+        ASSERT_TRUE(delivery.lost || !milder->lost) << "message " << i << " is lost at level " << k - 1 << " alone";
+        ASSERT_TRUE(delivery.in_outage || !milder->in_outage)
             << "message " << i << " meets an outage at level " << k - 1 << " alone";
-        ASSERT_EQ(fate.delay, milder->delay);
-        ASSERT_EQ(fate.copy_delay, milder->copy_delay);
+        ASSERT_EQ(delivery.delay, milder->delay);
+        ASSERT_EQ(delivery.copy_delay, milder->copy_delay);
       }
-      milder = fate;
+      milder = delivery;
     }
   }
   for (std::size_t k = 1; k < losses.size(); ++k) EXPECT_GT(losses[k], losses[k - 1]) << k;  // and it does add some

@@ -125,7 +125,7 @@ std::set<std::pair<SimTime, SimTime>> outages_met(const RadioSetup& setup, Durat
   Radio radio(setup, 5);
   std::set<std::pair<SimTime, SimTime>> met;
   for (SimTime t = kStart; t < end; t += step) {
-    if (!radio.fate(AgvId{0U}, AgvId{1U}, t, 0).in_outage) continue;
+    if (!radio.delivery(AgvId{0U}, AgvId{1U}, t, 0).in_outage) continue;
     OutageProcess probe = radio.process_of(AgvId{0U}, AgvId{1U});
     SimTime begin = kStart;  // from a copy, change by change: the radio itself is not touched
     for (SimTime change = kStart; change <= t; change = probe.next_change(change)) begin = change;
@@ -152,7 +152,8 @@ TEST(OutageProcess, OneProcessForBothDirectionsUnlessAskedOtherwise) {
   const auto states = [](OutageSetup::Scope scope, std::uint32_t a, std::uint32_t b) {
     Radio radio({.loss = 0.5, .outages = {.mean_outage_s = 1.0, .scope = scope}}, 5);
     std::vector<bool> list;
-    for (int i = 0; i < 500; ++i) list.push_back(radio.fate(AgvId{a}, AgvId{b}, at_ns(i * 100'000'000LL), 0).in_outage);
+    for (int i = 0; i < 500; ++i)
+      list.push_back(radio.delivery(AgvId{a}, AgvId{b}, at_ns(i * 100'000'000LL), 0).in_outage);
     return list;
   };
   EXPECT_EQ(states(OutageSetup::Scope::Link, 2, 7), states(OutageSetup::Scope::Link, 7, 2));

@@ -56,11 +56,11 @@ TEST(PlaceOutages, MakeEveryoneInACellDeaf) {
   int other_cell_differs = 0, lost = 0;
   for (int i = 0; i < 2000; ++i) {
     const SimTime t = at_ns(i * 50'000'000LL);
-    const bool a = radio.fate(kC, kA, t, 0, {{-90.0, 3.0}, {-9.0, -9.0}}).lost,
-               b = radio.fate(kC, kB, t, 0, {{55.0, 3.0}, {9.0, 9.0}}).lost;
+    const bool a = radio.delivery(kC, kA, t, 0, {{-90.0, 3.0}, {-9.0, -9.0}}).lost,
+               b = radio.delivery(kC, kB, t, 0, {{55.0, 3.0}, {9.0, 9.0}}).lost;
     EXPECT_EQ(a, b);
     lost += a ? 1 : 0;
-    other_cell_differs += radio.fate(kC, kB, t, 0, {{55.0, 3.0}, {11.0, 9.0}}).lost != a ? 1 : 0;
+    other_cell_differs += radio.delivery(kC, kB, t, 0, {{55.0, 3.0}, {11.0, 9.0}}).lost != a ? 1 : 0;
   }
   EXPECT_GT(lost, 400);
   EXPECT_GT(other_cell_differs, 400);
@@ -137,7 +137,7 @@ std::set<Reception> between_0_and_1(const std::set<Reception>& all) {
   return some;
 }
 
-TEST(WholeRun, AnAgvLessLeavesTheFatesOfTheOthersAlone) {
+TEST(WholeRun, AnAgvLessLeavesTheDeliveriesOfTheOthersAlone) {
   for (const Scope scope : {Scope::Link, Scope::Direction, Scope::Place}) {
     RadioSetup radio = kAllAtOnce;
     radio.outages.scope = scope;
@@ -148,7 +148,7 @@ TEST(WholeRun, AnAgvLessLeavesTheFatesOfTheOthersAlone) {
   }
 }
 
-TEST(WholeRun, MessagesMoreMoveNoOthersFate) {
+TEST(WholeRun, MessagesMoreMoveNoOthersDelivery) {
   const auto quiet = talk(kAllAtOnce, {4, 0, 3}), busy = talk(kAllAtOnce, {4, 0, 3}, nullptr, true);
   EXPECT_GT(busy.size(), quiet.size() + 100);
   for (const auto& reception : quiet) EXPECT_TRUE(busy.contains(reception));
@@ -187,7 +187,7 @@ TEST(WholeRun, CountsAndTracesTellTheCauses) {
   EXPECT_EQ(c.lost_by_interference, 0U);
 }
 
-TEST(RecordedRadio, DecidesTheFatesOfItsPairs) {
+TEST(RecordedRadio, DecidesTheDeliveriesOfItsPairs) {
   const auto ms = [](int n) { return Duration{n * 1'000'000LL}; };
   const RadioTrace trace{{kA, kB, ms(0), ms(10)},
                          {kA, kB, ms(100), std::nullopt},
@@ -196,9 +196,9 @@ TEST(RecordedRadio, DecidesTheFatesOfItsPairs) {
                          {kB, kA, ms(300), std::nullopt}};
   Radio radio({.loss = 1.0, .delay_s = 5.0, .trace = std::make_shared<const RadioTrace>(trace)}, 1);
   const auto says = [&](AgvId from, AgvId to, std::int64_t at, std::optional<int> delay_ms) {
-    const Fate fate = radio.fate(from, to, at_ns(at), 0);
-    EXPECT_EQ(fate.lost, !delay_ms.has_value()) << at;
-    EXPECT_TRUE(fate.lost || fate.delay == ms(delay_ms.value_or(-1))) << at;
+    const Delivery delivery = radio.delivery(from, to, at_ns(at), 0);
+    EXPECT_EQ(delivery.lost, !delay_ms.has_value()) << at;
+    EXPECT_TRUE(delivery.lost || delivery.delay == ms(delay_ms.value_or(-1))) << at;
   };
   says(kA, kB, 0, 10);
   says(kA, kB, 1, std::nullopt);

@@ -24,7 +24,7 @@ LinkPlaces apart(double distance_m) { return {Vec2(3.0, 4.0), Vec2(3.0 + 0.6 * d
 std::uint64_t lost(const RadioSetup& setup, double distance_m, std::uint64_t worlds) {
   std::uint64_t count = 0;
   for (std::uint64_t world = 0; world < worlds; ++world)
-    count += Radio(setup, world).fate(kA, kB, at_seconds(12.3), 0, apart(distance_m)).lost ? 1 : 0;
+    count += Radio(setup, world).delivery(kA, kB, at_seconds(12.3), 0, apart(distance_m)).lost ? 1 : 0;
   return count;
 }
 
@@ -53,15 +53,15 @@ TEST(RadioRange, AFallOffLongerThanTheRangeIsTheWholeRange) {
   EXPECT_TRUE(is_binomial(lost(setup, 25.0, 100'000), 100'000, 0.5));
 }
 
-std::vector<Fate> fates(const RadioSetup& setup, double distance_m) {
+std::vector<Delivery> deliveries(const RadioSetup& setup, double distance_m) {
   Radio radio(setup, 11);
-  std::vector<Fate> list;
-  for (int i = 0; i < 20'000; ++i) list.push_back(radio.fate(kA, kB, at_ns(i * 1'000'003LL), 0, apart(distance_m)));
+  std::vector<Delivery> list;
+  for (int i = 0; i < 20'000; ++i) list.push_back(radio.delivery(kA, kB, at_ns(i * 1'000'003LL), 0, apart(distance_m)));
   return list;
 }
 
 // `more` has lost what `fewer` has, and some beyond; delays and copies are the same.
-void expect_adds_losses(const std::vector<Fate>& fewer, const std::vector<Fate>& more) {
+void expect_adds_losses(const std::vector<Delivery>& fewer, const std::vector<Delivery>& more) {
   int added = 0;
   for (std::size_t i = 0; i < fewer.size(); ++i) {
     EXPECT_TRUE(!fewer[i].lost || more[i].lost) << i;
@@ -83,14 +83,14 @@ TEST(RadioRange, DistanceFallOffAndLossOnlyAddLosses) {
     RadioSetup sharp = setup, longer = setup;
     sharp.range_falloff_m = 0.0;
     longer.range_falloff_m = 30.0;
-    expect_adds_losses(fates(setup, 35.0), fates(setup, 45.0));
-    expect_adds_losses(fates(sharp, 40.0), fates(setup, 40.0));
-    expect_adds_losses(fates(setup, 40.0), fates(longer, 40.0));
+    expect_adds_losses(deliveries(setup, 35.0), deliveries(setup, 45.0));
+    expect_adds_losses(deliveries(sharp, 40.0), deliveries(setup, 40.0));
+    expect_adds_losses(deliveries(setup, 40.0), deliveries(longer, 40.0));
   }
   setup.outages.mean_outage_s = 0.0;
   RadioSetup harsh = setup;
   harsh.loss = 0.4;
-  expect_adds_losses(fates(setup, 40.0), fates(harsh, 40.0));
+  expect_adds_losses(deliveries(setup, 40.0), deliveries(harsh, 40.0));
 }
 
 TEST(RadioRange, TheEngineAsksForThePlacesOnAFloorThatIsSmallerThanTheRange) {

@@ -97,16 +97,16 @@ std::vector<Sent> messages() {
   return list;
 }
 
-std::vector<Fate> fates(const RadioSetup& setup) {
+std::vector<Delivery> deliveries(const RadioSetup& setup) {
   Radio radio(setup, 11);
-  std::vector<Fate> found;
-  for (const Sent& m : messages()) found.push_back(radio.fate(m.sender, m.receiver, m.at, 0, m.places));
+  std::vector<Delivery> found;
+  for (const Sent& m : messages()) found.push_back(radio.delivery(m.sender, m.receiver, m.at, 0, m.places));
   return found;
 }
 
 // Whether `more` has lost what `fewer` has, for the same causes, and some beyond; delays and copies are the same.
 void expect_adds_losses(const RadioSetup& fewer_setup, const RadioSetup& more_setup) {
-  const auto fewer = fates(fewer_setup), more = fates(more_setup);
+  const auto fewer = deliveries(fewer_setup), more = deliveries(more_setup);
   int added = 0;
   for (std::size_t i = 0; i < fewer.size(); ++i) {
     ASSERT_TRUE(!fewer[i].lost || more[i].lost) << i;

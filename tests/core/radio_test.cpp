@@ -21,7 +21,7 @@ TEST(Radio, HigherLossOnlyAddsLosses) {
   constexpr int n = 20000;
   for (int i = 0; i < n; ++i) {
     const SimTime at = at_ns(i * 1'000'003LL);
-    const bool calm_lost = calm.fate(kA, kB, at, 0).lost, harsh_lost = harsh.fate(kA, kB, at, 0).lost;
+    const bool calm_lost = calm.delivery(kA, kB, at, 0).lost, harsh_lost = harsh.delivery(kA, kB, at, 0).lost;
     lost_calm += calm_lost;
     lost_harsh += harsh_lost;
     EXPECT_TRUE(!calm_lost || harsh_lost);
@@ -31,7 +31,7 @@ TEST(Radio, HigherLossOnlyAddsLosses) {
   EXPECT_NEAR(lost_harsh, 0.4 * n, 6 * 70);
 }
 
-TEST(Radio, LossesDecidedTogetherAreThoseOfSingleFates) {
+TEST(Radio, LossesDecidedTogetherAreThoseOfSingleDeliveries) {
   for (const double loss : {0.0, 0.05, 0.4, 1.0}) {
     Radio radio({.loss = loss, .delay_s = 1.0}, 7);
     ASSERT_TRUE(radio.only_loses());
@@ -45,7 +45,7 @@ TEST(Radio, LossesDecidedTogetherAreThoseOfSingleFates) {
         radio.decide_losses(kA, at, std::span(hearers).first(count), [&](AgvId receiver, bool is_lost) {
           const Hearer& hearer = hearers[next++];
           EXPECT_EQ(receiver, hearer.receiver);
-          EXPECT_EQ(is_lost, radio.fate(kA, receiver, at, hearer.ordinal).lost) << loss << " " << count;
+          EXPECT_EQ(is_lost, radio.delivery(kA, receiver, at, hearer.ordinal).lost) << loss << " " << count;
         });
         EXPECT_EQ(next, count);
       }
@@ -53,33 +53,33 @@ TEST(Radio, LossesDecidedTogetherAreThoseOfSingleFates) {
   }
 }
 
-TEST(Radio, FateDependsOnEveryPartOfItsKey) {
+TEST(Radio, DeliveryDependsOnEveryPartOfItsKey) {
   Radio radio({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 7);
   Radio other_world({.loss = 0.0, .delay_s = 1.0, .delay_model = RadioSetup::DelayModel::Uniform}, 8);
   const SimTime t = at_seconds(1.0);
-  const std::set<Duration> delays = {radio.fate(kA, kB, t, 0).delay,
-                                     radio.fate(kB, kA, t, 0).delay,
-                                     radio.fate(kA, kC, t, 0).delay,
-                                     radio.fate(kA, kB, t, 1).delay,
-                                     radio.fate(kA, kB, t + Duration{1}, 0).delay,
-                                     other_world.fate(kA, kB, t, 0).delay};
+  const std::set<Duration> delays = {radio.delivery(kA, kB, t, 0).delay,
+                                     radio.delivery(kB, kA, t, 0).delay,
+                                     radio.delivery(kA, kC, t, 0).delay,
+                                     radio.delivery(kA, kB, t, 1).delay,
+                                     radio.delivery(kA, kB, t + Duration{1}, 0).delay,
+                                     other_world.delivery(kA, kB, t, 0).delay};
   EXPECT_EQ(delays.size(), 6U);
 }
 
 TEST(Radio, DelayModels) {
   Radio constant({.delay_s = 2.0}, 1);
-  EXPECT_EQ(constant.fate(kA, kB, at_seconds(3.0), 0).delay, seconds(2.0));
+  EXPECT_EQ(constant.delivery(kA, kB, at_seconds(3.0), 0).delay, seconds(2.0));
   Radio uniform({.delay_s = 2.0, .delay_model = RadioSetup::DelayModel::Uniform}, 1);
   double sum_s = 0.0;
   for (int i = 0; i < 10000; ++i) {
-    const Duration delay = uniform.fate(kA, kB, at_ns(i), 0).delay;
+    const Duration delay = uniform.delivery(kA, kB, at_ns(i), 0).delay;
     EXPECT_LT(delay, seconds(2.0));
     sum_s += to_seconds(delay);
   }
   EXPECT_NEAR(sum_s / 10000, 1.0, 6 * 0.58 / 100);
 }
 
-TEST(Radio, OneMessageMoreMovesNoOthersFate) {
+TEST(Radio, OneMessageMoreMovesNoOthersDelivery) {
   Scenario scenario = test::row_scenario(6, {0, 3, 5}, 20.0);
   scenario.radio.loss = 0.5;
   enum class More { Nothing, FromAnother, ToAnother };
@@ -112,8 +112,8 @@ TEST(Radio, OneMessageMoreMovesNoOthersFate) {
   EXPECT_EQ(quiet, received_by_b(More::ToAnother)) << "in the same activation, and sent before";
 }
 
-// With independent losses of a half, messages of one instant to one receiver have fates of their own.
-TEST(Radio, MessagesOfOneInstantToOneReceiverHaveFatesOfTheirOwn) {
+// With independent losses of a half, messages of one instant to one receiver have deliveries of their own.
+TEST(Radio, MessagesOfOneInstantToOneReceiverHaveDeliveriesOfTheirOwn) {
   Scenario scenario = test::row_scenario(6, {0, 3}, 40.0);
   scenario.radio.loss = 0.5;
   test::Recorder recorder;
@@ -152,7 +152,7 @@ TEST(Radio, BeyondTheRangeNothingArrives) {
   EXPECT_EQ(outcome.counters.out_of_range, 1U);
 }
 
-// An observer wants to know each fate, and the radio then decides them one by one.
+// An observer wants to know each delivery, and the radio then decides them one by one.
 TEST(Radio, MessagesFareTheSameWhetherAnybodyWatchesOrNot) {
   for (const double range_m : {8.0, 17.0, 1000.0}) {
     Scenario scenario = test::row_scenario(16, {0, 2, 4, 5, 7, 9, 10, 12, 15}, 40.0);

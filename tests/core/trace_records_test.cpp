@@ -67,7 +67,7 @@ TEST(TraceRecords, ReadWhatWasWritten) {
   EXPECT_EQ(sent.bytes, 100U);
   const auto lost = read<traced::Reception>(record_of(traced::Reception{TraceKind::LostInOutage, AgvId{2U}, 7}));
   EXPECT_TRUE(lost.is_lost());
-  EXPECT_EQ(lost.fate, TraceKind::LostInOutage);
+  EXPECT_EQ(lost.delivery, TraceKind::LostInOutage);
   EXPECT_EQ(lost.sender, AgvId{2U});
   const auto [load, to] =
       read<traced::LoadMoves>(record_of(traced::LoadMoves{LoadId{8U}, {Holder::Kind::ClearedAway, 12}}));

@@ -39,8 +39,8 @@ Scenario unusual() {
   s.radio.sources = {{1.5, -2.5, 3.25, 0.125, 0.5, 0.75}, {.x_m = 1e-3, .y_m = 7.0}};
   s.radio.trace = std::make_shared<const RadioTrace>(
       RadioTrace{{AgvId{0U}, AgvId{1U}, Duration{5}, Duration{17}}, {AgvId{0U}, AgvId{1U}, Duration{9}, std::nullopt}});
-  s.fates = {{AgvId{0U}, AgvId{1U}, Duration{61'204'000'007}, 2, true, {}},
-             {AgvId{1U}, AgvId{0U}, Duration{3}, 0, false, Duration{250'000'001}, true, Duration{4}}};
+  s.deliveries = {{AgvId{0U}, AgvId{1U}, Duration{61'204'000'007}, 2, true, {}},
+                  {AgvId{1U}, AgvId{0U}, Duration{3}, 0, false, Duration{250'000'001}, true, Duration{4}}};
   s.agvs[1].draws_as = 17;
   s.expected = {"contact, two AGVs (driving)", 0x0123456789abcdefULL};
   s.agent_clock.call_cost_s = 0.012;
@@ -152,7 +152,7 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.vehicle_types[0].loaded, s.vehicle_types[0].loaded);
   EXPECT_EQ(back.vehicle_types[0].other_spread_s, 6.0);
   EXPECT_EQ(back.agvs[1].sensing, s.agvs[1].sensing);
-  EXPECT_EQ(back.fates, s.fates);
+  EXPECT_EQ(back.deliveries, s.deliveries);
   EXPECT_EQ(back.agvs[1].draws_as, 17U);
   EXPECT_FALSE(back.agvs[0].draws_as);
   EXPECT_EQ(back.expected, s.expected);

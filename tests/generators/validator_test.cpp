@@ -213,21 +213,21 @@ const Plant kPlants[] = {
        if (s.agvs[0].start == lost) s.agvs[0].start = s.agvs[0].transports[0].from;
        s.map = std::make_shared<const LogicalMap>(with_trap(s, lost));
      }},
-    {"fate_of_nobody", ProblemKind::UnknownReference, "/fates/0/receiver",
+    {"delivery_of_nobody", ProblemKind::UnknownReference, "/fates/0/receiver",
      [](Scenario& s) {
-       s.fates = {{AgvId{0U}, AgvId{99U}, {}, 0, true, {}}};
+       s.deliveries = {{AgvId{0U}, AgvId{99U}, {}, 0, true, {}}};
      }},
-    {"fate_of_itself", ProblemKind::UnknownReference, "/fates/0/receiver",
+    {"delivery_of_itself", ProblemKind::UnknownReference, "/fates/0/receiver",
      [](Scenario& s) {
-       s.fates = {{AgvId{1U}, AgvId{1U}, {}, 0, true, {}}};
+       s.deliveries = {{AgvId{1U}, AgvId{1U}, {}, 0, true, {}}};
      }},
-    {"two_fates", ProblemKind::UnknownReference, "/fates/1",
+    {"two_deliveries", ProblemKind::UnknownReference, "/fates/1",
      [](Scenario& s) {
-       s.fates = {{AgvId{0U}, AgvId{1U}, {}, 0, true, {}}, {AgvId{0U}, AgvId{1U}, {}, 0, false, {}}};
+       s.deliveries = {{AgvId{0U}, AgvId{1U}, {}, 0, true, {}}, {AgvId{0U}, AgvId{1U}, {}, 0, false, {}}};
      }},
-    {"late_fate", ProblemKind::NumberOutOfRange, "/fates/0/delay_ns",
+    {"late_delivery", ProblemKind::NumberOutOfRange, "/fates/0/delay_ns",
      [](Scenario& s) {
-       s.fates = {{AgvId{0U}, AgvId{1U}, {}, 0, false, std::chrono::hours(2)}};
+       s.deliveries = {{AgvId{0U}, AgvId{1U}, {}, 0, false, std::chrono::hours(2)}};
      }},
     {"weak_core", ProblemKind::WeakCore, "/layout",
      [](Scenario& s) {

@@ -37,7 +37,7 @@ TEST(ExactLaw, ObstaclesMayTouchEachOtherButNoAgv) {
   for (const Violation& violation : violations) EXPECT_EQ(violation.a, EntityId{0U});
 }
 
-TEST(ExactLaw, OneStretchCrossesTheSeamsOfBothTimelines) {
+TEST(ExactLaw, OneEpisodeCrossesTheSeamsOfBothTimelines) {
   Scene scene(20.0);
   // Side by side at 5 cm through rest, drive and rest again; the other is restless in pieces of its own.
   scene.agv(facing(0.0, 0.0, 1.0, 0.0)).wait_until(3.0).drive(1.5).wait_until(9.0).wait_until(9.0).wait_until(11.0);
@@ -51,7 +51,7 @@ TEST(ExactLaw, OneStretchCrossesTheSeamsOfBothTimelines) {
   EXPECT_FALSE(violations[0].contact);
 }
 
-TEST(ExactLaw, EachPassWithinOnePairOfPiecesIsAStretchOfItsOwn) {
+TEST(ExactLaw, EachPassWithinOnePairOfPiecesIsAEpisodeOfItsOwn) {
   Scene scene(20.0);
   // A square body spins through 20 rad, 0.4 m from a wall side-on and 7 cm corner-on: 13 corners come by.
   scene.agv(facing(0.0, 0.0, 1.0, 0.0), {1.6, 1.6}).turn(20.0, {1.5, 10.0, 10.0});

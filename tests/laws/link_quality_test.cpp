@@ -145,8 +145,8 @@ TEST(LinkQuality, IsTheSameTenSecondsAfterOthersWereSkipped) {
 TEST(LinkQuality, SecondCopiesDoNotHideLosses) {
   LinkQuality quality(kAgvs);
   for (int i = 0; i < 100; ++i) {
-    const TraceKind fate = i < 65 ? TraceKind::Lost : TraceKind::Received;
-    const TraceRecord record = trace_record(kStart, AgvId{1U}, traced::Reception{fate, AgvId{0U}, 1});
+    const TraceKind delivery = i < 65 ? TraceKind::Lost : TraceKind::Received;
+    const TraceRecord record = trace_record(kStart, AgvId{1U}, traced::Reception{delivery, AgvId{0U}, 1});
     quality.note(part_of(record));
     if (i >= 65) quality.note(part_of(record, true));
   }

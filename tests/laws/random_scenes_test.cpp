@@ -192,9 +192,9 @@ std::vector<Violation> of_pair(const LawResults& findings, std::size_t a, std::s
   return violations;
 }
 
-// Every run of samples below the threshold lies in one stretch, and begins and ends with it unless a graze between
+// Every run of samples below the threshold lies in one episode, and begins and ends with it unless a graze between
 // samples was joined to it.
-void expect_stretches(const std::vector<Violation>& violations, const Sampled& sampled) {
+void expect_episodes(const std::vector<Violation>& violations, const Sampled& sampled) {
   for (std::size_t i = 0; i < sampled.below.size(); ++i) {
     const Interval& below = sampled.below[i];
     const auto in = std::ranges::find_if(
@@ -248,7 +248,7 @@ void expect_agreement(std::uint64_t seed) {
     if (std::abs(pair_m - threshold_m) > 1e-3) {
       EXPECT_EQ(violations.empty(), pair_m >= threshold_m);
     }
-    expect_stretches(violations, sampled);
+    expect_episodes(violations, sampled);
     expect_closest(brute, a, b, violations);
   }
   const double found_m = findings.min_clearance_m.value_or(0.5);

@@ -77,9 +77,9 @@ class Told {
   Told& sends(double at_s, std::uint32_t sender, std::uint32_t receiver, std::uint64_t hash, std::uint32_t bytes = 0) {
     return record(at_s, sender, traced::Sent{AgvId{receiver}, hash, bytes});
   }
-  // `fate` is Received, or a kind of loss.
-  Told& reception(double at_s, std::uint32_t receiver, TraceKind fate, std::uint32_t sender, std::uint64_t hash) {
-    return record(at_s, receiver, traced::Reception{fate, AgvId{sender}, hash});
+  // `delivery` is Received, or a kind of loss.
+  Told& reception(double at_s, std::uint32_t receiver, TraceKind delivery, std::uint32_t sender, std::uint64_t hash) {
+    return record(at_s, receiver, traced::Reception{delivery, AgvId{sender}, hash});
   }
   // Once more.
   Told& copy(double at_s, std::uint32_t receiver, std::uint32_t sender, std::uint64_t hash) {

@@ -129,7 +129,7 @@ inline Scenario run_of(int number, std::string_view family, double horizon_s) {
 }
 
 // A pair that only the exact law accuses was below for less than a step, or no instant of the clock fell into its
-// stretches.
+// episodes.
 inline bool between_steps(const Violation& violation) {
   const std::int64_t step = GlobalClock::kStep.count();
   return to_ns(violation.last) / step * step < to_ns(violation.first);
@@ -154,9 +154,9 @@ inline void expect_measured(const std::string& which, const Scenario& scenario, 
   if (v.last < kStart + scenario.horizon) is_kept_at(v.last + kBeside);
 }
 
-// What the clock saw lies in the stretches of the law, and is no closer than these.
-inline void expect_same_stretches(const std::string& which, const GlobalClock::Seen& seen,
-                                  const std::vector<Violation>& violations) {
+// What the clock saw lies in the episodes of the law, and is no closer than these.
+inline void expect_same_episodes(const std::string& which, const GlobalClock::Seen& seen,
+                                 const std::vector<Violation>& violations) {
   for (const SimTime t : {seen.at, seen.lowest_at, seen.last_at}) {
     EXPECT_TRUE(std::ranges::any_of(violations, [&](const Violation& v) { return v.first <= t && t <= v.last; }))
         << which << " at " << to_seconds(t) << " s";
@@ -185,7 +185,7 @@ inline void compare(int number, const Scenario& scenario, const fp_agent_type& a
     const std::string which = fmt::format("run {}, pair {} and {}", number, pair.first, pair.second);
     for (const Violation& violation : violations) expect_measured(which, scenario, clock, violation);
     if (const auto both = seen.find(pair); both != seen.end()) {
-      expect_same_stretches(which, both->second, violations);
+      expect_same_episodes(which, both->second, violations);
       continue;
     }
     ++sum.pairs, ++sum.only_exact;

@@ -53,7 +53,7 @@ class BodyThen : public testing::Test {
     sent.receiver = 1 - sender;
     sent.kind = kind;
     sent.sent_us = sent_us;
-    sent.arrivals = {{1 - sender, Fate::Received, 1'000}};
+    sent.arrivals = {{1 - sender, Receipt::Received, 1'000}};
     return sent;
   }
   std::vector<ReasonLine> lines() const { return drive_reasons(film_).front().lines; }

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 Message message(std::uint32_t number, std::size_t sender, const char* kind, std::string content, std::int64_t sent_us,
-                Fate fate = Fate::Received) {
+                Receipt receipt = Receipt::Received) {
   Message sent;
   sent.number = number;
   sent.sender = sender;
@@ -25,7 +25,8 @@ Message message(std::uint32_t number, std::size_t sender, const char* kind, std:
   sent.sent_us = sent_us;
   sent.order = number;
   sent.receiver = 1 - sender;
-  sent.arrivals = {{1 - sender, fate, fate == Fate::Received ? 1'000 : 0, number, fate == Fate::LostAsGiven}};
+  sent.arrivals = {
+      {1 - sender, receipt, receipt == Receipt::Received ? 1'000 : 0, number, receipt == Receipt::LostAsGiven}};
   return sent;
 }
 
@@ -36,7 +37,7 @@ Film film_of(const char* last_answer) {
   film.focus_us = 22'000'000;
   film.open_us = 19'000'000;
   film.failed = true;
-  film.story = {"They touch.", "The scenario gives the fate of 1 message (1 lost)."};
+  film.story = {"They touch.", "The scenario decides the delivery of 1 message (1 lost)."};
   film.involved = {0, 1};
   film.bodies = {{"A", BodyKind::Agv}, {"B", BodyKind::Agv}};
   film.outlines = {{1'600'000, 1'000'000, 0}};
@@ -53,7 +54,7 @@ Film film_of(const char* last_answer) {
   film.violations = {close};
   film.messages = {message(1, 0, "REQUEST", "asks with 2.0 for s to t", 9'000'000),
                    message(2, 1, "GRANT", "answers 2.0, holds u", 9'100'000),
-                   message(3, 0, "REQUEST", "asks with 3.0 for t to u", 17'000'000, Fate::LostAsGiven),
+                   message(3, 0, "REQUEST", "asks with 3.0 for t to u", 17'000'000, Receipt::LostAsGiven),
                    message(4, 1, "GRANT", last_answer, 18'000'000)};
   return film;
 }
@@ -210,7 +211,7 @@ TEST(OwnRequest, ThePageLeadsWithItAndOpensAtTheDecision) {
   const std::string page = replay_page(film_of("answers 2.0, holds u"));
   const auto head = page.find("<p class=\"decisive\" data-us=\"18100000\">A had asked for this with REQUEST #3");
   ASSERT_NE(head, page.npos);
-  EXPECT_LT(head, page.find("The scenario gives the fate"));
+  EXPECT_LT(head, page.find("The scenario decides the delivery"));
   EXPECT_THAT(page,
               HasSubstr("<p class=\"given\" data-us=\"17000000\">REQUEST #3 (asks with 3.0 for t to u) from A to B, "
                         "sent 17.000 s: lost on purpose by the scenario.</p>"));

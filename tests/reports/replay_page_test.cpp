@@ -24,13 +24,13 @@ MotionPiece resting(std::size_t body, std::int64_t end_us) {
   return piece;
 }
 
-Message message(std::uint32_t number, std::size_t sender, std::size_t receiver, std::int64_t sent_us, Fate fate) {
+Message message(std::uint32_t number, std::size_t sender, std::size_t receiver, std::int64_t sent_us, Receipt receipt) {
   Message sent;
   sent.number = number;
   sent.sender = sender;
   sent.sent_us = sent_us;
   sent.kind = "GRANT";
-  sent.arrivals.push_back({receiver, fate, fate == Fate::Received ? 1'500'000 : 0});
+  sent.arrivals.push_back({receiver, receipt, receipt == Receipt::Received ? 1'500'000 : 0});
   return sent;
 }
 
@@ -53,7 +53,8 @@ Film small_film() {
   film.activities = {{0, 16'000'000, 20'000'000, "drive", "A to B"}};
   film.states = {{0, 15'000'000, "driving"}};
   film.waits = {{1, 12'000'000, 0}};
-  film.messages = {message(1, 0, 1, 18'000'000, Fate::Received), message(2, 1, 0, 19'000'000, Fate::LostInOutage)};
+  film.messages = {message(1, 0, 1, 18'000'000, Receipt::Received),
+                   message(2, 1, 0, 19'000'000, Receipt::LostInOutage)};
   film.messages[0].content = "answers 7";
   film.happenings = {{1, 14'000'000, "fault", "restart", true, false}};
   TooClose close;
@@ -108,10 +109,10 @@ TEST(ReplayPage, SaysWithoutScriptsWhatHappened) {
   EXPECT_EQ(cells("who-waits-for-whom"), "AGV 1|AGV 0|12.000||");
   EXPECT_EQ(cells("faults"), "14.000|AGV 1|fault|restart|");
   EXPECT_EQ(cells("transports-orders"), "5|AGV 0|A|B|1.000|open|");
-  std::string course;
-  for (const auto& cell : document.select_nodes("//div[@id='course']/div/span"))
-    course += std::string(cell.node().text().get()) + "|";
-  EXPECT_EQ(course,
+  std::string event_log;
+  for (const auto& cell : document.select_nodes("//div[@id='log-lines']/div/span"))
+    event_log += std::string(cell.node().text().get()) + "|";
+  EXPECT_EQ(event_log,
             "12.000|AGV 1|says it waits|for AGV 0|14.000|AGV 1|fault|restart|15.000|AGV 0|its agent says|\"driving\"|"
             "16.000|AGV 0|begins drive|A to B|18.000|AGV 0 \u2192 all|GRANT #1 (answers 7)|received 19.500 s|"
             "19.000|AGV 1 \u2192 all|GRANT #2|lost in an outage|20.000|AGV 0|ends drive||"
@@ -193,11 +194,11 @@ Film flooded_film() {
   std::uint32_t number = 0;
   for (std::int64_t t_us = 0; t_us < film.end_us; t_us += 1'000'000) {
     for (std::size_t sender = 0; sender < kAgvs; ++sender) {
-      Message sent = message(++number, sender, 0, t_us + static_cast<std::int64_t>(sender) * 7000, Fate::Received);
+      Message sent = message(++number, sender, 0, t_us + static_cast<std::int64_t>(sender) * 7000, Receipt::Received);
       sent.arrivals.clear();
       for (std::size_t receiver = 0; receiver < kAgvs; ++receiver) {
         if (receiver == sender) continue;
-        sent.arrivals.push_back({receiver, receiver % 5 == 0 ? Fate::LostByChance : Fate::Received, 1'234'567});
+        sent.arrivals.push_back({receiver, receiver % 5 == 0 ? Receipt::LostByChance : Receipt::Received, 1'234'567});
         Belief belief{receiver, sender, sent.sent_us + 1'234'567, sent.sent_us, 12'345'000, 23'456'000, 3'141'592};
         film.beliefs.push_back(belief);
       }

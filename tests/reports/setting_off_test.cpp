@@ -37,7 +37,7 @@ Film rolling_film() {
     sent.receiver = 1 - sender;
     sent.kind = kind;
     sent.sent_us = sent_us;
-    sent.arrivals = {{1 - sender, Fate::Received, after_us}};
+    sent.arrivals = {{1 - sender, Receipt::Received, after_us}};
     return sent;
   };
   film.messages = {message(1, 0, "ASK", 1'000'000, 999'000), message(2, 1, "NO", 2'000'000, 2'000'000)};

@@ -108,7 +108,7 @@ constinit const fp_agent_type kTable[] = {
     faulty_hull_lock<LockOptions{.progress = {.makes_way = false}}>("never-makes-way",
                                                                     "hull-lock with a fault: makes way for nobody"),
     // FAULT: an AGV locks one lane at a time.
-    faulty_hull_lock<LockOptions{.progress = {.whole_stretches = false}}>(
+    faulty_hull_lock<LockOptions{.progress = {.whole_sections = false}}>(
         "lane-by-lane", "hull-lock with a fault: locks one lane at a time"),
 };
 

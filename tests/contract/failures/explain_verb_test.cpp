@@ -86,36 +86,36 @@ TEST_F(ExplainVerb, EverySentenceHasItsRuns) {
   }
   std::size_t passes = 0, fails_otherwise = 0;
   const auto check = [&](const json& failing, const std::string& words) {
-    for (const int luck : {1, 2, 3, 58, 59}) {
-      const bool fails = std::find(failing.begin(), failing.end(), luck) != failing.end();
-      const std::string outcome = simulate("runs/" + words + std::to_string(luck));
-      EXPECT_FALSE(fails && outcome == "clean") << words << luck;
+    for (const int draw : {1, 2, 3, 58, 59}) {
+      const bool fails = std::find(failing.begin(), failing.end(), draw) != failing.end();
+      const std::string outcome = simulate("runs/" + words + std::to_string(draw));
+      EXPECT_FALSE(fails && outcome == "clean") << words << draw;
       fails_otherwise += !fails && outcome != "clean" ? 1 : 0;
       passes += outcome == "clean" ? 1 : 0;
     }
   };
   number = 0;
   for (const json& share : page["shares"])
-    check(share["failing_lucks"], "share-" + std::to_string(++number) + ".json --luck ");
+    check(share["failing_draws"], "share-" + std::to_string(++number) + ".json --draw ");
   EXPECT_GT(number, 3U);
   number = 0;
   for (const json& branch : page["curve_of_no_return"])
-    check(branch["failing_radio_lucks"], "branch-" + std::to_string(++number) + ".json --radio-luck ");
+    check(branch["failing_radio_draws"], "branch-" + std::to_string(++number) + ".json --radio-draw ");
   EXPECT_EQ(number, 20U);
   EXPECT_GT(passes, 20U);
   EXPECT_LT(4 * fails_otherwise, passes);  // a run may fail in another way
-  EXPECT_EQ(page["curve_of_no_return"][19]["failing"], page["curve_of_no_return"][19]["failing_radio_lucks"].size());
+  EXPECT_EQ(page["curve_of_no_return"][19]["failing"], page["curve_of_no_return"][19]["failing_radio_draws"].size());
 }
 
 TEST_F(ExplainVerb, ThePageTellsHowToSimulateThem) {
   const auto explained = run("explain case.json --agent timeout-grant --max-trials 300 --runs runs");
   EXPECT_THAT(explained.out, HasSubstr(" of 59 [share 1]."));
-  EXPECT_THAT(explained.out, HasSubstr("fleetproof simulate runs/share-1.json --luck N"));
-  EXPECT_THAT(explained.out, HasSubstr("fleetproof simulate runs/branch-1.json --radio-luck N"));
+  EXPECT_THAT(explained.out, HasSubstr("fleetproof simulate runs/share-1.json --draw N"));
+  EXPECT_THAT(explained.out, HasSubstr("fleetproof simulate runs/branch-1.json --radio-draw N"));
 }
 
-TEST_F(ExplainVerb, ALuckIsACountingNumber) {
-  for (const std::string words : {"--luck 0", "--radio-luck 4294967296"}) {
+TEST_F(ExplainVerb, ADrawIsACountingNumber) {
+  for (const std::string words : {"--draw 0", "--radio-draw 4294967296"}) {
     const auto refused = run("simulate case.json --agent reckless " + words);
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.err, HasSubstr("it lies from 1 to 4294967295"));

@@ -151,7 +151,7 @@ TEST(SampleOfRuns, IsKeyedSpreadAndOfTheSizeAskedFor) {
   EXPECT_EQ(sample_of_runs(5, 1000, 10), sample);
   EXPECT_NE(sample_of_runs(6, 1000, 10), sample);
   EXPECT_EQ(sample_of_runs(5, 3, 3), (std::vector<std::uint64_t>{0, 1, 2}));
-  EXPECT_EQ(sample_of_runs(5, 7, 4).back(), 6U) << "the last stretch of 7 runs in 4 is one run long";
+  EXPECT_EQ(sample_of_runs(5, 7, 4).back(), 6U) << "the last episode of 7 runs in 4 is one run long";
   EXPECT_TRUE(sample_of_runs(5, 0, 0).empty());
 }
 

@@ -88,7 +88,7 @@ TEST_F(ChromeTrace, ShowsWhereTheDistanceIsBroken) {
 }
 
 // By the rules of Perfetto's reader: nothing is left out, moved or bound to another slice. Three AGVs in a heap: the
-// stretches below the safety distance lie across each other.
+// episodes below the safety distance lie across each other.
 TEST_F(ChromeTrace, PerfettoCountsNoError) {
   const auto read_as_perfetto = [&](const std::string& file) {
     return shell("python3 -B '" + test::source("tests/judge/chrome_trace.py") + "' " + file);

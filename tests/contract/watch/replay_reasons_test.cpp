@@ -1,5 +1,5 @@
 // Why an agent believed that a drive was allowed, as the replay page says it. The agent plays a list of calls and the
-// scenario gives the fate of single messages, so the truth is known before the run.
+// scenario decides the delivery of single messages, so the truth is known before the run.
 #include <gmock/gmock.h>
 
 #include <pugixml.hpp>
@@ -47,7 +47,7 @@ class ReplayReasons : public test::ProgramTest {
     EXPECT_TRUE(document.load_buffer(text.data(), text.size(), pugi::parse_full));
     return document;
   }
-  // The texts of the elements, one after the other. A line of the course: its cells.
+  // The texts of the elements, one after the other. A line of the event_log: its cells.
   static std::vector<std::string> texts(const pugi::xml_document& document, const std::string& query) {
     std::vector<std::string> all;
     for (const auto& found : document.select_nodes(query.c_str())) {
@@ -89,7 +89,7 @@ TEST_F(ReplayReasons, SaysWhatWasDoubledLostLateAndMissing) {
               ElementsAre("M began to drive a to b at 5.000 s", "P had begun nothing before the failure"));
 }
 
-// The same run without the fates: nothing is doubled, lost or late.
+// The same run without the deliveries: nothing is doubled, lost or late.
 TEST_F(ReplayReasons, SaysNothingOfTheKindIfAllArrived) {
   (void)page();
   const std::string whole(kWorld);
@@ -102,7 +102,7 @@ TEST_F(ReplayReasons, SaysNothingOfTheKindIfAllArrived) {
   const std::string text = read(path("q.html"));
   pugi::xml_document document;
   ASSERT_TRUE(document.load_buffer(text.data(), text.size(), pugi::parse_full));
-  EXPECT_TRUE(texts(document, "//dt[text() = 'given fates']").empty());
+  EXPECT_TRUE(texts(document, "//dt[text() = 'given deliveries']").empty());
   EXPECT_THAT(
       texts(document, of_m("/p")),
       ElementsAre(
@@ -120,9 +120,9 @@ TEST_F(ReplayReasons, SaysNothingOfTheKindIfAllArrived) {
           "After that it received GRANT from T (6.001 s)."));
 }
 
-TEST_F(ReplayReasons, TheCourseHasThirdAgvsInCausalOrder) {
+TEST_F(ReplayReasons, TheEventLogHasThirdAgvsInCausalOrder) {
   const auto document = page();
-  const auto lines = texts(document, "//div[@id='course']//*[contains(@class, 'line')]");
+  const auto lines = texts(document, "//div[@id='log-lines']//*[contains(@class, 'line')]");
   const auto place = [&](const std::string& line) {
     const auto found = std::ranges::find(lines, line);
     EXPECT_NE(found, lines.end()) << line;
@@ -143,7 +143,7 @@ TEST_F(ReplayReasons, TheCourseHasThirdAgvsInCausalOrder) {
 // A flood of refused calls is one line, until the AGV does something else.
 TEST_F(ReplayReasons, CallsThatAreRefusedAgainAndAgainAreOneLine) {
   const auto document = page("0 1000 move 3;0 1100 move 3;0 1200 move 3;0 2000 say asking;0 2100 move 3;0 5000 move 0");
-  const auto lines = texts(document, "//div[@id='course']//summary[contains(@class, 'event')]");
+  const auto lines = texts(document, "//div[@id='log-lines']//summary[contains(@class, 'event')]");
   EXPECT_THAT(lines, ElementsAre("1.000|M|refused move tq \u00d7 3|until 1.200 s"));
 }
 
@@ -155,11 +155,12 @@ TEST_F(ReplayReasons, SaysWhenADriveWasCommandedBeforeItBegan) {
   EXPECT_THAT(text, HasSubstr("M began to drive a to b at 0.100 s<")) << "at once";
 }
 
-TEST_F(ReplayReasons, SaysHowManyMessagesHaveAGivenFate) {
+TEST_F(ReplayReasons, SaysHowManyMessagesHaveAGivenDelivery) {
   (void)page();
   const std::string text = read(path("p.html"));
-  EXPECT_THAT(text, HasSubstr("<dt>given fates</dt><dd>3 messages (1 lost, 1 delivered twice, 1 with a given delay)"));
-  EXPECT_THAT(text, HasSubstr("0 %, but of messages with a given fate"));
+  EXPECT_THAT(text,
+              HasSubstr("<dt>given deliveries</dt><dd>3 messages (1 lost, 1 delivered twice, 1 with a given delay)"));
+  EXPECT_THAT(text, HasSubstr("0 %, but of messages with a given delivery"));
 }
 
 // A message that is under way when the run ends is not forgotten.
@@ -192,7 +193,7 @@ TEST_F(ReplayReasons, AtOneInstantTheOrderOfTheTraceDecides) {
                                   : "DEFER #6, sent 4.900 s, received 5.000 s; 0.100 s old then"));
 }
 
-// Keys keep the instant of the address, to the microsecond; j goes to the next line of the course.
+// Keys keep the instant of the address, to the microsecond; j goes to the next line of the event_log.
 TEST_F(ReplayReasons, TheAddressStaysExactInABrowser) {
   if (shell("command -v chromium").exit_code != 0) GTEST_SKIP() << "there is no chromium";
   (void)page();

@@ -20,8 +20,8 @@ inline double allowance_on_curves_m(const Piece& a, const Piece& b) {
   return on_curve(a) + on_curve(b);
 }
 
-// A stretch of time in which two bodies are too close, and how they stand at the closest instant. `a` < `b`.
-struct Stretch {
+// A time in which two bodies are too close, and how they stand at the closest instant. `a` < `b`.
+struct Episode {
   EntityId a, b;
   SimTime first = kStart, last = kStart;
   ClosestApproach closest;
@@ -29,20 +29,20 @@ struct Stretch {
   bool contact = false;              // the bodies touch, first at closest.at
   RelativeSpeed speed;               // the highest during the contact, or while the clearance is the least
 
-  // Adds a stretch of the same pair. A contact, or else the smaller clearance, is kept. Of two contacts, or of two
+  // Adds an episode of the same pair. A contact, or else the smaller clearance, is kept. Of two contacts, or of two
   // equal clearances, the earlier one is kept with the higher speed.
-  void absorb(const Stretch& other);
+  void absorb(const Episode& other);
 };
 
-// Makes a stretch from two pieces, in either order, with the speed at closest.at. Requires: both pieces cover
+// Makes an episode from two pieces, in either order, with the speed at closest.at. Requires: both pieces cover
 // closest.at.
-Stretch stretch_of(const Piece& one, const Piece& other, SimTime first, SimTime last, const ClosestApproach& closest);
+Episode episode_of(const Piece& one, const Piece& other, SimTime first, SimTime last, const ClosestApproach& closest);
 
-// Joins the stretches of a pair that overlap or follow each other within `seam`. Ordered by (a, b, first).
-std::vector<Stretch> joined(std::vector<Stretch> stretches, Duration seam);
+// Joins the episodes of a pair that overlap or follow each other within `seam`. Ordered by (a, b, first).
+std::vector<Episode> joined(std::vector<Episode> episodes, Duration seam);
 
 // The violations to file, ordered by (first, a, b). Lengths and speeds are whole micrometres: the clearance is rounded
 // down, the others to nearest.
-std::vector<Violation> filed(const std::vector<Stretch>& stretches);
+std::vector<Violation> filed(const std::vector<Episode>& episodes);
 
 }  // namespace fleetproof

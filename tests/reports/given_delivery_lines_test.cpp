@@ -1,12 +1,12 @@
-// What the head of a page says of a message whose fate the scenario gives.
-#include "reports/replay_page/given_fate_lines.hpp"
+// What the head of a page says of a message whose delivery the scenario gives.
+#include "reports/replay_page/given_delivery_lines.hpp"
 
 #include <gtest/gtest.h>
 
-namespace fleetproof::web::given_fate_lines_test {
+namespace fleetproof::web::given_delivery_lines_test {
 namespace {
 
-TEST(GivenFateLines, CopiesStandInTheOrderOfTime) {
+TEST(GivenDeliveryLines, CopiesStandInTheOrderOfTime) {
   Film film;
   film.focus_us = 20'000'000;
   film.end_us = 100'000'000;
@@ -17,15 +17,15 @@ TEST(GivenFateLines, CopiesStandInTheOrderOfTime) {
   sent.kind = "ASK";
   sent.sent_us = 9'000'000;
   for (const std::int64_t after_us : {1'100'000, 99'000'000, 900'000}) {
-    sent.arrivals.push_back({1, Fate::Received, after_us});
+    sent.arrivals.push_back({1, Receipt::Received, after_us});
     sent.arrivals.back().is_given = true;
   }
   film.messages = {sent};
-  const auto lines = given_fate_lines(film);
+  const auto lines = given_delivery_lines(film);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].text,
             "ASK #7 from A to B, sent 9.000 s: received 9.900 s, 10.100 s, not before the end, as the scenario says.");
 }
 
 }  // namespace
-}  // namespace fleetproof::web::given_fate_lines_test
+}  // namespace fleetproof::web::given_delivery_lines_test

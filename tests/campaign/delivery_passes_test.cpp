@@ -1,4 +1,4 @@
-#include "campaign/shrink/fate_passes.hpp"
+#include "campaign/shrink/delivery_passes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,36 +7,36 @@
 #include "campaign/shrink/trials.hpp"
 #include "tests/support/case_bench.hpp"
 
-namespace fleetproof::fate_passes_test {
+namespace fleetproof::delivery_passes_test {
 namespace {
 
 // A smaller case takes the place of the best one while its messages are gone through.
-TEST(FatePasses, AMessageThatIsLateAndDoubledIsWeakened) {
+TEST(DeliveryPasses, AMessageThatIsLateAndDoubledIsWeakened) {
   test::CaseBench bench("stale-grant");
   const FailingCase failing = bench.failing_by_radio(2);
   const OnSmaller nobody = [](const FailingCase&, std::string_view) {};
   TrialCache cache;
   Trials trials(bench.host, cache, pattern_of(bench.host, failing), {});
   Shrinker shrinker(trials, failing, nobody);
-  write_fates_down(shrinker);
-  while (take_out_fates(shrinker)) {
+  write_deliveries_down(shrinker);
+  while (take_out_deliveries(shrinker)) {
   }
-  const std::vector<GivenFate> least = shrinker.best().scenario.fates;
+  const std::vector<GivenDelivery> least = shrinker.best().scenario.deliveries;
   Scenario worse = shrinker.best().scenario;
-  for (GivenFate& fate : worse.fates) {
-    if (fate.lost) continue;
-    fate.copied = true;
-    fate.delay += std::chrono::milliseconds(150);
-    fate.copy_delay = fate.delay;
+  for (GivenDelivery& delivery : worse.deliveries) {
+    if (delivery.lost) continue;
+    delivery.copied = true;
+    delivery.delay += std::chrono::milliseconds(150);
+    delivery.copy_delay = delivery.delay;
   }
-  ASSERT_NE(worse.fates, least) << "a message is late";
+  ASSERT_NE(worse.deliveries, least) << "a message is late";
   const auto again = trials.first_failing({1, [&](std::size_t) { return std::optional(worse); }});
   ASSERT_TRUE(again);
   Shrinker once_more(trials, again->is, nobody);
-  while (take_out_fates(once_more)) {
+  while (take_out_deliveries(once_more)) {
   }
-  EXPECT_EQ(once_more.best().scenario.fates, least);
+  EXPECT_EQ(once_more.best().scenario.deliveries, least);
 }
 
 }  // namespace
-}  // namespace fleetproof::fate_passes_test
+}  // namespace fleetproof::delivery_passes_test

@@ -53,46 +53,46 @@ struct Goal {
 bool carries_load(std::span<const Goal> goals);
 
 // What is locked at once: a path, and the legs that drive it. The transfers on the path are legs too.
-struct Stretch {
+struct Section {
   Path path;
   std::vector<Leg> legs;
-  std::uint32_t goals = 0;            // the number of goals that the stretch reaches
+  std::uint32_t goals = 0;            // the number of goals that the section reaches
   std::vector<std::uint32_t> onward;  // the lanes that the AGV means to drive afterwards
   bool empty() const { return path.empty(); }
 };
 
 // Leaves the first lane, and the transfers before it.
-void cut_after_first_lane(Stretch& stretch);
+void cut_after_first_lane(Section& section);
 
-// How far a stretch may reach. Lanes that are already held count.
+// How far a section may reach. Lanes that are already held count.
 struct Budget {
   double length_m = 0.0;
   std::uint32_t lanes = 0;
   friend bool operator==(const Budget&, const Budget&) = default;
 };
 
-// Chooses the next stretch. A stretch ends at a safe waiting place, so that no AGV blocks the AGV for which it waits.
+// Chooses the next section. A section ends at a safe waiting place, so that no AGV blocks the AGV for which it waits.
 // It is long enough to be worth its messages, and it ends before the floor that other AGVs are known to hold. Knowledge
 // about other AGVs may be old: a bad choice costs time, never safety.
-class StretchPlanner {
+class SectionPlanner {
  public:
   using GoesFirst = std::function<bool(std::uint32_t agv, const Neighbour&)>;
 
   // `vehicle_type`: of the own AGV, by which the plant permits lanes.
-  StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, std::uint32_t vehicle_type,
+  SectionPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours, std::uint32_t vehicle_type,
                  const ProgressOptions& options = {});
 
   WaitingPlaces& places() { return places_; }
 
-  // A stretch from `standing` towards the goals. Empty if there is no way to the first goal.
-  Stretch towards(const Path& standing, Budget budget, std::span<const Goal> goals);
-  // What the AGV announces of its way beyond the stretch: the lanes to its next goals. Requires: the stretch is what
+  // A section from `standing` towards the goals. Empty if there is no way to the first goal.
+  Section towards(const Path& standing, Budget budget, std::span<const Goal> goals);
+  // What the AGV announces of its way beyond the section: the lanes to its next goals. Requires: the section is what
   // `towards` returned last, and nothing was planned since.
-  std::vector<std::uint32_t> way_on_from(const Stretch& stretch, std::span<const Goal> goals);
-  // A stretch to a place where the AGV blocks no other AGV, as far as is known. Empty if there is none. `draw` in [0,
+  std::vector<std::uint32_t> way_on_from(const Section& section, std::span<const Goal> goals);
+  // A section to a place where the AGV blocks no other AGV, as far as is known. Empty if there is none. `draw` in [0,
   // 1) varies the choice. The place keeps clear of the requests of all AGVs that go first, and the way keeps clear of
   // these AGVs while they wait. If there is no such way, it may lead through other waiting AGVs: they make way in turn.
-  Stretch out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking, double draw,
+  Section out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking, double draw,
                          const GoesFirst& goes_first);
   // The charging station that is quickest to reach and at which no other AGV is known to be; if possible one at which
   // this AGV blocks no other AGV. If it is `urgent` and there is none, any that can be reached: an AGV that is charged
@@ -101,7 +101,7 @@ class StretchPlanner {
 
  private:
   struct Walk;
-  // What the last stretch towards goals followed from.
+  // What the last section towards goals followed from.
   struct Question {
     Path standing;
     Budget budget;
@@ -116,7 +116,7 @@ class StretchPlanner {
   };
 
   bool is_asked_again(const Path& standing, Budget budget, std::span<const Goal> goals) const;
-  Stretch find_stretch(const Path& standing, Budget budget, std::span<const Goal> goals);
+  Section find_section(const Path& standing, Budget budget, std::span<const Goal> goals);
   // From there to a goal, at the costs of the lanes.
   void search(const Path& from, std::uint32_t goal);
   std::uint32_t end_of_search(std::uint32_t goal) const;
@@ -140,7 +140,7 @@ class StretchPlanner {
   std::span<const double> lane_times_s_;  // by lane
   LanePrices prices_;
   std::optional<Question> last_asked_;  // none if lanes have had other prices since: way_on_from() needs those
-  Stretch last_answer_;
+  Section last_answer_;
   std::uint32_t model_;         // of the own AGV
   bool knows_remaining_costs_;  // the usual costs are those of remaining_costs_s()
 };

@@ -1,4 +1,4 @@
-#include "core/radio/given_fates.hpp"
+#include "core/radio/given_deliveries.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include "tests/core/row_of_tens.hpp"
 #include "tests/support/at_seconds.hpp"
 
-namespace fleetproof::given_fates_test {
+namespace fleetproof::given_deliveries_test {
 namespace {
 
-GivenFate fate_of(std::uint32_t sender, std::uint32_t receiver, double sent_s, std::uint32_t ordinal) {
+GivenDelivery delivery_of(std::uint32_t sender, std::uint32_t receiver, double sent_s, std::uint32_t ordinal) {
   return {AgvId{sender}, AgvId{receiver}, seconds(sent_s), ordinal, true, {}};
 }
 
@@ -27,25 +27,25 @@ RadioSetup hard_radio() {
   return setup;
 }
 
-TEST(GivenFates, DecideTheirMessageAndMoveNoOther) {
-  std::vector<GivenFate> fates;
-  for (std::uint32_t i = 0; i < 200; i += 7) fates.push_back(fate_of(i % 3, 3, 0.5 * i, i % 2));
-  for (std::size_t i = 0; i < fates.size(); i += 2) {
-    fates[i].lost = false;
-    fates[i].delay = seconds(0.25 + static_cast<double>(i));
+TEST(GivenDeliveries, DecideTheirMessageAndMoveNoOther) {
+  std::vector<GivenDelivery> deliveries;
+  for (std::uint32_t i = 0; i < 200; i += 7) deliveries.push_back(delivery_of(i % 3, 3, 0.5 * i, i % 2));
+  for (std::size_t i = 0; i < deliveries.size(); i += 2) {
+    deliveries[i].lost = false;
+    deliveries[i].delay = seconds(0.25 + static_cast<double>(i));
   }
-  std::ranges::reverse(fates);
-  Radio drawn(hard_radio(), 7), given(hard_radio(), 7, fates);
+  std::ranges::reverse(deliveries);
+  Radio drawn(hard_radio(), 7), given(hard_radio(), 7, deliveries);
   std::size_t decided = 0;
   for (std::uint32_t i = 0; i < 200; ++i) {
     for (std::uint32_t sender = 0; sender < 3; ++sender) {
       for (std::uint32_t ordinal = 0; ordinal < 2; ++ordinal) {
-        const Fate a = drawn.fate(AgvId{sender}, AgvId{3U}, at_seconds(0.5 * i), ordinal),
-                   b = given.fate(AgvId{sender}, AgvId{3U}, at_seconds(0.5 * i), ordinal);
-        const auto listed = std::ranges::find_if(fates, [&](const GivenFate& f) {
+        const Delivery a = drawn.delivery(AgvId{sender}, AgvId{3U}, at_seconds(0.5 * i), ordinal),
+                       b = given.delivery(AgvId{sender}, AgvId{3U}, at_seconds(0.5 * i), ordinal);
+        const auto listed = std::ranges::find_if(deliveries, [&](const GivenDelivery& f) {
           return f.sender.value == sender && f.sent == seconds(0.5 * i) && f.ordinal == ordinal;
         });
-        EXPECT_EQ(b.given, listed != fates.end());
+        EXPECT_EQ(b.given, listed != deliveries.end());
         if (b.given) {
           ++decided;
           EXPECT_EQ(b.lost, listed->lost);
@@ -58,7 +58,7 @@ TEST(GivenFates, DecideTheirMessageAndMoveNoOther) {
       }
     }
   }
-  EXPECT_EQ(decided, fates.size());
+  EXPECT_EQ(decided, deliveries.size());
 }
 
 // AGV 0 says something at 1 s and at 2 s; when AGV 1 hears it.
@@ -75,26 +75,26 @@ std::vector<double> heard_s(const Scenario& scenario) {
   return heard;
 }
 
-TEST(GivenFates, AreWhatHappensInARun) {
+TEST(GivenDeliveries, AreWhatHappensInARun) {
   Scenario scenario = test::row_of_tens({0, 2}, 30.0);
   scenario.radio.delay_s = 0.5;
   EXPECT_EQ(heard_s(scenario), (std::vector<double>{1.5, 2.5}));
   const std::uint64_t digest = scenario_digest(scenario);
-  scenario.fates = {fate_of(0, 1, 1.0, 0)};
+  scenario.deliveries = {delivery_of(0, 1, 1.0, 0)};
   EXPECT_EQ(heard_s(scenario), (std::vector<double>{2.5}));
   EXPECT_NE(scenario_digest(scenario), digest);
-  scenario.fates[0].lost = false;
-  scenario.fates[0].delay = seconds(3.0);
+  scenario.deliveries[0].lost = false;
+  scenario.deliveries[0].delay = seconds(3.0);
   EXPECT_EQ(heard_s(scenario), (std::vector<double>{2.5, 4.0}));
-  scenario.fates[0].ordinal = 1;
+  scenario.deliveries[0].ordinal = 1;
   EXPECT_EQ(heard_s(scenario), (std::vector<double>{1.5, 2.5})) << "no such message was sent";
   scenario.radio.loss = 1.0;
-  scenario.fates[0].ordinal = 0;
+  scenario.deliveries[0].ordinal = 0;
   EXPECT_EQ(heard_s(scenario), (std::vector<double>{4.0})) << "the only message that arrives";
 }
 
 // With one slot, both AGVs send in the same air and destroy each other's message.
-TEST(GivenFates, GoOverInterference) {
+TEST(GivenDeliveries, GoOverInterference) {
   Scenario scenario = test::row_of_tens({0, 2, 3}, 30.0);
   scenario.radio.contention = {true, 0};
   scenario.radio.air_time_s = 0.01;
@@ -111,10 +111,10 @@ TEST(GivenFates, GoOverInterference) {
     return heard;
   };
   EXPECT_TRUE(run().empty());
-  scenario.fates = {fate_of(1, 2, 0.0, 0)};
-  scenario.fates[0].lost = false;
+  scenario.deliveries = {delivery_of(1, 2, 0.0, 0)};
+  scenario.deliveries[0].lost = false;
   EXPECT_EQ(run(), std::vector<std::uint32_t>{1});
 }
 
 }  // namespace
-}  // namespace fleetproof::given_fates_test
+}  // namespace fleetproof::given_deliveries_test

@@ -1,4 +1,4 @@
-#include "reports/replay_page/course_messages.hpp"
+#include "reports/replay_page/log_messages.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ constexpr std::int64_t kLongUnderWay_us = 50'000;
 // One message at one receiver.
 struct Place {
   std::size_t receiver = 0;
-  Fate fate = Fate::Received;
+  Receipt receipt = Receipt::Received;
   std::vector<Moment> received;  // in order of time
 };
 
@@ -28,7 +28,7 @@ class MessageLines {
     for (const std::size_t body : film.subject()) is_subject_[body] = true;
   }
 
-  std::vector<CourseLine> all() {
+  std::vector<LogLine> all() {
     for (const Message& message : film_.messages) {
       note_request(message);
       if (message.sent_us < from_us_ || message.sent_us > to_us_) continue;
@@ -51,8 +51,8 @@ class MessageLines {
       if (!is_subject_[message.sender] && !is_subject_[arrival.receiver]) continue;
       Place& place = places[arrival.receiver];
       place.receiver = arrival.receiver;
-      if (arrival.fate != Fate::Received) {
-        place.fate = arrival.fate;
+      if (arrival.receipt != Receipt::Received) {
+        place.receipt = arrival.receipt;
       } else {
         place.received.push_back({message.sent_us + arrival.after_us, arrival.order});
       }
@@ -65,8 +65,8 @@ class MessageLines {
     return list;
   }
 
-  std::string fate_text(const Place& place) const {
-    if (place.fate != Fate::Received || place.received.empty()) return word_of(place.fate);
+  std::string delivery_text(const Place& place) const {
+    if (place.receipt != Receipt::Received || place.received.empty()) return word_of(place.receipt);
     const std::int64_t first_us = place.received.front().at_us;
     if (first_us > film_.end_us) return "under way at the end of the run";
     std::string text = fmt::format("received {} s", time_text(first_us));
@@ -74,50 +74,50 @@ class MessageLines {
       text += fmt::format(" and again {} s: delivered twice", time_text(place.received.back().at_us));
     return text;
   }
-  static bool is_plain(const Place& place) { return place.fate == Fate::Received && place.received.size() == 1; }
+  static bool is_plain(const Place& place) { return place.receipt == Receipt::Received && place.received.size() == 1; }
 
   // Of a message to all: what became of it at each body the page is about, and at how many others.
-  std::string fates_text(const std::vector<Place>& places) const {
+  std::string deliveries_text(const std::vector<Place>& places) const {
     std::map<std::string, std::vector<std::string>> names;
     std::map<std::string, std::size_t> others;
     std::vector<std::string> order;
-    const auto note = [&](const std::string& fate) {
-      if (std::ranges::find(order, fate) == order.end()) order.push_back(fate);
+    const auto note = [&](const std::string& delivery) {
+      if (std::ranges::find(order, delivery) == order.end()) order.push_back(delivery);
     };
     for (const Place& place : places) {
       const bool is_named = is_subject_[place.receiver] || places.size() <= 4;
-      const std::string fate = is_named || !is_plain(place) ? fate_text(place) : "received";
-      note(fate);
+      const std::string delivery = is_named || !is_plain(place) ? delivery_text(place) : "received";
+      note(delivery);
       if (is_named) {
-        names[fate].push_back(name(place.receiver));
+        names[delivery].push_back(name(place.receiver));
       } else {
-        ++others[fate];
+        ++others[delivery];
       }
     }
     std::vector<std::string> texts;
-    for (const std::string& fate : order) {
-      std::vector<std::string> who = names[fate];
-      if (others[fate] > 0) who.push_back(count_text(others[fate], who.empty() ? "AGV" : "other"));
-      texts.push_back(order.size() == 1 ? fate : joined(who) + " " + fate);
+    for (const std::string& delivery : order) {
+      std::vector<std::string> who = names[delivery];
+      if (others[delivery] > 0) who.push_back(count_text(others[delivery], who.empty() ? "AGV" : "other"));
+      texts.push_back(order.size() == 1 ? delivery : joined(who) + " " + delivery);
     }
     return texts.empty() ? "nobody in range" : joined(texts, "; ");
   }
 
   void add_sent(const Message& message, const std::vector<Place>& places) {
-    CourseLine line;
+    LogLine line;
     line.at = {message.sent_us, message.order};
-    line.kind = CourseLine::Kind::Message;
+    line.kind = LogLine::Kind::Message;
     line.marked = std::ranges::any_of(places, [](const Place& p) { return !is_plain(p); });
     line.who = fmt::format("{} \u2192 {}", name(message.sender), message.receiver ? name(*message.receiver) : "all");
     line.what = text_of(message);
-    line.details = message.receiver && !places.empty() ? fate_text(places.front()) : fates_text(places);
-    // Of messages to one receiver, only those with the same fate are alike: nothing that went wrong is folded away.
-    std::string fate;
+    line.details = message.receiver && !places.empty() ? delivery_text(places.front()) : deliveries_text(places);
+    // Of messages to one receiver, only those with the same delivery are alike: nothing that went wrong is folded away.
+    std::string delivery;
     if (message.receiver && !places.empty())
-      fate = fmt::format("{} {}", word_of(places.front().fate), places.front().received.size());
+      delivery = fmt::format("{} {}", word_of(places.front().receipt), places.front().received.size());
     // After a new request, another line begins: the first answer to it is not folded into answers before it.
     const std::size_t asked = message.receiver ? requests_[*message.receiver].count : 0;
-    line.alike = fmt::format("{}\n{}\n{}\n{}\n{}", line.who, message.kind, message.content, fate, asked);
+    line.alike = fmt::format("{}\n{}\n{}\n{}\n{}", line.who, message.kind, message.content, delivery, asked);
     lines_.push_back(std::move(line));
   }
 
@@ -126,9 +126,9 @@ class MessageLines {
     for (std::size_t i = 0; i < place.received.size(); ++i) {
       const Moment at = place.received[i];
       if (at.at_us - message.sent_us < kLongUnderWay_us || at.at_us > to_us_) continue;
-      CourseLine line;
+      LogLine line;
       line.at = at;
-      line.kind = CourseLine::Kind::Message;
+      line.kind = LogLine::Kind::Message;
       line.marked = i > 0;
       line.who = fmt::format("{} \u2190 {}", name(place.receiver), name(message.sender));
       line.what = text_of(message);
@@ -156,12 +156,12 @@ class MessageLines {
   std::map<std::size_t, Requests> requests_;  // by body
   std::int64_t from_us_, to_us_;
   std::vector<bool> is_subject_;
-  std::vector<CourseLine> lines_;
+  std::vector<LogLine> lines_;
 };
 
 }  // namespace
 
-std::vector<CourseLine> message_lines(const Film& film, std::int64_t from_us, std::int64_t to_us) {
+std::vector<LogLine> message_lines(const Film& film, std::int64_t from_us, std::int64_t to_us) {
   return MessageLines(film, from_us, to_us).all();
 }
 

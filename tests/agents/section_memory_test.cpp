@@ -4,10 +4,10 @@
 
 #include <random>
 
-#include "core/agents/stretch_planner.hpp"
+#include "core/agents/section_planner.hpp"
 #include "tests/agents/drawn_map.hpp"
 
-namespace fleetproof::agents::stretch_memory_test {
+namespace fleetproof::agents::section_memory_test {
 namespace {
 
 // Three streets with rungs, some of them one-way: there is mostly a way round.
@@ -133,10 +133,10 @@ struct Question {
 };
 
 void expect_answers_like_fresh_planners(Talk& talk, int steps) {
-  StretchPlanner planner(talk.map(), talk.geometry(), talk.neighbours(), 0);
+  SectionPlanner planner(talk.map(), talk.geometry(), talk.neighbours(), 0);
   Question asked;
   int unchanged = 0, other_ways = 0;
-  Stretch before;
+  Section before;
   for (int step = 0; step < steps; ++step) {
     const std::uint64_t changes = talk.neighbours().changes();
     if (talk.below(2) == 0) talk.go_on();
@@ -145,30 +145,30 @@ void expect_answers_like_fresh_planners(Talk& talk, int steps) {
     if (talk.below(15) == 0)
       planner.out_of_the_way(asked.standing, asked.budget, false, false, 0.5, [](auto, const auto&) { return true; });
     if (talk.below(15) == 0) planner.free_charger(asked.standing, false, true);
-    const Stretch stretch = planner.towards(asked.standing, asked.budget, asked.goals);
-    StretchPlanner fresh(talk.map(), talk.geometry(), talk.neighbours(), 0);
-    const Stretch expected = fresh.towards(asked.standing, asked.budget, asked.goals);
-    ASSERT_TRUE(is_identical(stretch.path, expected.path)) << "step " << step;
-    ASSERT_EQ(stretch.goals, expected.goals) << "step " << step;
-    ASSERT_TRUE(stretch.legs == expected.legs) << "step " << step;
-    ASSERT_EQ(planner.way_on_from(stretch, asked.goals), fresh.way_on_from(expected, asked.goals)) << "step " << step;
-    other_ways += is_identical(stretch.path, before.path) ? 0 : 1;
-    before = stretch;
+    const Section section = planner.towards(asked.standing, asked.budget, asked.goals);
+    SectionPlanner fresh(talk.map(), talk.geometry(), talk.neighbours(), 0);
+    const Section expected = fresh.towards(asked.standing, asked.budget, asked.goals);
+    ASSERT_TRUE(is_identical(section.path, expected.path)) << "step " << step;
+    ASSERT_EQ(section.goals, expected.goals) << "step " << step;
+    ASSERT_TRUE(section.legs == expected.legs) << "step " << step;
+    ASSERT_EQ(planner.way_on_from(section, asked.goals), fresh.way_on_from(expected, asked.goals)) << "step " << step;
+    other_ways += is_identical(section.path, before.path) ? 0 : 1;
+    before = section;
   }
   EXPECT_GT(unchanged, steps / 2);
   EXPECT_GT(other_ways, steps / 20);
 }
 
-TEST(StretchMemory, AnswersAsIfItWereAskedForTheFirstTime) {
+TEST(SectionMemory, AnswersAsIfItWereAskedForTheFirstTime) {
   Talk talk(4, false);
   expect_answers_like_fresh_planners(talk, 100'000);
 }
 
-TEST(StretchMemory, DoesSoInAFleetThatIsDividedIntoZones) {
+TEST(SectionMemory, DoesSoInAFleetThatIsDividedIntoZones) {
   Talk few(6, true), many(HeardFrom::kMax + 1, true);
   expect_answers_like_fresh_planners(few, 20'000);
   expect_answers_like_fresh_planners(many, 10'000);
 }
 
 }  // namespace
-}  // namespace fleetproof::agents::stretch_memory_test
+}  // namespace fleetproof::agents::section_memory_test

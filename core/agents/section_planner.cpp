@@ -1,4 +1,4 @@
-#include "core/agents/stretch_planner.hpp"
+#include "core/agents/section_planner.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ constexpr double kLookAhead_m = 12.0;
 constexpr std::uint32_t kWaysKnown = 8;  // if it does not hear of all, it knows the ways of so many
 constexpr double kFar_m = 70.0;          // in a divided fleet, a search for a way ends there
 constexpr std::uint32_t kLookAheadLanes = 3;
-constexpr double kOnward_m = 40.0, kOnwardInZones_m = 18.0;  // what is announced beyond a stretch
+constexpr double kOnward_m = 40.0, kOnwardInZones_m = 18.0;  // what is announced beyond a section
 
 // The price of a place at which another AGV stands or arrives: roughly the time until that AGV has moved.
 constexpr double kArrivingCost_s = 8.0;
@@ -38,24 +38,24 @@ bool carries_load(std::span<const Goal> goals) {
   return next != goals.end() && next->transfer == Leg::Kind::Drop;
 }
 
-void cut_after_first_lane(Stretch& stretch) {
+void cut_after_first_lane(Section& section) {
   const auto drives = [](const Leg& leg) { return leg.kind == Leg::Kind::Drive; };
-  const auto first = std::ranges::find_if(stretch.legs, drives);
-  if (first == stretch.legs.end()) return;
-  stretch.legs.erase(first + 1, stretch.legs.end());
-  stretch.path.count = 1;
-  stretch.goals = static_cast<std::uint32_t>(first - stretch.legs.begin());
+  const auto first = std::ranges::find_if(section.legs, drives);
+  if (first == section.legs.end()) return;
+  section.legs.erase(first + 1, section.legs.end());
+  section.path.count = 1;
+  section.goals = static_cast<std::uint32_t>(first - section.legs.begin());
 }
 
-// A stretch that grows lane by lane and remembers the best end so far.
-struct StretchPlanner::Walk {
+// A section that grows lane by lane and remembers the best end so far.
+struct SectionPlanner::Walk {
   struct End {
     std::size_t legs = 0;
     std::uint32_t lanes = 0, goals = 0;
   };
 
-  Walk(StretchPlanner& of, const Path& standing, Budget allowed) : planner(of), budget(allowed) {
-    stretch.path = standing;
+  Walk(SectionPlanner& of, const Path& standing, Budget allowed) : planner(of), budget(allowed) {
+    section.path = standing;
     planner.reachable_.clear();
     for_each_on_the_way(planner.neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
       if (!n.known) return;
@@ -64,9 +64,9 @@ struct StretchPlanner::Walk {
     });
   }
 
-  StretchPlanner& planner;
+  SectionPlanner& planner;
   Budget budget;
-  Stretch stretch;
+  Section section;
   double length_m = 0.0;
   bool blocked = false;  // it reaches floor that another AGV is known to hold
   End here, best, least_bad;
@@ -74,13 +74,13 @@ struct StretchPlanner::Walk {
   std::uint32_t least_burden = ~0U;
 
   std::uint32_t self() const { return planner.neighbours_.self(); }
-  std::uint32_t station() const { return end_of(planner.map_, stretch.path).station; }
+  std::uint32_t station() const { return end_of(planner.map_, section.path).station; }
 
   // False if the budget does not allow this lane.
   bool drive(std::uint32_t lane) {
     length_m += planner.map_.lane(lane).length_m;
-    if (length_m > budget.length_m || here.lanes >= budget.lanes || !stretch.path.append(lane)) return false;
-    stretch.legs.push_back({Leg::Kind::Drive, lane});
+    if (length_m > budget.length_m || here.lanes >= budget.lanes || !section.path.append(lane)) return false;
+    section.legs.push_back({Leg::Kind::Drive, lane});
     ++here.lanes;
     blocked = blocked || any_within_reach([&](std::uint32_t agv, const Neighbour& n) {
                 return planner.geometry_.lane_conflict(self(), lane, agv, n.status.held);
@@ -90,7 +90,7 @@ struct StretchPlanner::Walk {
   }
 
   void transfer(const Goal& goal) {
-    stretch.legs.push_back({goal.transfer, FP_NONE, goal.order});
+    section.legs.push_back({goal.transfer, FP_NONE, goal.order});
     ++here.goals;
     note_end();
   }
@@ -109,7 +109,7 @@ struct StretchPlanner::Walk {
   }
 
   void note_end() {
-    here.legs = stretch.legs.size();
+    here.legs = section.legs.size();
     if (here.lanes == 0) return;
     std::uint32_t burden = planner.places_.burden(station());
     const bool roomy = burden != 0 || !is_cramped();
@@ -124,7 +124,7 @@ struct StretchPlanner::Walk {
     }
   }
 
-  // True if a longer stretch would not be better.
+  // True if a longer section would not be better.
   bool is_done() const {
     if (best.lanes == 0) return false;
     if (blocked) return true;
@@ -133,21 +133,21 @@ struct StretchPlanner::Walk {
   }
 
   // Also if this is not a place to wait at, unless other AGVs are in the way.
-  Stretch take_up_to_here() {
+  Section take_up_to_here() {
     if (!blocked || best.lanes == 0) best = here;
     return take();
   }
 
-  Stretch take() {
+  Section take() {
     const End& end = best.lanes > 0 ? best : least_bad;
-    stretch.legs.resize(end.legs);
-    stretch.path.count = end.lanes;
-    stretch.goals = end.goals;
-    return std::move(stretch);
+    section.legs.resize(end.legs);
+    section.path.count = end.lanes;
+    section.goals = end.goals;
+    return std::move(section);
   }
 };
 
-StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours,
+SectionPlanner::SectionPlanner(const MapView& map, HullGeometry& geometry, Neighbours& neighbours,
                                std::uint32_t vehicle_type, const ProgressOptions& options)
     : map_(map),
       geometry_(geometry),
@@ -161,7 +161,7 @@ StretchPlanner::StretchPlanner(const MapView& map, HullGeometry& geometry, Neigh
       model_(model_of(geometry.parts().facts(), neighbours.self())),
       knows_remaining_costs_(options.one_way_aisles) {}
 
-void StretchPlanner::search(const Path& from, std::uint32_t goal) {
+void SectionPlanner::search(const Path& from, std::uint32_t goal) {
   if (!knows_remaining_costs_) return routes_.search(from.station, from.heading, prices_.costs_s(), goal);
   const auto remains_s = remaining_costs_s(geometry_.parts(), model_, goal);
   routes_.search_towards(goal, remains_s, from.station, from.heading, prices_.costs_s(),
@@ -169,30 +169,30 @@ void StretchPlanner::search(const Path& from, std::uint32_t goal) {
 }
 
 // A goal, or a station on the way to it, further away than what is planned now.
-std::uint32_t StretchPlanner::end_of_search(std::uint32_t goal) const {
+std::uint32_t SectionPlanner::end_of_search(std::uint32_t goal) const {
   return neighbours_.audience().is_divided() && routes_.reached() != FP_NONE ? routes_.reached() : goal;
 }
 
 // A waiting AGV asks again and again, and often nothing has changed.
-Stretch StretchPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
+Section SectionPlanner::towards(const Path& standing, Budget budget, std::span<const Goal> goals) {
   if (!is_asked_again(standing, budget, goals)) {
-    last_answer_ = find_stretch(standing, budget, goals);
+    last_answer_ = find_section(standing, budget, goals);
     last_asked_ = {standing, budget, {goals.begin(), goals.end()}, neighbours_.changes()};
   }
   return last_answer_;
 }
 
-bool StretchPlanner::is_asked_again(const Path& standing, Budget budget, std::span<const Goal> goals) const {
+bool SectionPlanner::is_asked_again(const Path& standing, Budget budget, std::span<const Goal> goals) const {
   return last_asked_ && last_asked_->changes == neighbours_.changes() && last_asked_->budget == budget &&
          is_identical(last_asked_->standing, standing) && std::ranges::equal(last_asked_->goals, goals);
 }
 
-Stretch StretchPlanner::find_stretch(const Path& standing, Budget budget, std::span<const Goal> goals) {
+Section SectionPlanner::find_section(const Path& standing, Budget budget, std::span<const Goal> goals) {
   bool loaded = carries_load(goals);
   price_lanes(loaded, kWaitingCost_s, kIdleCost_s, {});
   Walk walk(*this, standing, budget);
   for (const Goal& goal : goals) {
-    const Path here = end_of(map_, walk.stretch.path);
+    const Path here = end_of(map_, walk.section.path);
     if (here.station != goal.station || !map_.may_stay(here.station, here.heading)) {
       search(here, goal.station);
       const std::uint32_t end = end_of_search(goal.station);
@@ -205,17 +205,17 @@ Stretch StretchPlanner::find_stretch(const Path& standing, Budget budget, std::s
     if (rules_.any() && now_loaded != loaded) price_lanes(now_loaded, kWaitingCost_s, kIdleCost_s, {});
     loaded = now_loaded;
   }
-  const std::uint32_t place = best_place(end_of(map_, walk.stretch.path), false, 0.0, {});
+  const std::uint32_t place = best_place(end_of(map_, walk.section.path), false, 0.0, {});
   if (place != FP_NONE) follow(walk, place);
   return walk.take();
 }
 
-std::vector<std::uint32_t> StretchPlanner::way_on_from(const Stretch& stretch, std::span<const Goal> goals) {
+std::vector<std::uint32_t> SectionPlanner::way_on_from(const Section& section, std::span<const Goal> goals) {
   std::vector<std::uint32_t> lanes;
   const double enough_m = neighbours_.audience().is_divided() ? kOnwardInZones_m : kOnward_m;
   double length_m = 0.0;
-  Path from = end_of(map_, stretch.path);
-  const auto ahead = goals.subspan(stretch.goals);
+  Path from = end_of(map_, section.path);
+  const auto ahead = goals.subspan(section.goals);
   for (std::size_t next = 0; next < ahead.size(); ++next) {
     const Goal& goal = ahead[next];
     if (length_m >= enough_m) break;
@@ -235,7 +235,7 @@ std::vector<std::uint32_t> StretchPlanner::way_on_from(const Stretch& stretch, s
   return lanes;
 }
 
-Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking,
+Section SectionPlanner::out_of_the_way(const Path& standing, Budget budget, bool loaded, bool prefer_parking,
                                        double draw, const GoesFirst& goes_first) {
   for (const bool through_waiting : {false, true}) {
     price_lanes(loaded, through_waiting ? kWaitingCost_s : kNoWayCost_s, through_waiting ? kIdleCost_s : kNoWayCost_s,
@@ -252,7 +252,7 @@ Stretch StretchPlanner::out_of_the_way(const Path& standing, Budget budget, bool
   return {};
 }
 
-std::uint32_t StretchPlanner::free_charger(const Path& standing, bool loaded, bool urgent) {
+std::uint32_t SectionPlanner::free_charger(const Path& standing, bool loaded, bool urgent) {
   price_lanes(loaded, kWaitingCost_s, kIdleCost_s, {});
   routes_.search(standing.station, standing.heading, prices_.costs_s());
   std::uint32_t best = FP_NONE;
@@ -269,7 +269,7 @@ std::uint32_t StretchPlanner::free_charger(const Path& standing, bool loaded, bo
 }
 
 // By an AGV that stands there, or will soon. Of two that go to a charger, the one with the smaller number gets it.
-bool StretchPlanner::is_taken(std::uint32_t station) {
+bool SectionPlanner::is_taken(std::uint32_t station) {
   const auto ends_there = [&](std::uint32_t lane) { return map_.lane(lane).to == station; };
   bool taken = false;
   for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
@@ -281,7 +281,7 @@ bool StretchPlanner::is_taken(std::uint32_t station) {
 }
 
 // Extends the walk to a station. False if the walk ends before, or cannot go on.
-bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
+bool SectionPlanner::follow(Walk& walk, std::uint32_t to) {
   const auto lanes = routes_.lanes(to);
   if (lanes.empty()) return false;
   for (const std::uint32_t lane : lanes) {
@@ -291,7 +291,7 @@ bool StretchPlanner::follow(Walk& walk, std::uint32_t to) {
   return true;
 }
 
-void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first) {
+void SectionPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, const GoesFirst& goes_first) {
   last_asked_.reset();
   prices_.begin(loaded);
   for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
@@ -306,7 +306,7 @@ void StretchPlanner::price_lanes(bool loaded, double waiting_s, double idle_s, c
 }
 
 // Afterwards, the way there may be asked for.
-std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parking, double draw,
+std::uint32_t SectionPlanner::best_place(const Path& standing, bool prefer_parking, double draw,
                                          const GoesFirst& goes_first) {
   std::uint32_t best = FP_NONE;
   double best_s = INFINITY;
@@ -328,19 +328,19 @@ std::uint32_t StretchPlanner::best_place(const Path& standing, bool prefer_parki
 }
 
 // False where an AGV with the load for which lanes were priced cannot leave before it has picked or dropped.
-bool StretchPlanner::leads_on(std::uint32_t station) const {
+bool SectionPlanner::leads_on(std::uint32_t station) const {
   return std::ranges::any_of(map_.lanes_from(station),
                              [&](std::uint32_t lane) { return prices_.costs_s()[lane] < INFINITY; });
 }
 
 // Whether an AGV with the load for which lanes were priced can come back from there as it is.
-bool StretchPlanner::leads_back(std::uint32_t station) const {
+bool SectionPlanner::leads_back(std::uint32_t station) const {
   return std::ranges::any_of(map_.lanes_from(station),
                              [&](std::uint32_t lane) { return rules_.leads_back(lane, prices_.loaded()); });
 }
 
 // Infinite if another AGV holds the place. Beyond `limit_s`, it is not worked out further.
-double StretchPlanner::price_of_staying(std::uint32_t station, double limit_s, const GoesFirst& goes_first) {
+double SectionPlanner::price_of_staying(std::uint32_t station, double limit_s, const GoesFirst& goes_first) {
   double price_s = 0.0;
   for_each_on_the_way(neighbours_, [&](std::uint32_t agv, const Neighbour& n) {
     if (!n.known || price_s >= limit_s) return;
@@ -355,13 +355,13 @@ double StretchPlanner::price_of_staying(std::uint32_t station, double limit_s, c
   return price_s;
 }
 
-bool StretchPlanner::may_turn_back(std::uint32_t station) const {
+bool SectionPlanner::may_turn_back(std::uint32_t station) const {
   return std::ranges::any_of(map_.lanes_from(station), [&](std::uint32_t lane) { return map_.two_way(lane); });
 }
 
 // Whether the other AGV, at the end of its way, could not turn while this AGV turns at `station`: each could lock the
 // other in.
-bool StretchPlanner::is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n) {
+bool SectionPlanner::is_cramped(std::uint32_t station, std::uint32_t agv, const Neighbour& n) {
   const std::uint32_t self = neighbours_.self();
   return geometry_.turns_conflict(self, station, agv, end_of(map_, n.status.held).station);
 }

@@ -1,4 +1,4 @@
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -6,13 +6,13 @@
 
 namespace fleetproof {
 
-bool is_same_message(const GivenFate& a, const GivenFate& b) {
+bool is_same_message(const GivenDelivery& a, const GivenDelivery& b) {
   return a.sender == b.sender && a.receiver == b.receiver && a.sent == b.sent && a.ordinal == b.ordinal;
 }
 
-std::vector<MessageFate> adverse_of(const std::vector<MessageFate>& fates) {
-  std::vector<MessageFate> adverse;
-  std::ranges::copy_if(fates, std::back_inserter(adverse), &MessageFate::is_adverse);
+std::vector<MessageDelivery> adverse_of(const std::vector<MessageDelivery>& deliveries) {
+  std::vector<MessageDelivery> adverse;
+  std::ranges::copy_if(deliveries, std::back_inserter(adverse), &MessageDelivery::is_adverse);
   return adverse;
 }
 
@@ -34,10 +34,10 @@ RadioSetup without_loss(RadioSetup radio) {
   return radio;
 }
 
-Scenario with_fates_only(const Scenario& scenario, std::vector<GivenFate> fates) {
+Scenario with_deliveries_only(const Scenario& scenario, std::vector<GivenDelivery> deliveries) {
   Scenario given = scenario;
   given.radio = perfect(scenario.radio);
-  given.fates = std::move(fates);
+  given.deliveries = std::move(deliveries);
   return given;
 }
 

@@ -1,4 +1,4 @@
-#include "reports/replay_page/given_fate_lines.hpp"
+#include "reports/replay_page/given_delivery_lines.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 namespace fleetproof::web {
 namespace {
 
-constexpr std::size_t kMostFates = 3;
+constexpr std::size_t kMostDeliveries = 3;
 
 struct Given {
   const Message* message = nullptr;
@@ -33,8 +33,8 @@ std::vector<Given> given_until_failure(const Film& film) {
   return all;
 }
 
-std::string fate_text(const Given& given, const Film& film) {
-  if (given.arrivals.front()->fate != Fate::Received) return word_of(given.arrivals.front()->fate);
+std::string delivery_text(const Given& given, const Film& film) {
+  if (given.arrivals.front()->receipt != Receipt::Received) return word_of(given.arrivals.front()->receipt);
   std::vector<std::int64_t> at_us;
   for (const Arrival* arrival : given.arrivals) at_us.push_back(given.message->sent_us + arrival->after_us);
   std::ranges::sort(at_us);
@@ -45,9 +45,9 @@ std::string fate_text(const Given& given, const Film& film) {
 
 }  // namespace
 
-std::vector<ReasonLine> given_fate_lines(const Film& film) {
+std::vector<ReasonLine> given_delivery_lines(const Film& film) {
   const std::vector<Given> all = given_until_failure(film);
-  const std::size_t skipped = all.size() > kMostFates ? all.size() - kMostFates : 0;
+  const std::size_t skipped = all.size() > kMostDeliveries ? all.size() - kMostDeliveries : 0;
   std::vector<ReasonLine> lines;
   for (std::size_t i = skipped; i < all.size(); ++i) {
     const Given& given = all[i];
@@ -56,7 +56,7 @@ std::vector<ReasonLine> given_fate_lines(const Film& film) {
     line.at_us = given.message->sent_us;
     line.text = fmt::format("{} from {} to {}, sent {} s: {}{}", text_of(*given.message),
                             film.bodies[given.message->sender].name, film.bodies[given.receiver].name,
-                            time_text(line.at_us), fate_text(given, film), i + 1 == all.size() ? "." : ";");
+                            time_text(line.at_us), delivery_text(given, film), i + 1 == all.size() ? "." : ";");
     if (i == skipped && skipped > 0)
       line.text = fmt::format("{} before them; ", count_text(skipped, "other message")) + line.text;
     lines.push_back(std::move(line));

@@ -1,9 +1,9 @@
-#include "campaign/shrink/sparse_luck.hpp"
+#include "campaign/shrink/sparse_losses.hpp"
 
 #include <utility>
 
-#include "campaign/shrink/adverse_fates.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
+#include "campaign/shrink/other_draws.hpp"
 
 namespace fleetproof {
 namespace {
@@ -28,7 +28,7 @@ std::vector<RadioSetup> troubles_of(const RadioSetup& radio) {
 
 }  // namespace
 
-std::vector<Scenario> with_sparse_luck(const Scenario& scenario, SimTime failure) {
+std::vector<Scenario> with_sparse_losses(const Scenario& scenario, SimTime failure) {
   std::vector<Scenario> cases;
   const auto troubles = troubles_of(scenario.radio);
   const double end_s = to_seconds(failure - kStart);
@@ -43,11 +43,11 @@ std::vector<Scenario> with_sparse_luck(const Scenario& scenario, SimTime failure
   }
   if (scenario.radio.loss == 0.0) return cases;
   for (const double loss : kLosses) {
-    for (std::uint32_t luck = 1; luck <= kDrawsOfALoss; ++luck) {
+    for (std::uint32_t draw = 1; draw <= kDrawsOfALoss; ++draw) {
       Scenario sparse = scenario;
       sparse.radio = perfect(scenario.radio);
       sparse.radio.loss = loss;
-      cases.push_back(with_other_luck(std::move(sparse), luck));
+      cases.push_back(with_other_draws(std::move(sparse), draw));
     }
   }
   return cases;

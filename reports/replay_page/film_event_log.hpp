@@ -9,25 +9,25 @@
 namespace fleetproof::web {
 
 // One line of what happened, in the order of cause and effect.
-struct CourseLine {
+struct LogLine {
   enum class Kind : std::uint8_t { Activity, Said, Event, Fault, Failure, Message };
   Moment at;
   Kind kind = Kind::Event;
   bool marked = false;  // a fault, a failure; a message that was lost or doubled
   std::string who, what, details;
-  std::string alike;               // what lines have that may be folded into one; empty: this one may not
-  std::vector<CourseLine> folded;  // lines of the same kind that this one stands for, itself included
+  std::string alike;            // what lines have that may be folded into one; empty: this one may not
+  std::vector<LogLine> folded;  // lines of the same kind that this one stands for, itself included
 };
 
-struct Course {
-  std::vector<CourseLine> lines;
-  std::size_t left_out = 0;  // messages and events within the time of the course, farther from the failure
+struct EventLog {
+  std::vector<LogLine> lines;
+  std::size_t left_out = 0;  // messages and events within the time of the event_log, farther from the failure
   std::int64_t from_us = 0, to_us = 0;
 };
 
 // Around the failure: what the bodies that the page is about did and said, all faults, and every message to or from
 // these bodies. Between two events, messages of one kind from one sender to one receiver are one line, but for the
 // first answer after a new request. Calls that are refused again and again are one line, too, and so are equal notes.
-Course course_of(const Film& film);
+EventLog event_log_of(const Film& film);
 
 }  // namespace fleetproof::web

@@ -1,4 +1,4 @@
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 
 #include <algorithm>
 #include <initializer_list>
@@ -9,10 +9,10 @@
 namespace fleetproof {
 namespace {
 
-enum Topic : std::uint32_t { kLuckTopic = 1, kLaterTopic = 2 };
+enum Topic : std::uint32_t { kDrawsTopic = 1, kLaterTopic = 2 };
 
 Scenario redrawn(Scenario scenario, std::uint32_t number, std::initializer_list<Stream> streams) {
-  const std::uint64_t seed = word64(philox(scenario.seed, {number, 0, kLuckTopic, 0}), 0);
+  const std::uint64_t seed = word64(philox(scenario.seed, {number, 0, kDrawsTopic, 0}), 0);
   std::vector<StreamSeed> seeds;
   for (const Stream stream : kRunStreams) {
     const std::uint64_t own = std::ranges::count(streams, stream) > 0 ? seed : scenario.seed_of(stream);
@@ -24,7 +24,7 @@ Scenario redrawn(Scenario scenario, std::uint32_t number, std::initializer_list<
 
 }  // namespace
 
-Scenario with_other_luck(Scenario scenario, std::uint32_t number) {
+Scenario with_other_draws(Scenario scenario, std::uint32_t number) {
   return redrawn(std::move(scenario), number, {Stream::Radio, Stream::Agent});
 }
 
@@ -33,7 +33,7 @@ Scenario with_other_radio(Scenario scenario, std::uint32_t number) {
 }
 
 // An AGV keeps its shift when others are taken out of the fleet.
-Scenario with_other_course(Scenario scenario, std::uint32_t number, Duration later) {
+Scenario with_other_timeline(Scenario scenario, std::uint32_t number, Duration later) {
   std::vector<Duration> shifts;
   for (std::uint32_t i = 0; i < scenario.agvs.size(); ++i) {
     const auto block = philox(scenario.seed, {number, scenario.agvs[i].draws_as.value_or(i), kLaterTopic, 0});

@@ -1,4 +1,4 @@
-#include "reports/replay_page/film_course.hpp"
+#include "reports/replay_page/film_event_log.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "reports/replay_page/course_messages.hpp"
+#include "reports/replay_page/log_messages.hpp"
 
 namespace fleetproof::web {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::size_t kMostEvents = 250, kMostNotes = 100, kMostMessages = 600;
 const std::string kRefused = "refused";  // as the trace calls it
 constexpr std::uint64_t kAfterAll = std::numeric_limits<std::uint64_t>::max();
 
-using Kind = CourseLine::Kind;
+using Kind = LogLine::Kind;
 
 class EventLines {
  public:
@@ -25,7 +25,7 @@ class EventLines {
     for (const std::size_t body : film.subject()) subject_.insert(body);
   }
 
-  std::vector<CourseLine> all() {
+  std::vector<LogLine> all() {
     for (const ActivityBar& a : film_.activities) {
       if (!subject_.contains(a.body)) continue;
       add({a.end_us, a.end_order}, Kind::Activity, a.body, "ends " + a.kind);
@@ -50,7 +50,7 @@ class EventLines {
   }
 
   // What the agents noted for their authors. Notes that are alike fold, and part no messages.
-  std::vector<CourseLine> notes() {
+  std::vector<LogLine> notes() {
     lines_.clear();
     for (const Happening& h : film_.happenings) {
       if (!h.is_note || !subject_.contains(h.body)) continue;
@@ -63,7 +63,7 @@ class EventLines {
  private:
   static std::string quoted(const std::string& word) { return word.empty() ? "nothing" : "\"" + word + "\""; }
   void add(Moment at, Kind kind, std::size_t body, std::string what, std::string details = {}) {
-    CourseLine line;
+    LogLine line;
     line.at = at;
     line.kind = kind;
     line.marked = kind == Kind::Fault || kind == Kind::Failure;
@@ -75,18 +75,18 @@ class EventLines {
 
   const Film& film_;
   std::set<std::size_t> subject_;
-  std::vector<CourseLine> lines_;
+  std::vector<LogLine> lines_;
 };
 
 // A flood of calls that are refused is one line, until the AGV does something else.
-std::vector<CourseLine> fold_refused(std::vector<CourseLine> lines) {
-  std::ranges::stable_sort(lines, {}, &CourseLine::at);
-  std::vector<CourseLine> folded;
+std::vector<LogLine> fold_refused(std::vector<LogLine> lines) {
+  std::ranges::stable_sort(lines, {}, &LogLine::at);
+  std::vector<LogLine> folded;
   std::map<std::string, std::size_t> last_of;  // by name of the AGV
-  for (CourseLine& line : lines) {
+  for (LogLine& line : lines) {
     const auto last = last_of.find(line.who);
     if (!line.alike.empty() && last != last_of.end() && folded[last->second].alike == line.alike) {
-      CourseLine& first = folded[last->second];
+      LogLine& first = folded[last->second];
       if (first.folded.empty()) first.folded.push_back(first);
       first.folded.push_back(std::move(line));
       continue;
@@ -94,17 +94,17 @@ std::vector<CourseLine> fold_refused(std::vector<CourseLine> lines) {
     last_of[line.who] = folded.size();
     folded.push_back(std::move(line));
   }
-  for (CourseLine& line : folded) line.alike.clear();
+  for (LogLine& line : folded) line.alike.clear();
   return folded;
 }
 
 // Of the lines in time, those nearest to the failure; returns how many are left out.
-std::size_t keep_nearest(std::vector<CourseLine>& lines, const Course& course, std::int64_t focus_us,
+std::size_t keep_nearest(std::vector<LogLine>& lines, const EventLog& event_log, std::int64_t focus_us,
                          std::size_t most) {
-  std::erase_if(lines,
-                [&](const CourseLine& line) { return line.at.at_us < course.from_us || line.at.at_us > course.to_us; });
+  std::erase_if(
+      lines, [&](const LogLine& line) { return line.at.at_us < event_log.from_us || line.at.at_us > event_log.to_us; });
   if (lines.size() <= most) return 0;
-  std::ranges::stable_sort(lines, {}, [&](const CourseLine& line) {
+  std::ranges::stable_sort(lines, {}, [&](const LogLine& line) {
     return line.at.at_us <= focus_us ? focus_us - line.at.at_us : 4 * (line.at.at_us - focus_us);
   });
   const std::size_t gone = lines.size() - most;
@@ -113,10 +113,10 @@ std::size_t keep_nearest(std::vector<CourseLine>& lines, const Course& course, s
 }
 
 // Lines that are alike, between two events, become one at the place of the first.
-std::vector<CourseLine> fold(std::vector<CourseLine> lines) {
-  std::vector<CourseLine> folded;
+std::vector<LogLine> fold(std::vector<LogLine> lines) {
+  std::vector<LogLine> folded;
   std::map<std::string, std::size_t> place_of;
-  for (CourseLine& line : lines) {
+  for (LogLine& line : lines) {
     if (line.alike.empty()) {
       place_of.clear();
       folded.push_back(std::move(line));
@@ -127,7 +127,7 @@ std::vector<CourseLine> fold(std::vector<CourseLine> lines) {
       folded.push_back(std::move(line));
       continue;
     }
-    CourseLine& first = folded[known->second];
+    LogLine& first = folded[known->second];
     if (first.folded.empty()) first.folded.push_back(first);
     first.marked = first.marked || line.marked;
     first.folded.push_back(std::move(line));
@@ -137,21 +137,21 @@ std::vector<CourseLine> fold(std::vector<CourseLine> lines) {
 
 }  // namespace
 
-Course course_of(const Film& film) {
-  Course course;
-  course.from_us = std::max<std::int64_t>(0, film.focus_us - kBefore_us);
-  course.to_us = std::min(film.end_us, film.focus_us + kAfter_us);
-  std::vector<CourseLine> events = fold_refused(EventLines(film).all());
-  course.left_out = keep_nearest(events, course, film.focus_us, kMostEvents);
-  std::vector<CourseLine> notes = EventLines(film).notes();
-  course.left_out += keep_nearest(notes, course, film.focus_us, kMostNotes);
-  std::vector<CourseLine> messages = message_lines(film, course.from_us, course.to_us);
-  course.left_out += keep_nearest(messages, course, film.focus_us, kMostMessages);
-  for (std::vector<CourseLine>* more : {&notes, &messages})
+EventLog event_log_of(const Film& film) {
+  EventLog event_log;
+  event_log.from_us = std::max<std::int64_t>(0, film.focus_us - kBefore_us);
+  event_log.to_us = std::min(film.end_us, film.focus_us + kAfter_us);
+  std::vector<LogLine> events = fold_refused(EventLines(film).all());
+  event_log.left_out = keep_nearest(events, event_log, film.focus_us, kMostEvents);
+  std::vector<LogLine> notes = EventLines(film).notes();
+  event_log.left_out += keep_nearest(notes, event_log, film.focus_us, kMostNotes);
+  std::vector<LogLine> messages = message_lines(film, event_log.from_us, event_log.to_us);
+  event_log.left_out += keep_nearest(messages, event_log, film.focus_us, kMostMessages);
+  for (std::vector<LogLine>* more : {&notes, &messages})
     events.insert(events.end(), std::make_move_iterator(more->begin()), std::make_move_iterator(more->end()));
-  std::ranges::stable_sort(events, {}, &CourseLine::at);
-  course.lines = fold(std::move(events));
-  return course;
+  std::ranges::stable_sort(events, {}, &LogLine::at);
+  event_log.lines = fold(std::move(events));
+  return event_log;
 }
 
 }  // namespace fleetproof::web

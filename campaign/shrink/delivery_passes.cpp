@@ -1,4 +1,4 @@
-#include "campaign/shrink/fate_passes.hpp"
+#include "campaign/shrink/delivery_passes.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include "campaign/shrink/adverse_fates.hpp"
+#include "campaign/shrink/adverse_deliveries.hpp"
 #include "campaign/shrink/number_edits.hpp"
-#include "campaign/shrink/other_luck.hpp"
+#include "campaign/shrink/other_draws.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 
 namespace fleetproof {
@@ -17,16 +17,16 @@ namespace {
 
 constexpr std::size_t kMostPairs = 40'000;
 constexpr Duration kDelayStep = std::chrono::milliseconds(100), kWindow = std::chrono::milliseconds(500);
-constexpr Duration kStretches[] = {16 * kWindow, 8 * kWindow, 4 * kWindow, 2 * kWindow, kWindow};
-constexpr std::size_t kLuckOfAWindow = 96;
+constexpr Duration kPerfectSpans[] = {16 * kWindow, 8 * kWindow, 4 * kWindow, 2 * kWindow, kWindow};
+constexpr std::size_t kDrawsPerWindow = 96;
 
-std::vector<GivenFate> fates_of(const std::vector<MessageFate>& messages) {
-  std::vector<GivenFate> fates;
-  for (const MessageFate& message : messages) fates.push_back(message.fate);
-  return fates;
+std::vector<GivenDelivery> deliveries_of(const std::vector<MessageDelivery>& messages) {
+  std::vector<GivenDelivery> deliveries;
+  for (const MessageDelivery& message : messages) deliveries.push_back(message.delivery);
+  return deliveries;
 }
 
-// The way from front to back: the messages before `from_` have their fates, those behind it are drawn.
+// The way from front to back: the messages before `from_` have their deliveries, those behind it are drawn.
 class FrontToBack {
  public:
   explicit FrontToBack(Shrinker& shrinker)
@@ -41,19 +41,20 @@ class FrontToBack {
   }
 
  private:
-  // A stretch without bad luck, as long as possible.
+  // A span of time without losses and delays, as long as possible.
   bool heal() {
-    const auto found = try_committing(
-        std::size(kStretches), [&](std::size_t i) { return Commitment{.until = from_ + kStretches[i], .window = {}}; });
-    if (found) from_ += kStretches[*found];
+    const auto found = try_committing(std::size(kPerfectSpans), [&](std::size_t i) {
+      return Commitment{.until = from_ + kPerfectSpans[i], .window = {}};
+    });
+    if (found) from_ += kPerfectSpans[*found];
     return found.has_value();
   }
 
   // As few adverse messages of the next window as suffice. With all of them the run stays as it is.
   bool commit_window() {
     const Duration until = from_ + kWindow;
-    std::vector<GivenFate> window = window_of_best(until);
-    const auto commits = [&](const std::vector<GivenFate>& messages) {
+    std::vector<GivenDelivery> window = window_of_best(until);
+    const auto commits = [&](const std::vector<GivenDelivery>& messages) {
       return try_committing(1, [&](std::size_t) { return Commitment{until, messages}; }).has_value();
     };
     if (!commits(window)) return false;
@@ -69,36 +70,37 @@ class FrontToBack {
     return true;
   }
 
-  std::vector<GivenFate> window_of_best(Duration until) const {
-    std::vector<GivenFate> window;
-    for (const MessageFate& message : shrinker_.trials().host()(shrinker_.best().scenario, Fates::Kept).fates) {
-      if (message.is_adverse() && message.fate.sent >= from_ && message.fate.sent < until)
-        window.push_back(message.fate);
+  std::vector<GivenDelivery> window_of_best(Duration until) const {
+    std::vector<GivenDelivery> window;
+    for (const MessageDelivery& message :
+         shrinker_.trials().host()(shrinker_.best().scenario, Deliveries::Kept).deliveries) {
+      if (message.is_adverse() && message.delivery.sent >= from_ && message.delivery.sent < until)
+        window.push_back(message.delivery);
     }
     return window;
   }
 
   struct Commitment {
     Duration until;
-    std::vector<GivenFate> window;
+    std::vector<GivenDelivery> window;
   };
-  // Each commitment is tried with much luck behind it. Luck 0 keeps what was drawn there, as far as the same messages
+  // Each commitment is tried with many draws behind it. Draw 0 keeps what was drawn there, as far as the same messages
   // are sent.
   std::optional<std::size_t> try_committing(std::size_t count, const std::function<Commitment(std::size_t)>& make) {
     const Scenario best = shrinker_.best().scenario;
     auto found = shrinker_.trials().first_failing(
-        {count * kLuckOfAWindow, [&](std::size_t rank) {
-           const Commitment commitment = make(rank / kLuckOfAWindow);
+        {count * kDrawsPerWindow, [&](std::size_t rank) {
+           const Commitment commitment = make(rank / kDrawsPerWindow);
            Scenario committed = best;
-           std::erase_if(committed.fates, [&](const GivenFate& fate) { return fate.sent >= from_; });
-           committed.fates.insert(committed.fates.end(), commitment.window.begin(), commitment.window.end());
+           std::erase_if(committed.deliveries, [&](const GivenDelivery& delivery) { return delivery.sent >= from_; });
+           committed.deliveries.insert(committed.deliveries.end(), commitment.window.begin(), commitment.window.end());
            committed.radio.adverse.adverse_from_s = to_seconds(commitment.until);
-           const auto luck = static_cast<std::uint32_t>(rank % kLuckOfAWindow);
-           return std::optional(luck == 0 ? std::move(committed) : with_other_radio(std::move(committed), luck));
+           const auto draw = static_cast<std::uint32_t>(rank % kDrawsPerWindow);
+           return std::optional(draw == 0 ? std::move(committed) : with_other_radio(std::move(committed), draw));
          }});
     if (!found) return std::nullopt;
-    const std::size_t which = found->rank / kLuckOfAWindow;
-    shrinker_.accept(std::move(found), "bad luck written down");
+    const std::size_t which = found->rank / kDrawsPerWindow;
+    shrinker_.accept(std::move(found), "losses and delays written down");
     return which;
   }
 
@@ -113,7 +115,7 @@ bool take_out_groups(Shrinker& shrinker, const std::vector<std::uint64_t>& group
   return shrinker.accept(shrinker.trials().first_failing({order.size(),
                                                           [&](std::size_t rank) {
                                                             Scenario less = shrinker.best().scenario;
-                                                            less.fates = kept(less.fates, [&](std::size_t i) {
+                                                            less.deliveries = kept(less.deliveries, [&](std::size_t i) {
                                                               return groups[i] != order[rank];
                                                             });
                                                             return std::optional(std::move(less));
@@ -122,19 +124,20 @@ bool take_out_groups(Shrinker& shrinker, const std::vector<std::uint64_t>& group
 }
 
 // Late messages as little late as suffices, in steps of 0.1 s; second copies gone.
-bool weaken_fates(Shrinker& shrinker) {
+bool weaken_deliveries(Shrinker& shrinker) {
   bool smaller = false;
-  for (std::size_t i = 0; i < shrinker.best().scenario.fates.size(); ++i) {
-    const GivenFate fate = shrinker.best().scenario.fates[i];  // a smaller case takes the place of the best one
-    if (fate.copied)
+  for (std::size_t i = 0; i < shrinker.best().scenario.deliveries.size(); ++i) {
+    const GivenDelivery delivery =
+        shrinker.best().scenario.deliveries[i];  // a smaller case takes the place of the best one
+    if (delivery.copied)
       smaller |= shrinker.try_each("fewer adverse messages", 1, [&](Scenario& s, std::size_t) {
-        s.fates[i].copied = false;
-        s.fates[i].copy_delay = Duration::zero();
+        s.deliveries[i].copied = false;
+        s.deliveries[i].copy_delay = Duration::zero();
       });
-    const auto steps = static_cast<std::size_t>((fate.delay - Duration{1}) / kDelayStep);
-    if (fate.lost || fate.delay <= kDelayStep) continue;
+    const auto steps = static_cast<std::size_t>((delivery.delay - Duration{1}) / kDelayStep);
+    if (delivery.lost || delivery.delay <= kDelayStep) continue;
     smaller |= shrinker.try_each("shorter delays", steps, [&](Scenario& s, std::size_t rank) {
-      s.fates[i].delay = kDelayStep * static_cast<std::int64_t>(rank + 1);
+      s.deliveries[i].delay = kDelayStep * static_cast<std::int64_t>(rank + 1);
     });
   }
   return smaller;
@@ -142,75 +145,78 @@ bool weaken_fates(Shrinker& shrinker) {
 
 }  // namespace
 
-std::vector<GivenFate> troubles_of(const std::vector<MessageFate>& messages, SimTime until, Duration late) {
-  std::vector<GivenFate> troubles;
-  for (const MessageFate& message : messages) {
-    if (kStart + message.fate.sent > until) break;
-    GivenFate fate = message.fate;
-    fate.lost = true;
-    fate.delay = Duration::zero();
-    troubles.push_back(fate);
+std::vector<GivenDelivery> troubles_of(const std::vector<MessageDelivery>& messages, SimTime until, Duration late) {
+  std::vector<GivenDelivery> troubles;
+  for (const MessageDelivery& message : messages) {
+    if (kStart + message.delivery.sent > until) break;
+    GivenDelivery delivery = message.delivery;
+    delivery.lost = true;
+    delivery.delay = Duration::zero();
+    troubles.push_back(delivery);
     if (late == Duration::zero()) continue;
-    fate.lost = false;
-    fate.delay = late;
-    troubles.push_back(fate);
+    delivery.lost = false;
+    delivery.delay = late;
+    troubles.push_back(delivery);
   }
   std::ranges::reverse(troubles);
   return troubles;
 }
 
-bool write_fates_down(Shrinker& shrinker) {
-  const auto messages = adverse_of(shrinker.trials().host()(shrinker.best().scenario, Fates::Kept).fates);
-  return shrinker.accept(
-      shrinker.trials().first_failing(
-          {1,
-           [&](std::size_t) { return std::optional(with_fates_only(shrinker.best().scenario, fates_of(messages))); }}),
-      "fates written down");
+bool write_deliveries_down(Shrinker& shrinker) {
+  const auto messages = adverse_of(shrinker.trials().host()(shrinker.best().scenario, Deliveries::Kept).deliveries);
+  return shrinker.accept(shrinker.trials().first_failing({1,
+                                                          [&](std::size_t) {
+                                                            return std::optional(with_deliveries_only(
+                                                                shrinker.best().scenario, deliveries_of(messages)));
+                                                          }}),
+                         "deliveries written down");
 }
 
-bool write_least_fates_down(Shrinker& shrinker) {
-  if (!CaseSize::of(shrinker.best().scenario).fates_are_drawn) return false;
+bool write_least_deliveries_down(Shrinker& shrinker) {
+  if (!CaseSize::of(shrinker.best().scenario).deliveries_are_drawn) return false;
   FrontToBack(shrinker).run();
-  return write_fates_down(shrinker);
+  return write_deliveries_down(shrinker);
 }
 
-bool take_out_fates(Shrinker& shrinker) {
-  if (shrinker.best().scenario.fates.empty()) return false;
+bool take_out_deliveries(Shrinker& shrinker) {
+  if (shrinker.best().scenario.deliveries.empty()) return false;
   bool smaller = false;
-  const auto link_of = [](const GivenFate& fate) {
-    return std::uint64_t{fate.sender.value} << 32 | fate.receiver.value;
+  const auto link_of = [](const GivenDelivery& delivery) {
+    return std::uint64_t{delivery.sender.value} << 32 | delivery.receiver.value;
   };
-  const auto late_or_lost = [](const GivenFate& fate) -> std::uint64_t { return fate.lost ? 1 : fate.copied ? 2 : 3; };
+  const auto late_or_lost = [](const GivenDelivery& delivery) -> std::uint64_t {
+    return delivery.lost ? 1 : delivery.copied ? 2 : 3;
+  };
   for (const auto& group_of :
-       std::initializer_list<std::function<std::uint64_t(const GivenFate&)>>{late_or_lost, link_of}) {
+       std::initializer_list<std::function<std::uint64_t(const GivenDelivery&)>>{late_or_lost, link_of}) {
     for (bool again = true; again;) {
       std::vector<std::uint64_t> groups;
-      for (const GivenFate& fate : shrinker.best().scenario.fates) groups.push_back(group_of(fate));
+      for (const GivenDelivery& delivery : shrinker.best().scenario.deliveries) groups.push_back(group_of(delivery));
       again = take_out_groups(shrinker, groups);
       smaller |= again;
     }
   }
   smaller |= shrinker.take_out(
-      "fewer adverse messages", [](const Scenario& s) { return s.fates.size(); },
+      "fewer adverse messages", [](const Scenario& s) { return s.deliveries.size(); },
       [](const Scenario& s, const Keeps& keeps) {
         Scenario less = s;
-        less.fates = kept(s.fates, keeps);
+        less.deliveries = kept(s.deliveries, keeps);
         return less;
       });
-  return weaken_fates(shrinker) || smaller;
+  return weaken_deliveries(shrinker) || smaller;
 }
 
-bool find_fewer_fates(Shrinker& shrinker) {
-  const std::vector<GivenFate> now = shrinker.best().scenario.fates;
+bool find_fewer_deliveries(Shrinker& shrinker) {
+  const std::vector<GivenDelivery> now = shrinker.best().scenario.deliveries;
   if (now.size() < 2) return false;
   Duration latest{};
-  for (const GivenFate& fate : now) latest = std::max(latest, fate.delay);
-  const Scenario lucky = with_fates_only(shrinker.best().scenario, {});
-  const auto troubles =
-      troubles_of(shrinker.trials().host()(lucky, Fates::Kept).fates, shrinker.best().failure.at, latest);
-  const auto with = [&](std::vector<GivenFate> fates) {
-    Scenario few = lucky;
-    few.fates = std::move(fates);
+  for (const GivenDelivery& delivery : now) latest = std::max(latest, delivery.delay);
+  const Scenario undisturbed = with_deliveries_only(shrinker.best().scenario, {});
+  const auto troubles = troubles_of(shrinker.trials().host()(undisturbed, Deliveries::Kept).deliveries,
+                                    shrinker.best().failure.at, latest);
+  const auto with = [&](std::vector<GivenDelivery> deliveries) {
+    Scenario few = undisturbed;
+    few.deliveries = std::move(deliveries);
     return std::optional(std::move(few));
   };
   if (shrinker.accept(
@@ -226,8 +232,8 @@ bool find_fewer_fates(Shrinker& shrinker) {
   return shrinker.accept(shrinker.trials().first_failing({pairs.size(),
                                                           [&](std::size_t rank) {
                                                             const auto& [i, j] = pairs[rank];
-                                                            const GivenFate &a = troubles[i], &b = troubles[j];
-                                                            const auto key = [](const GivenFate& f) {
+                                                            const GivenDelivery &a = troubles[i], &b = troubles[j];
+                                                            const auto key = [](const GivenDelivery& f) {
                                                               return std::tuple(f.sender, f.receiver, f.sent,
                                                                                 f.ordinal);
                                                             };
