@@ -11,7 +11,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/explain/sentences.hpp"
-#include "campaign/findings/finding_record.hpp"
+#include "campaign/findings/failure_analysis.hpp"
 #include "campaign/findings/findings_file.hpp"
 #include "campaign/findings/survey.hpp"
 #include "campaign/plan/plan_text.hpp"
@@ -20,7 +20,7 @@
 #include "core/base/outside_text.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "generators/text/text_file.hpp"
-#include "reports/findings/found_record.hpp"
+#include "reports/findings/mechanism_record.hpp"
 #include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
@@ -83,7 +83,7 @@ class FindingsOfCampaign {
 
  private:
   std::uint64_t trials() const { return words_.trials.value_or(kShrinkTrials); }
-  const KeptFinding* kept(const Finding& finding) const { return file_.find(finding.id()); }
+  const KnownIssue* kept(const Finding& finding) const { return file_.find(finding.id()); }
   const KnownFailure& representative(const Finding& finding) const { return survey_.failures[finding.representative]; }
 
   void add_new(AgentHosts& hosts) {
@@ -104,7 +104,7 @@ class FindingsOfCampaign {
   }
   void write_file(const std::string& text) const { write_whole({words_.file, "--file", OutputKind::Findings}, text); }
 
-  std::optional<KeptFinding> keep_unless_interrupted(CaseHost& host, const Finding& finding) const {
+  std::optional<KnownIssue> keep_unless_interrupted(CaseHost& host, const Finding& finding) const {
     host.simulate_while([] { return interrupted() == 0; });
     try {
       return keep(host, finding);
@@ -114,30 +114,31 @@ class FindingsOfCampaign {
   }
 
   // Writes its scenarios and its explanation beside the findings file.
-  KeptFinding keep(CaseHost& host, const Finding& finding) const {
+  KnownIssue keep(CaseHost& host, const Finding& finding) const {
     const std::string id = finding.id();
-    const FindingRecord record = record_of(host, finding, representative(finding).needs, trials(), worlds_of(finding));
+    const FailureAnalysis record =
+        analysis_of(host, finding, representative(finding).needs, trials(), worlds_of(finding));
     const AgentFactor& agent = plan_.agent_of_cell(representative(finding).run);
     const auto write_case = [&](const Scenario& world, const std::string& name) {
       Scenario scenario = played_by(case_agent(plan_, agent), world);
       scenario.expected = expectation_of(host(scenario));
       write_beside(name, OutputKind::Scenario, printable_json(to_text(scenario)));
     };
-    KeptFinding kept{.id = id,
-                     .mechanism = finding.mechanism.text(),
-                     .until = {},
-                     .reason = {},
-                     .end = finding.mechanism.end,
-                     .ways = record.kept.ways,
-                     .doings = record.kept.doings,
-                     .says = record.kept.says,
-                     .found_in = finding.agent,
-                     .laws_left_out = plan_.laws_left_out,
-                     .limits = plan_.limits,
-                     .smallest = id + ".case.json",
-                     .world = id + ".world.json",
-                     .neighbours = record.neighbours,
-                     .whole = {{}, record.whole_runs, record.others_need}};
+    KnownIssue kept{.id = id,
+                    .mechanism = finding.mechanism.text(),
+                    .until = {},
+                    .reason = {},
+                    .end = finding.mechanism.end,
+                    .ways = record.kept.ways,
+                    .doings = record.kept.doings,
+                    .says = record.kept.says,
+                    .found_in = finding.agent,
+                    .laws_left_out = plan_.laws_left_out,
+                    .limits = plan_.limits,
+                    .smallest = id + ".case.json",
+                    .world = id + ".world.json",
+                    .neighbours = record.neighbours,
+                    .whole = {{}, record.whole_runs, record.others_need}};
     write_case(record.kept.smallest, kept.smallest);
     write_case(record.kept.world, kept.world);
     const auto write_all = [&](const std::vector<Scenario>& scenarios, std::string_view what, std::size_t first,
@@ -162,7 +163,7 @@ class FindingsOfCampaign {
     return " --plugin " + shell_word(file.lexically_proximate(folder).string());
   }
 
-  std::string explanation_text(const KeptFinding& kept, const Explanation& explanation,
+  std::string explanation_text(const KnownIssue& kept, const Explanation& explanation,
                                const std::string& program) const {
     std::string text = fmt::format("# {}: {}\n\n", kept.id, printable(kept.mechanism));
     for (const std::string& sentence : sentences_of(explanation)) text += fmt::format("- {}\n", printable(sentence));
@@ -170,9 +171,9 @@ class FindingsOfCampaign {
                               kept.world, plugin_words(program), trials());
   }
 
-  FindingWorlds worlds_of(const Finding& finding) const {
+  FurtherFailures worlds_of(const Finding& finding) const {
     const ScenarioSource scenarios(plan_);
-    FindingWorlds worlds{others_of(finding, survey_.failures), {scenarios.scenario(representative(finding).run)}};
+    FurtherFailures worlds{others_of(finding, survey_.failures), {scenarios.scenario(representative(finding).run)}};
     for (const std::size_t member : other_members(finding, survey_.failures))
       worlds.runs.push_back(scenarios.scenario(survey_.failures[member].run));
     return worlds;
@@ -196,17 +197,17 @@ class FindingsOfCampaign {
           fmt::format("{}", fmt::join(survey_.not_again, ", ")));
   }
 
-  FoundRecord record() const {
-    FoundRecord record;
+  MechanismRecord record() const {
+    MechanismRecord record;
     record.plan_hash = archive_.campaign().plan_hash;
     record.stored_runs = archive_.run_count();
     record.failing_runs = runs_.all;
     record.looked_at = survey_.looked_at;
     record.not_again = survey_.not_again;
     for (const Finding& finding : findings_) {
-      FoundFinding& found = record.findings.emplace_back(
-          FoundFinding{finding.id(), finding.agent, finding.mechanism.text(), standing_of(kept(finding), today()),
-                       needs_attention(kept(finding), today()), representative(finding).run});
+      FailureMechanism& found = record.findings.emplace_back(
+          FailureMechanism{finding.id(), finding.agent, finding.mechanism.text(), standing_of(kept(finding), today()),
+                           needs_attention(kept(finding), today()), representative(finding).run});
       for (const std::size_t member : finding.members) found.runs.push_back(survey_.failures[member].run);
     }
     return record;

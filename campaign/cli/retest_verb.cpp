@@ -28,18 +28,18 @@ struct RetestWords {
 };
 
 struct Retested {
-  const KeptFinding& finding;
+  const KnownIssue& finding;
   Retest result;
 };
 
-std::vector<const KeptFinding*> chosen(const FindingsFile& file, const std::vector<std::string>& ids) {
-  std::vector<const KeptFinding*> findings;
+std::vector<const KnownIssue*> chosen(const FindingsFile& file, const std::vector<std::string>& ids) {
+  std::vector<const KnownIssue*> findings;
   for (const std::string& id : ids) {
     findings.push_back(file.find(id));
     if (findings.back() == nullptr) throw InputError("--finding", fmt::format("{} is not in the file", id));
   }
   if (!ids.empty()) return findings;
-  for (const KeptFinding& finding : file.findings()) findings.push_back(&finding);
+  for (const KnownIssue& finding : file.findings()) findings.push_back(&finding);
   if (findings.empty()) throw InputError("FINDINGS", "there is no finding in this file");
   return findings;
 }
@@ -149,14 +149,14 @@ int retest_findings(const RetestWords& words) {
   RetestHosts hosts(programs, worker_count(words.jobs));
   std::vector<CaseHost*> host_of;  // of each finding
   const auto findings = chosen(file, words.ids);
-  for (const KeptFinding* finding : findings) {
+  for (const KnownIssue* finding : findings) {
     failures.push_back(file.failure(*finding));
     const std::string config = words.config.empty() ? failures.back().smallest.agent_config : words.config;
     host_of.push_back(&hosts.of({agent, config, finding->laws_left_out, finding->limits}));
   }
   std::vector<Retested> all;
   // As many as when it was found: there, so many were needed for some of them to fail.
-  const auto neighbours_of = [&](const KeptFinding& finding) {
+  const auto neighbours_of = [&](const KnownIssue& finding) {
     const auto usual = std::clamp<std::uint64_t>(finding.neighbours.of, kNeighbours, kMostNeighbours);
     return static_cast<std::uint32_t>(words.neighbours.value_or(usual));
   };

@@ -132,7 +132,7 @@ void play_findings(const RunWords& words, const CampaignPlan& plan, const AgentP
       ++all;
       if (!played.fails_so) continue;
       ++failing;
-      talk("{} {} with {}: {}\n", played.id, played.status == FindingStatus::Fixed ? "is back" : "fails as it did",
+      talk("{} {} with {}: {}\n", played.id, played.status == IssueStatus::Fixed ? "is back" : "fails as it did",
            played.agent, played.outcome);
     }
   } catch (const GivenUp&) {

@@ -111,7 +111,7 @@ void read_circumstances(TomlTable& table, std::string_view key, std::vector<Circ
   }
 }
 
-void read_whole_runs(TomlTable& table, KeptFinding& finding) {
+void read_whole_runs(TomlTable& table, KnownIssue& finding) {
   std::uint64_t of = 0, alike = 0;
   table.get("whole_runs", of);
   table.get("whole_runs_failing", alike);
@@ -178,7 +178,7 @@ std::string text_of_words(std::string_view prefix, const NeighbourCounts& counts
 }
 
 // What decides how its runs are judged, beside the scenario.
-void read_judge(TomlTable& table, KeptFinding& finding) {
+void read_judge(TomlTable& table, KnownIssue& finding) {
   finding.laws_left_out = texts(table, "laws_left_out");
   for (const std::string& name : finding.laws_left_out) {
     if (const std::string why_not = why_not_left_out(name); !why_not.empty())
@@ -191,7 +191,7 @@ void read_judge(TomlTable& table, KeptFinding& finding) {
   });
 }
 
-std::string text_of_judge(const KeptFinding& finding) {
+std::string text_of_judge(const KnownIssue& finding) {
   std::string text;
   if (!finding.laws_left_out.empty()) text += fmt::format("laws_left_out = {}\n", list_of(finding.laws_left_out));
   const LimitSetup usual;
@@ -206,7 +206,7 @@ std::string lists_of(const std::vector<std::vector<std::string>>& lists) {
   return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
-std::string text_of_whole_runs(const KeptFinding& finding) {
+std::string text_of_whole_runs(const KnownIssue& finding) {
   if (finding.whole.files.empty()) return {};
   std::string text = fmt::format("runs = {}\nwhole_runs = {}\nwhole_runs_failing = {}\n", list_of(finding.whole.files),
                                  finding.whole.counts.of, finding.whole.counts.alike);
@@ -217,8 +217,8 @@ std::string text_of_whole_runs(const KeptFinding& finding) {
          text_of_circumstances("whole_runs_circumstances", finding.whole.counts.circumstances);
 }
 
-KeptFinding read_finding(TomlTable& table) {
-  KeptFinding finding;
+KnownIssue read_finding(TomlTable& table) {
+  KnownIssue finding;
   finding.id = needed(table, "id");
   finding.mechanism = needed(table, "mechanism");
   if (const auto given = table.given("status")) {
@@ -227,7 +227,7 @@ KeptFinding read_finding(TomlTable& table) {
   }
   table.get("until", finding.until);
   table.get("reason", finding.reason);
-  if (finding.status == FindingStatus::Waived && (!is_day(finding.until) || finding.reason.empty()))
+  if (finding.status == IssueStatus::Waived && (!is_day(finding.until) || finding.reason.empty()))
     throw InputError(
         table.place("status"),
         "a waiver has a last day, one of the calendar, and a reason: until = \"2027-01-31\" and reason = \"...\"");
@@ -261,8 +261,8 @@ FindingsFile::FindingsFile(std::string path) : path_(std::move(path)) {
   root.finish();
 }
 
-const KeptFinding* FindingsFile::find(std::string_view id) const {
-  const auto found = std::ranges::find(findings_, id, &KeptFinding::id);
+const KnownIssue* FindingsFile::find(std::string_view id) const {
+  const auto found = std::ranges::find(findings_, id, &KnownIssue::id);
   return found == findings_.end() ? nullptr : &*found;
 }
 
@@ -270,7 +270,7 @@ std::string FindingsFile::path_beside(const std::string& name) const {
   return (std::filesystem::path(path_).parent_path() / name).string();
 }
 
-KeptFailure FindingsFile::failure(const KeptFinding& finding) const {
+KeptFailure FindingsFile::failure(const KnownIssue& finding) const {
   KeptFailure kept{read_scenario(path_beside(finding.smallest)),
                    read_scenario(path_beside(finding.world)),
                    finding.end,
@@ -282,13 +282,13 @@ KeptFailure FindingsFile::failure(const KeptFinding& finding) const {
   return kept;
 }
 
-KnownRuns FindingsFile::known_runs(const KeptFinding& finding) const {
+KnownRuns FindingsFile::known_runs(const KnownIssue& finding) const {
   KnownRuns known{finding.whole.counts, {}};
   if (!finding.whole.others_need.empty())
     known.others.push_back({{.end = finding.end, .ways = finding.whole.others_need, .doings = {}, .says = {}},
                             finding.whole.counts.said.always,
                             finding.whole.counts.said.usually});
-  for (const KeptFinding& other : findings_) {
+  for (const KnownIssue& other : findings_) {
     if (other.found_in != finding.found_in || other.id == finding.id) continue;
     known.others.push_back({{.end = other.end, .ways = other.ways, .doings = other.doings, .says = other.says},
                             other.neighbours.said.always,
@@ -298,7 +298,7 @@ KnownRuns FindingsFile::known_runs(const KeptFinding& finding) const {
   return known;
 }
 
-std::string toml_of(const KeptFinding& finding) {
+std::string toml_of(const KnownIssue& finding) {
   std::string text = fmt::format("\n[[finding]]\nid = {}\nmechanism = {}\nstatus = \"{}\"\n", toml_text(finding.id),
                                  toml_text(finding.mechanism), name_of(finding.status));
   if (!finding.doings.empty()) text += fmt::format("doings = {}\n", list_of(finding.doings));
@@ -318,22 +318,22 @@ std::string toml_of(const KeptFinding& finding) {
          text_of_circumstances("circumstances", finding.neighbours.circumstances) + text_of_whole_runs(finding);
 }
 
-std::string standing_of(const KeptFinding* kept, std::string_view today) {
+std::string standing_of(const KnownIssue* kept, std::string_view today) {
   if (kept == nullptr) return "new";
   switch (kept->status) {
-    case FindingStatus::Known:
+    case IssueStatus::Known:
       return "known";
-    case FindingStatus::Fixed:
+    case IssueStatus::Fixed:
       return "back";
-    case FindingStatus::Waived:
+    case IssueStatus::Waived:
       return kept->until >= today ? "waived until " + kept->until : "known (waived until " + kept->until + ")";
   }
   invariant_violated("a finding has a status");
 }
 
-bool needs_attention(const KeptFinding* kept, std::string_view today) {
-  if (kept == nullptr || kept->status == FindingStatus::Fixed) return true;
-  return kept->status == FindingStatus::Waived && kept->until < today;
+bool needs_attention(const KnownIssue* kept, std::string_view today) {
+  if (kept == nullptr || kept->status == IssueStatus::Fixed) return true;
+  return kept->status == IssueStatus::Waived && kept->until < today;
 }
 
 }  // namespace fleetproof

@@ -13,14 +13,14 @@
 namespace fleetproof {
 
 // What the user has decided about a finding.
-enum class FindingStatus : std::uint8_t { Known, Fixed, Waived };
-constexpr const char* name_of(FindingStatus status) {
+enum class IssueStatus : std::uint8_t { Known, Fixed, Waived };
+constexpr const char* name_of(IssueStatus status) {
   switch (status) {
-    case FindingStatus::Known:
+    case IssueStatus::Known:
       return "known";
-    case FindingStatus::Fixed:
+    case IssueStatus::Fixed:
       return "fixed";
-    case FindingStatus::Waived:
+    case IssueStatus::Waived:
       return "waived";
   }
   return kNoWord;
@@ -30,13 +30,13 @@ constexpr const char* name_of(FindingStatus status) {
 struct KeptRuns {
   std::vector<std::string> files{};  // of scenarios
   NeighbourCounts counts{};
-  std::vector<std::vector<std::string>> others_need{};  // as FindingRecord has it
+  std::vector<std::vector<std::string>> others_need{};  // as FailureAnalysis has it
 };
 
 // One finding of a findings file, with the scenario files beside it.
-struct KeptFinding {
+struct KnownIssue {
   std::string id, mechanism;  // "F-1c2d3e4f", and in words
-  FindingStatus status = FindingStatus::Known;
+  IssueStatus status = IssueStatus::Known;
   std::string until, reason;  // of a waiver: "2027-01-31", its last day
   std::string end;
   std::vector<std::vector<std::string>> ways;  // as KeptFailure has them; the first is the mechanism's
@@ -55,26 +55,26 @@ class FindingsFile {
  public:
   // A file that does not exist has no findings. Throws InputError with the line of what is wrong.
   explicit FindingsFile(std::string path);
-  const std::vector<KeptFinding>& findings() const { return findings_; }
-  const KeptFinding* find(std::string_view id) const;
+  const std::vector<KnownIssue>& findings() const { return findings_; }
+  const KnownIssue* find(std::string_view id) const;
   // Reads the scenario files of a finding. Throws InputError if one is missing.
-  KeptFailure failure(const KeptFinding& finding) const;
+  KeptFailure failure(const KnownIssue& finding) const;
   // How the software failed in which it was found, as far as the file says.
-  KnownRuns known_runs(const KeptFinding& finding) const;
+  KnownRuns known_runs(const KnownIssue& finding) const;
   std::string path_beside(const std::string& name) const;
 
  private:
   std::string path_;
-  std::vector<KeptFinding> findings_;
+  std::vector<KnownIssue> findings_;
 };
 
 // Appended to a findings file, it is one more finding.
-std::string toml_of(const KeptFinding& finding);
+std::string toml_of(const KnownIssue& finding);
 
 // What a finding of a campaign is to the user, on a day ("2026-11-23"): "new", "known", "waived until 2027-01-31",
 // "known (waived until 2026-10-31)", "back".
-std::string standing_of(const KeptFinding* kept, std::string_view today);
+std::string standing_of(const KnownIssue* kept, std::string_view today);
 // Whether someone has to look at it: it is new, back, or its waiver is over.
-bool needs_attention(const KeptFinding* kept, std::string_view today);
+bool needs_attention(const KnownIssue* kept, std::string_view today);
 
 }  // namespace fleetproof

@@ -11,7 +11,7 @@ std::vector<PlayedCase> play_known_cases(const FindingsFile& file, const Campaig
                                          const AgentPrograms& programs, int workers,
                                          const std::function<bool()>& go_on) {
   std::vector<KeptFailure> kept;
-  for (const KeptFinding& finding : file.findings()) kept.push_back(file.failure(finding));
+  for (const KnownIssue& finding : file.findings()) kept.push_back(file.failure(finding));
   std::vector<PlayedCase> played;
   for (const AgentFactor& agent : plan.agents) {
     CaseHost host(case_agent(plan, agent), programs, workers);

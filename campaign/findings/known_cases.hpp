@@ -13,7 +13,7 @@ namespace fleetproof {
 // The smallest case of a known finding, played with an agent of a campaign.
 struct PlayedCase {
   std::string id, agent;
-  FindingStatus status = FindingStatus::Known;
+  IssueStatus status = IssueStatus::Known;
   bool fails_so = false;
   std::string outcome;  // "contact, two AGVs (driving)", or "none"
 };

@@ -182,7 +182,7 @@ std::string gate_suite(const ReportInput& input, Counts& counts) {
 // Known failures are skipped: the gates tell whether they are acceptable.
 std::string finding_suite(const ReportInput& input, Counts& counts) {
   std::string cases;
-  for (const FoundFinding& finding : input.findings.record->findings) {
+  for (const FailureMechanism& finding : input.findings.record->findings) {
     const std::string message =
         fmt::format("{}: {}; {}", finding.standing, count_text(finding.runs.size(), "failure"), finding.mechanism);
     const std::string outcome = finding.needs_attention

@@ -8,7 +8,7 @@
 #include "core/base/contract.hpp"
 #include "reports/attempts/attempt_section.hpp"
 #include "reports/comparison/baseline.hpp"
-#include "reports/findings/found_record.hpp"
+#include "reports/findings/mechanism_record.hpp"
 #include "reports/page/wording.hpp"
 #include "reports/sections/audit_section.hpp"
 #include "reports/sections/breakdown_tables.hpp"

@@ -11,7 +11,7 @@
 #include "reports/evidence/breakdown.hpp"
 #include "reports/evidence/evidence.hpp"
 #include "reports/evidence/failure_groups.hpp"
-#include "reports/findings/found_record.hpp"
+#include "reports/findings/mechanism_record.hpp"
 #include "reports/sensitivity/sensitivity_record.hpp"
 #include "storage/archive_reader.hpp"
 
@@ -32,7 +32,7 @@ struct ReportInput {
   std::optional<int> exit_code{};
   AttemptHistory attempts{};
   SensitivityFile sensitivity{};
-  FoundFile findings{};
+  MechanismFile findings{};
 };
 
 // What a campaign ends with: the overall verdict, or that the engine made an error, after which no verdict counts.

@@ -35,7 +35,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"core/scenario/radio_setup.hpp RadioSetup", "plain data: everything that a scenario says of its radio"},
     {"core/outcome/outcome.hpp Outcome", "plain data: everything that a run leaves"},
     {"storage/records.hpp CampaignRecord", "plain data: everything that a file says of its campaign"},
-    {"campaign/findings/findings_file.hpp KeptFinding", "plain data: all that a findings file says of one"},
+    {"campaign/findings/findings_file.hpp KnownIssue", "plain data: all that a findings file says of one"},
     {"campaign/plan/plan.hpp CampaignPlan", "plain data: everything that a campaign file says"},
     {"campaign/batch/task_pool.cpp AnyTaskPool::Impl", "two threads' sides of one pool, under one mutex"},
     {"generators/worlds/fault_rates.hpp FaultRates", "plain data: one number for each kind of fault"},

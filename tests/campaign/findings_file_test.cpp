@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "campaign/findings/finding_record.hpp"
+#include "campaign/findings/failure_analysis.hpp"
 #include "core/base/error.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "tests/support/case_bench.hpp"
@@ -32,8 +32,8 @@ class FindingsFiles : public testing::Test {
     std::ofstream(path) << text;
     return path.string();
   }
-  static KeptFinding odd() {
-    KeptFinding finding;
+  static KnownIssue odd() {
+    KnownIssue finding;
     finding.id = "F-00000001";
     finding.mechanism = "too close; says \"a\\b\"";
     finding.end = "too close";
@@ -75,7 +75,7 @@ class FindingsFiles : public testing::Test {
 
 TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   const FindingsFile file(written(toml_of(odd())));
-  const KeptFinding* read = file.find("F-00000001");
+  const KnownIssue* read = file.find("F-00000001");
   ASSERT_NE(read, nullptr);
   EXPECT_EQ(toml_of(*read), toml_of(odd()));
   EXPECT_EQ(read->ways, odd().ways);
@@ -116,7 +116,7 @@ TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
   few.neighbours.circumstances[0]["came (s)"].push_back(-1.0);
   EXPECT_THAT(error_of(toml_of(few)), HasSubstr("-1"));
   auto waived = odd();
-  waived.status = FindingStatus::Waived;
+  waived.status = IssueStatus::Waived;
   EXPECT_THAT(error_of(toml_of(waived)), HasSubstr("until"));
   EXPECT_THAT(error_of(toml_of(waived)), HasSubstr("findings.toml:5"));
   for (const char* day : {"2026-13-99", "2027-02-29", "2026-00-10", "2026-1-010", "2026-11-2x"})
@@ -129,7 +129,7 @@ TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
 
 // What the whole runs of a finding showed, and the other findings of the same software.
 TEST_F(FindingsFiles, SaysHowElseTheSoftwareFailed) {
-  KeptFinding other = odd(), elsewhere = odd();
+  KnownIssue other = odd(), elsewhere = odd();
   other.id = "F-00000002";
   other.ways = {{"breakdown"}};
   elsewhere.id = "F-00000003";
@@ -149,32 +149,32 @@ TEST_F(FindingsFiles, SaysHowElseTheSoftwareFailed) {
 }
 
 TEST_F(FindingsFiles, AWaiverEnds) {
-  KeptFinding kept = odd();
+  KnownIssue kept = odd();
   EXPECT_EQ(standing_of(nullptr, "2026-11-23"), "new");
   EXPECT_EQ(standing_of(&kept, "2026-11-23"), "known");
   EXPECT_FALSE(needs_attention(&kept, "2026-11-23"));
-  kept.status = FindingStatus::Waived;
+  kept.status = IssueStatus::Waived;
   kept.until = "2026-11-23";
   EXPECT_FALSE(needs_attention(&kept, "2026-11-23"));
   EXPECT_TRUE(needs_attention(&kept, "2026-11-24"));
   EXPECT_EQ(standing_of(&kept, "2026-11-24"), "known (waived until 2026-11-23)");
-  kept.status = FindingStatus::Fixed;
+  kept.status = IssueStatus::Fixed;
   EXPECT_EQ(standing_of(&kept, "2026-11-23"), "back");
   EXPECT_TRUE(needs_attention(&kept, "2026-11-23"));
 }
 
 // ---- record
 
-FindingRecord recorded(Bench& bench, std::uint64_t seed = 100) {
+FailureAnalysis recorded(Bench& bench, std::uint64_t seed = 100) {
   const auto needs = needs_of(bench.host, bench.failing(seed));
   Finding finding;
   finding.mechanism = {needs->end, needs->needs, {}, {}};
-  return record_of(bench.host, finding, *needs, 400);
+  return analysis_of(bench.host, finding, *needs, 400);
 }
 
 TEST(FindingRecords, AreTheSameForAnyNumberOfWorkers) {
   Bench one("timeout-grant", 1), seven("timeout-grant", 7);
-  const FindingRecord record = recorded(one), again = recorded(seven);
+  const FailureAnalysis record = recorded(one), again = recorded(seven);
   EXPECT_EQ(to_text(record.kept.smallest), to_text(again.kept.smallest));
   EXPECT_EQ(to_text(record.kept.world), to_text(again.kept.world));
   EXPECT_EQ(record.kept.ways, again.kept.ways);
@@ -185,7 +185,7 @@ TEST(FindingRecords, AreTheSameForAnyNumberOfWorkers) {
 // Where most failing neighbours are of the smallest case, the first few of all are, too.
 TEST(FindingRecords, KnowWhatNeighboursOfTheWorldsNeed) {
   Bench bench("stale-grant");
-  const FindingRecord record = recorded(bench, 122);
+  const FailureAnalysis record = recorded(bench, 122);
   const Neighbourhood neighbourhood(bench.host, record.kept);
   const auto& of_worlds = record.neighbours.first_alike_of_world;
   ASSERT_EQ(of_worlds.size(), 5U);
@@ -204,7 +204,7 @@ TEST(FindingRecords, AreGivenUpWhenTheirHostIsToldTo) {
   for (const int most : {0, 100, 1000, 2000}) {
     std::atomic<int> simulated = 0;
     bench.host.simulate_while([&] { return ++simulated <= most; });
-    EXPECT_THROW(record_of(bench.host, finding, *needs, 400), GivenUp) << most;
+    EXPECT_THROW(analysis_of(bench.host, finding, *needs, 400), GivenUp) << most;
     EXPECT_LE(simulated, most + bench.host.workers());
   }
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "campaign/findings/elsewhere.hpp"
-#include "campaign/findings/finding_record.hpp"
+#include "campaign/findings/failure_analysis.hpp"
 #include "campaign/findings/ingredients.hpp"
 #include "campaign/findings/whole_failures.hpp"
 #include "campaign/shrink/adverse_deliveries.hpp"
@@ -173,7 +173,7 @@ TEST(Retest, AFailureOfTwoAgvsAloneIsNotThatOfThree) {
   while (!needs || !names_all(needs->traits, {kThirdAgvTrait})) needs = needs_of(bench.host, bench.failing(++seed));
   Finding finding;
   finding.mechanism = {.end = needs->end, .needs = needs->needs, .doing = {}, .traits = {kThirdAgvTrait}};
-  const FindingRecord record = record_of(bench.host, finding, *needs, 1000);
+  const FailureAnalysis record = analysis_of(bench.host, finding, *needs, 1000);
   EXPECT_THAT(record.kept.doings, testing::ElementsAre(kThirdAgvTrait));
   EXPECT_EQ(retest(bench.host, record.kept, record.neighbours, kSome).verdict, RetestVerdict::StillThere);
   Bench other("reckless");
@@ -258,7 +258,7 @@ TEST(Retest, KnowsWhatTheSmallestCaseNeeds) {
   const auto needs = needs_of(bench.host, bench.failing(125));
   Finding finding;
   finding.mechanism = {"no such end", {"obstacles"}, {}, {}};
-  const FindingRecord record = record_of(bench.host, finding, *needs, 400);
+  const FailureAnalysis record = analysis_of(bench.host, finding, *needs, 400);
   EXPECT_THAT(record.kept.ways,
               testing::ElementsAre(finding.mechanism.needs, needs_of(bench.host, record.kept.smallest)->needs));
 }

@@ -165,7 +165,7 @@ TEST(WholeRuns, AreKeptWithTheFinding) {
   const auto needs = needs_of(bench.host, bench.failing(125));
   Finding finding;
   finding.mechanism = {needs->end, needs->needs, {}, {}};
-  const FindingRecord record = record_of(bench.host, finding, *needs, 400, {{}, {bench.failing(125)}});
+  const FailureAnalysis record = analysis_of(bench.host, finding, *needs, 400, {{}, {bench.failing(125)}});
   EXPECT_EQ(record.whole_runs.of, kWholeRuns);
   EXPECT_GT(record.whole_runs.alike, kWholeRuns / 4);
   EXPECT_TRUE(record.others_need.empty());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "campaign/findings/finding_record.hpp"
+#include "campaign/findings/failure_analysis.hpp"
 #include "tests/support/case_bench.hpp"
 
 namespace fleetproof::test {
@@ -15,7 +15,7 @@ inline Known known_failure(CaseBench& bench) {
   const auto needs = needs_of(bench.host, bench.failing(125));
   Finding finding;
   finding.mechanism = {needs->end, needs->needs, {}, {}};
-  const FindingRecord record = record_of(bench.host, finding, *needs, 4000);
+  const FailureAnalysis record = analysis_of(bench.host, finding, *needs, 4000);
   return {record.kept, record.neighbours};
 }
 

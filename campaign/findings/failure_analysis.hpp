@@ -13,7 +13,7 @@
 namespace fleetproof {
 
 // A finding as it is kept: its simplest failure, made as small as possible, and why it fails.
-struct FindingRecord {
+struct FailureAnalysis {
   KeptFailure kept;
   Explanation explanation;
   NeighbourCounts neighbours;
@@ -25,14 +25,14 @@ struct FindingRecord {
 inline constexpr std::size_t kOtherWorlds = 4;
 
 // Of a finding, beside its representative.
-struct FindingWorlds {
+struct FurtherFailures {
   std::vector<FailingCase> others{};  // reduced failures, at most kOtherWorlds
   std::vector<Scenario> runs{};       // failing runs as the campaign had them
 };
 // `trials`: of shrinking, at most. The explanation is that of the kept world. If there are few others, the fleet of the
 // kept world is put elsewhere until it fails in the same way. The result is the same for any number of workers.
-FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNeeds& representative,
-                        std::uint64_t trials, const FindingWorlds& worlds = {});
+FailureAnalysis analysis_of(CaseHost& host, const Finding& finding, const FailureNeeds& representative,
+                            std::uint64_t trials, const FurtherFailures& worlds = {});
 
 // Members of the finding, spread over it: at most kOtherWorlds. Not its representative, and none that is rare: its
 // neighbours would hardly fail.

@@ -1,4 +1,4 @@
-#include "reports/findings/found_record.hpp"
+#include "reports/findings/mechanism_record.hpp"
 
 #include <fmt/format.h>
 
@@ -15,10 +15,10 @@
 namespace fleetproof {
 namespace {
 
-constexpr int kFoundVersion = 2;
-constexpr const char* kFoundEnding = ".findings.json";
+constexpr int kMechanismsVersion = 2;
+constexpr const char* kMechanismsEnding = ".findings.json";
 
-Json json_of(const FoundFinding& finding) {
+Json json_of(const FailureMechanism& finding) {
   return {{"id", finding.id},
           {"agent", finding.agent},
           {"mechanism", finding.mechanism},
@@ -29,8 +29,8 @@ Json json_of(const FoundFinding& finding) {
           {"runs", finding.runs}};
 }
 
-FoundFinding finding_from(const Json& json) {
-  FoundFinding finding;
+FailureMechanism finding_from(const Json& json) {
+  FailureMechanism finding;
   finding.id = json.at("id");
   finding.agent = json.at("agent");
   finding.mechanism = json.at("mechanism");
@@ -41,8 +41,8 @@ FoundFinding finding_from(const Json& json) {
   return finding;
 }
 
-FoundRecord record_from(const Json& json) {
-  FoundRecord record;
+MechanismRecord record_from(const Json& json) {
+  MechanismRecord record;
   record.plan_hash = std::stoull(json.at("plan_hash").get<std::string>(), nullptr, 16);
   record.stored_runs = json.at("stored_runs");
   record.failing_runs = json.at("failing_runs");
@@ -53,25 +53,28 @@ FoundRecord record_from(const Json& json) {
 }
 
 // "7 findings, 2 of which need attention"
-std::string findings_sentence(const FoundRecord& record) {
-  const auto open = std::ranges::count_if(record.findings, &FoundFinding::needs_attention);
+std::string findings_sentence(const MechanismRecord& record) {
+  const auto open = std::ranges::count_if(record.findings, &FailureMechanism::needs_attention);
   return fmt::format("{}, {} of which need attention", count_text(record.findings.size(), "finding"), open);
 }
 
 }  // namespace
 
-std::string findings_text(const FoundRecord& record) {
-  Json json = {{"schema_version", kFoundVersion},   {"plan_hash", hex_text(record.plan_hash)},
-               {"stored_runs", record.stored_runs}, {"failing_runs", record.failing_runs},
-               {"looked_at", record.looked_at},     {"not_again", record.not_again},
+std::string findings_text(const MechanismRecord& record) {
+  Json json = {{"schema_version", kMechanismsVersion},
+               {"plan_hash", hex_text(record.plan_hash)},
+               {"stored_runs", record.stored_runs},
+               {"failing_runs", record.failing_runs},
+               {"looked_at", record.looked_at},
+               {"not_again", record.not_again},
                {"findings", Json::array()}};
-  for (const FoundFinding& finding : record.findings) json["findings"].push_back(json_of(finding));
+  for (const FailureMechanism& finding : record.findings) json["findings"].push_back(json_of(finding));
   return shown_json(json);
 }
 
-std::optional<FoundRecord> parse_findings(const std::string& text) {
+std::optional<MechanismRecord> parse_findings(const std::string& text) {
   const Json json = read_json(text);
-  if (!json.is_object() || json.value("schema_version", Json()) != kFoundVersion) return std::nullopt;
+  if (!json.is_object() || json.value("schema_version", Json()) != kMechanismsVersion) return std::nullopt;
   try {
     return record_from(json);
   } catch (const Json::exception&) {
@@ -81,9 +84,9 @@ std::optional<FoundRecord> parse_findings(const std::string& text) {
   }
 }
 
-std::string findings_path(const std::string& archive_path) { return beside(archive_path, kFoundEnding); }
+std::string findings_path(const std::string& archive_path) { return beside(archive_path, kMechanismsEnding); }
 
-FoundFile findings_beside(const std::string& archive_path, std::uint64_t plan_hash, std::uint64_t stored_runs) {
+MechanismFile findings_beside(const std::string& archive_path, std::uint64_t plan_hash, std::uint64_t stored_runs) {
   const std::string path = findings_path(archive_path);
   std::ifstream file(path, std::ios::binary);
   if (!file) return {};
@@ -94,7 +97,7 @@ FoundFile findings_beside(const std::string& archive_path, std::uint64_t plan_ha
   return {std::move(record), {}};
 }
 
-Section findings_section(const FoundFile& file, const std::string& archive_path) {
+Section findings_section(const MechanismFile& file, const std::string& archive_path) {
   Section section{"Findings: failures by what they need", {}, {}};
   const auto& [record, trouble] = file;
   if (!record) {
@@ -112,7 +115,7 @@ Section findings_section(const FoundFile& file, const std::string& archive_path)
                     {"mechanism", false},
                     {"simplest run", true}},
                    {}};
-  for (const FoundFinding& finding : record->findings)
+  for (const FailureMechanism& finding : record->findings)
     section.table.rows.push_back({printable(finding.id, 20), printable(finding.standing, 60),
                                   printable(finding.agent, 40), std::to_string(finding.runs.size()),
                                   printable(finding.mechanism, 300), std::to_string(finding.run)});

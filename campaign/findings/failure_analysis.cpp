@@ -1,4 +1,4 @@
-#include "campaign/findings/finding_record.hpp"
+#include "campaign/findings/failure_analysis.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -37,10 +37,10 @@ void keep_words_of_all(KeptFailure& kept, const NeighbourCounts& neighbours) {
                 [&](const std::string& word) { return std::ranges::count(neighbours.said.always, word) == 0; });
 }
 
-FindingRecord record_of(CaseHost& host, const Finding& finding, const FailureNeeds& representative,
-                        std::uint64_t trials, const FindingWorlds& worlds) {
+FailureAnalysis analysis_of(CaseHost& host, const Finding& finding, const FailureNeeds& representative,
+                            std::uint64_t trials, const FurtherFailures& worlds) {
   const FailingCase world = with_less_time(representative.reduced);
-  FindingRecord record;
+  FailureAnalysis record;
   const FailurePattern pattern = pattern_of(host, world);
   TrialCache cache;
   const FailingCase smallest =
