@@ -209,7 +209,7 @@ std::string agent_of(const SimulateWords& words, const Scenario& scenario, const
 std::string expectation_text(const ExpectedOutcome& expected, const ExpectedOutcome& found) {
   if (expected == found) return fmt::format("  as expected: {}\n", expected.failure);
   if (expected.failure == found.failure)
-    return fmt::format("  expected: {}; it fails so, but the run took another timeline\n", expected.failure);
+    return fmt::format("  expected: {}; it fails so, but the run went otherwise\n", expected.failure);
   return fmt::format("  NOT as expected: {} was expected, {} was found\n", expected.failure, found.failure);
 }
 

@@ -29,7 +29,8 @@ struct FailureNeeds {
   std::uint64_t replays = 0;
 };
 
-inline constexpr const char* kNotKnown = "not known: it failed with these draws only";
+// The id of a finding is a hash of its words, these among them: other words would make known findings new ones.
+inline constexpr const char* kNotKnown = "not known: it failed with this luck only";
 inline constexpr const char* kThirdAgvTrait = "needs a third AGV";
 
 // "says "x"": as traits have it.

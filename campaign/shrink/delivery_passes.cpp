@@ -233,9 +233,9 @@ bool find_fewer_deliveries(Shrinker& shrinker) {
                                                           [&](std::size_t rank) {
                                                             const auto& [i, j] = pairs[rank];
                                                             const GivenDelivery &a = troubles[i], &b = troubles[j];
-                                                            const auto key = [](const GivenDelivery& f) {
-                                                              return std::tuple(f.sender, f.receiver, f.sent,
-                                                                                f.ordinal);
+                                                            const auto key = [](const GivenDelivery& given) {
+                                                              return std::tuple(given.sender, given.receiver,
+                                                                                given.sent, given.ordinal);
                                                             };
                                                             return key(a) == key(b) ? std::nullopt : with({a, b});
                                                           }}),

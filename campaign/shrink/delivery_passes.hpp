@@ -11,8 +11,8 @@ std::vector<GivenDelivery> troubles_of(const std::vector<MessageDelivery>& messa
 
 // The radio is perfect, and the deliveries that it had drawn are given.
 bool write_deliveries_down(Shrinker& shrinker);
-// Goes through the run from front to back: the losses and delays up to an instant are written down, as little of it
-// as suffices; behind it the radio still draws. In the end everything is written down.
+// Goes through the run from front to back: the losses and delays up to an instant are written down, as few of them
+// as suffice; behind it the radio still draws. In the end everything is written down.
 bool write_least_deliveries_down(Shrinker& shrinker);
 bool take_out_deliveries(Shrinker& shrinker);
 // One or two messages on an otherwise perfect radio, instead of more.

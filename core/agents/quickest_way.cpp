@@ -149,8 +149,8 @@ namespace {
 
 // Sums of the same times in another order differ by less.
 constexpr double kRounding = 1e-9;
-constexpr std::size_t kSection = 16;     // many an AGV stops, or the run, before it has driven more
-constexpr double kSurelyTakes_s = 1e-3;  // more than rounding, on any way of less than a week
+constexpr std::size_t kLanesAtOnce = 16;  // many an AGV stops, or the run, before it has driven more
+constexpr double kSurelyTakes_s = 1e-3;   // more than rounding, on any way of less than a week
 
 struct Open {
   double cost_s;
@@ -271,12 +271,12 @@ std::uint32_t QuickestWay::next_lane(std::uint32_t from, std::uint32_t to) {
 
 void QuickestWay::plan(std::uint32_t from, std::uint32_t to) {
   way_.clear();
-  way_.reserve(kSection);
+  way_.reserve(kLanesAtOnce);
   Workspace& workspace = Workspace::of_this_thread(map_.station_count());
   climb_from(workspace, to);
   if (remains_s(workspace, from) == INFINITY) return;
   std::uint32_t before = FP_NONE;
-  for (std::uint32_t at = from; at != to && way_.size() < kSection;) {
+  for (std::uint32_t at = from; at != to && way_.size() < kLanesAtOnce;) {
     const Hop next = quick_hop(workspace, before, at, to);
     way_.push_back(next.lane);
     before = std::exchange(at, next.to);

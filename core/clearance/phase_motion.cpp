@@ -13,7 +13,7 @@ namespace {
 using Elapsed = std::int64_t;
 
 // A phase of the profile on one part of the curve.
-struct MotionPhase {
+struct TimeSpan {
   Elapsed change;  // where it ends, in the sense walked
   std::size_t phase = 0, part = 0;
 };
@@ -22,7 +22,7 @@ struct MotionPhase {
 // one nanosecond. The error does not grow: every phase starts from the exact pose, with the speed that the phase itself
 // has at the instant. The profile may still give the speed of the neighbouring phase there. This speed is wrong by a
 // nanometre per second, which would move a body by nanometres in a few seconds.
-MotionPhase phase_from(const MotionProfile& profile, Elapsed now, TimeSense sense) {
+TimeSpan phase_from(const MotionProfile& profile, Elapsed now, TimeSense sense) {
   const auto& ends = profile.phase_ends();
   std::size_t phase = 0;
   if (sense == TimeSense::Forward) {
@@ -33,8 +33,8 @@ MotionPhase phase_from(const MotionProfile& profile, Elapsed now, TimeSense sens
   return {phase == 0 ? 0 : ends[phase - 1].count(), phase};
 }
 
-MotionPhase span_from(const Piece& piece, Elapsed now, TimeSense sense) {
-  MotionPhase span = phase_from(piece.profile, now, sense);
+TimeSpan span_from(const Piece& piece, Elapsed now, TimeSense sense) {
+  TimeSpan span = phase_from(piece.profile, now, sense);
   if (piece.manner != Manner::Drive || piece.curve->parts().size() < 2) return span;
   const auto ends = piece.curve->ends_m();
   const double way = piece.way_begin_m + piece.profile.position(to_seconds(Duration{now}));
@@ -112,7 +112,7 @@ PhaseMotion motion_from(const Piece& piece, const OrientedRectangle& body, SimTi
   // The body moves now. Or, seen backwards, it stands after its arrival: then it rests until then. What follows holds
   // for one phase of the profile and one part of the curve.
   const bool has_arrived = now > arrival;
-  const MotionPhase span = has_arrived ? MotionPhase{arrival} : span_from(piece, now, sense);
+  const TimeSpan span = has_arrived ? TimeSpan{arrival} : span_from(piece, now, sense);
   const Elapsed change = forward ? std::min(span.change, last) : std::max(span.change, last);
   motion.change = piece.begin + Duration{change};
   motion.lasts_s = to_seconds(Duration{std::abs(change - now)});

@@ -5,7 +5,7 @@
 
 namespace fleetproof::web {
 
-// The event_log as a list. A line that stands for several opens; with scripts, a click on a line goes to its instant.
+// The event log as a list. A line that stands for several opens; with scripts, a click on a line goes to its instant.
 html::Element event_log_part(const EventLog& event_log);
 
 }  // namespace fleetproof::web

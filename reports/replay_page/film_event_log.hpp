@@ -21,7 +21,7 @@ struct LogLine {
 
 struct EventLog {
   std::vector<LogLine> lines;
-  std::size_t left_out = 0;  // messages and events within the time of the event_log, farther from the failure
+  std::size_t left_out = 0;  // messages and events within the time of the event log, farther from the failure
   std::int64_t from_us = 0, to_us = 0;
 };
 

@@ -191,7 +191,8 @@ TEST(Findings, WhatFailedWithOneDrawOnlyJoinsOrIsNotKnown) {
   add(failures, times(2, rare));
   const auto alone = findings_of(failures);
   ASSERT_EQ(alone.size(), 1U);
-  EXPECT_EQ(alone[0].mechanism.text(), "too close, two AGVs; needs not known: it failed with these draws only");
+  EXPECT_EQ(alone[0].mechanism.text(), "too close, two AGVs; needs not known: it failed with this luck only");
+  EXPECT_EQ(alone[0].id(), "F-a041090e") << "users keep it in their files";
   add(failures, times(3, failure("a", {"lost messages"})));
   const auto joined = findings_of(failures);
   ASSERT_EQ(joined.size(), 2U);
