@@ -103,7 +103,7 @@ struct CampaignPlan {
   CampaignKind kind = CampaignKind::Claim;
   std::uint64_t seed = 1;
   std::uint64_t replicates = 1;
-  double horizon_s = 600.0, stuck_after_s = 120.0;
+  double horizon_s = to_seconds(kUsualHorizon), stuck_after_s = to_seconds(kUsualPatience);
 
   std::vector<AgentFactor> agents;
   std::string agent_config;                    // of agents without parameters of their own

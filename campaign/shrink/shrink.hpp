@@ -9,7 +9,7 @@
 
 namespace fleetproof {
 
-// How much there is of a scenario. `fates`: of single messages; not counted while the radio draws them.
+// How much there is of a scenario. `deliveries`: of single messages; not counted while the radio draws them.
 struct CaseSize {
   std::size_t agvs = 0, transports = 0, faults = 0, obstacles = 0, segments = 0, deliveries = 0;
   bool deliveries_are_drawn = true;

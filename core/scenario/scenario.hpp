@@ -112,6 +112,9 @@ struct ExpectedOutcome {
   friend bool operator==(const ExpectedOutcome&, const ExpectedOutcome&) = default;
 };
 
+// How long a run lasts, and after how long without progress it is stuck, if nothing else is said.
+inline constexpr Duration kUsualHorizon = std::chrono::seconds(600), kUsualPatience = std::chrono::seconds(120);
+
 // Everything that one simulation needs, as plain data.
 struct Scenario {
   std::string name;
@@ -128,8 +131,7 @@ struct Scenario {
   AgentClockSetup agent_clock;
   LawSetup law;
   bool contact_stops = true;  // bodies that touch stand still afterwards
-  Duration horizon = std::chrono::seconds(600);
-  Duration stuck_after = std::chrono::seconds(120);
+  Duration horizon = kUsualHorizon, stuck_after = kUsualPatience;
   std::uint64_t seed = 0;  // of the world: keys of radio and agent randomness derive from it
   std::vector<StreamSeed>
       stream_seeds;  // streams drawn from another seed, each at most once, in the order of kRunStreams

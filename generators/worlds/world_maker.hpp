@@ -45,7 +45,7 @@ struct WorldSpec {
   std::vector<VehicleShare> vehicles{VehicleShare{}};  // at least one; the type of every AGV is drawn from them
   FaultRates faults;
   LawSetup law;  // starts keep its safety distance
-  Duration horizon = std::chrono::seconds(600);
+  Duration horizon = kUsualHorizon;
   HeldStreams held;
 };
 
