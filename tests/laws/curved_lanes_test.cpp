@@ -7,6 +7,7 @@
 #include "laws/exact_law.hpp"
 #include "tests/laws/timeline.hpp"
 #include "tests/oracle/brute_force.hpp"
+#include "tests/oracle/known_pairs.hpp"
 
 namespace fleetproof::test::curved_lanes_test {
 namespace {
