@@ -51,7 +51,7 @@ TEST(ExactLaw, OneEpisodeCrossesTheSeamsOfBothTimelines) {
   EXPECT_FALSE(violations[0].contact);
 }
 
-TEST(ExactLaw, EachPassWithinOnePairOfPiecesIsAEpisodeOfItsOwn) {
+TEST(ExactLaw, EachPassWithinOnePairOfPiecesIsAnEpisodeOfItsOwn) {
   Scene scene(20.0);
   // A square body spins through 20 rad, 0.4 m from a wall side-on and 7 cm corner-on: 13 corners come by.
   scene.agv(facing(0.0, 0.0, 1.0, 0.0), {1.6, 1.6}).turn(20.0, {1.5, 10.0, 10.0});
