@@ -105,7 +105,7 @@ struct Hearer {
 // one object serves one run on one thread.
 class Radio {
  public:
-  // `deliveries` go over what the models draw. The models know AGVs by their draw numbers alone.
+  // A message with a given delivery gets that one, whatever the models draw. The models see draw numbers, not AGVs.
   Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenDelivery> deliveries = {},
         DrawNumbers numbers = {});
   bool depends_on_place() const { return depends_on_place_; }
