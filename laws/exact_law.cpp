@@ -127,18 +127,21 @@ class ExactLaw final : public Law {
   void collect(const Piece& a, const Piece& b, SimTime first, SimTime last);
   double threshold_m(const Piece& a, const Piece& b) const { return threshold_m_ - allowance_on_curves_m(a, b); }
   double clearance_at(const Piece& a, const Piece& b, SimTime t);
-  // Since when the body of this piece, its newest, has been on the floor.
+  // Since when the body of this piece, its newest, has been on the floor with this outline: it may appear, and a load
+  // may make it wider.
   SimTime on_floor_since(const Piece& piece) const {
     const OnFloor& before = bodies_[piece.entity.index()];
-    return before.until == piece.begin ? before.since : piece.begin;
+    return before.until == piece.begin && before.footprint == piece.footprint ? before.since : piece.begin;
   }
 
   std::size_t agv_count_;
   double threshold_m_;
   double smallest_m_ = kMeasuredBelow_m;
-  // Of a body, as of its last piece that is over: since when it was on the floor without a break, and the end.
+  // Of a body, as of its last piece that is over: since when it was on the floor without a break and with the same
+  // outline, and the end.
   struct OnFloor {
     SimTime since = SimTime::min(), until = SimTime::min();
+    Footprint footprint;
   };
   std::vector<OnFloor> bodies_;
   EvaluationCount evaluations_;
@@ -166,14 +169,15 @@ void ExactLaw::had_company(const Piece& piece, std::span<const Piece* const> oth
 
 void ExactLaw::piece_ended(const Piece& piece) {
   ensure(piece.entity.index() < bodies_.size(), "a law hears only of the bodies of its scenario");
-  bodies_[piece.entity.index()] = {on_floor_since(piece), piece.end};
+  bodies_[piece.entity.index()] = {on_floor_since(piece), piece.end, piece.footprint};
 }
 
 void ExactLaw::settle(const Piece& a, const Piece& b, Interval within) {
   const bool instant = within.begin == within.end;
-  // Unless a body has appeared at this instant, it is the last one of an interval already settled.
-  const bool appeared = std::max(on_floor_since(a), on_floor_since(b)) == within.begin;
-  if (instant && !appeared) return;
+  // Unless a body has appeared or grown at this instant, it is the last one of an interval already settled. If one has,
+  // the piece that ends here says how fast it was struck: the next one may stand already.
+  const bool is_new = std::max(on_floor_since(a), on_floor_since(b)) == within.begin;
+  if (instant && !is_new) return;
   if (instant || (a.manner == Manner::Rest && b.manner == Manner::Rest)) {
     settle_standing(a, b, within);
   } else {

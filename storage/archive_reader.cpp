@@ -9,11 +9,13 @@
 #include <bit>
 
 #include "core/base/error.hpp"
+#include "core/outcome/run_result.hpp"
 #include "storage/checksum.hpp"
 #include "storage/opened_file.hpp"
 #include "storage/plan_rows.hpp"
 #include "storage/rows.hpp"
 #include "storage/schema.hpp"
+#include "storage/seen_traces.hpp"
 #include "storage/sqlite_errors.hpp"
 #include "storage/statement.hpp"
 #include "storage/table_pages.hpp"
@@ -174,6 +176,8 @@ void ArchiveReader::Impl::verify(const StoredRun& stored) const {
                      stored.outcome_class == name_of(run.outcome.outcome_class()) &&
                      run.run_index == run.replicate * plan.cells.size() + run.cell;
   if (!sound) damaged(fmt::format("run {} does not match its checksum", run.run_index));
+  if (schema >= kFirstJudged && stored.judged != judged(run.outcome))
+    damaged(fmt::format("the end points of run {} are not those of its outcome", run.run_index));
 }
 
 std::vector<ChunkRecord> ArchiveReader::Impl::stored_chunks() const {
@@ -185,7 +189,7 @@ std::vector<ChunkRecord> ArchiveReader::Impl::stored_chunks() const {
 
 void ArchiveReader::Impl::add_rest(SealedContent& content) const {
   try {
-    content.add_rest(*db);
+    content.add_rest(*db, schema);
   } catch (const EngineError& e) {
     damaged(e.what());
   }
@@ -225,7 +229,7 @@ class ArchiveReader::Impl::Rows {
   }
 
   // Null after the last. The checksum was right. Valid until the next call, which writes over it.
-  const StoredRun* next() {
+  StoredRun* next() {
     if (!runs_->step()) {
       require_end();
       return nullptr;
@@ -277,9 +281,11 @@ std::uint64_t ArchiveReader::Impl::read_all(const VisitRun& visit, const VisitFo
 std::uint64_t ArchiveReader::Impl::read_rows(const VisitRun& visit) const {
   Rows rows(*this);
   SealedContent content(plan.campaign.chunk_runs);
+  SeenTraces seen;
   std::uint64_t count = 0;
-  for (; const StoredRun* stored = rows.next(); ++count) {
+  for (; StoredRun* stored = rows.next(); ++count) {
     content.add_run(count, stored->checksum);
+    stored->run.repeats = !seen.add(stored->run);
     visit(stored->run);
   }
   if (sealed_count) require_sealed(count, rows.digest(), content);
@@ -289,8 +295,8 @@ std::uint64_t ArchiveReader::Impl::read_rows(const VisitRun& visit) const {
 std::uint64_t ArchiveReader::Impl::read_folded_file(const VisitRun& visit, const VisitFolded& visit_folded) const {
   if (!sealed_count) damaged("it is folded, but has no seal");
   Rows rows(*this);
-  FoldedRows folded(*db, plan.cells, visit_folded.met);
-  const StoredRun* kept = rows.next();
+  FoldedRows folded(*db, schema, plan.cells, visit_folded.met);
+  StoredRun* kept = rows.next();
   std::uint64_t index = 0;
   while (index < *sealed_count) {
     if (visit_folded.quiet && index % plan.cells.size() == 0) {
@@ -301,15 +307,15 @@ std::uint64_t ArchiveReader::Impl::read_folded_file(const VisitRun& visit, const
         continue;
       }
     }
-    if (const auto known = folded.next(index)) {
-      visit(*known);
-      ++index;
-      continue;
+    if (const FoldedPlace place = folded.next(index); place.known) {
+      visit(*place.known);
+    } else {
+      if (kept == nullptr || kept->run.run_index != index)
+        damaged(fmt::format("run {} is neither folded nor kept", index));
+      kept->run.repeats = place.repeats;
+      visit(kept->run);
+      kept = rows.next();
     }
-    if (kept == nullptr || kept->run.run_index != index)
-      damaged(fmt::format("run {} is neither folded nor kept", index));
-    visit(kept->run);
-    kept = rows.next();
     ++index;
   }
   if (kept != nullptr) damaged(fmt::format("run {} is beside the folded runs", kept->run.run_index));
@@ -341,15 +347,15 @@ std::uint64_t ArchiveReader::run_count() const {
 
 bool ArchiveReader::is_folded() const { return impl_->fold.has_value(); }
 
-std::optional<std::uint64_t> ArchiveReader::repeated_traces() const {
-  return impl_->fold ? std::optional(impl_->fold->repeated_traces) : std::nullopt;
+std::uint64_t ArchiveReader::unplaced_repeats() const {
+  return impl_->fold && impl_->schema < kFirstJudged ? impl_->fold->repeated_traces : 0;
 }
 
 std::optional<KnownRun> ArchiveReader::folded_run(std::uint64_t run_index) const {
   if (!is_folded()) return std::nullopt;
   return impl_->guarded([&] {
     try {
-      return find_folded(*impl_->db, impl_->plan.cells, run_index);
+      return find_folded(*impl_->db, impl_->schema, impl_->plan.cells, run_index);
     } catch (const BrokenFold& e) {
       impl_->damaged(e.what());
     }
@@ -380,10 +386,13 @@ void ArchiveReader::for_each_audit(const std::function<void(const AuditRecord&, 
   impl_->guarded([&] {
     const Snapshot snapshot(*impl_->db);
     Query rows(*impl_->db,
-               fmt::format("SELECT a.run_index, a.checksum, coalesce(a.checksum = r.checksum, 1) FROM audits a "
-                           "{} JOIN runs r ON r.run_index = a.run_index ORDER BY a.run_index",
-                           is_folded() ? "LEFT" : ""));
-    while (rows.step()) visit(read_audit(rows), rows.number(2) != 0);
+               fmt::format("SELECT {}, coalesce(checksum = (SELECT r.checksum FROM runs r WHERE r.run_index = "
+                           "audits.run_index), {}) AS same FROM audits ORDER BY run_index",
+                           audit_values(impl_->schema), is_folded() ? "1" : "NULL"));
+    const int same = rows.column_of("same");
+    while (rows.step()) {
+      if (!rows.is_null(same)) visit(read_audit(rows), rows.number(same) != 0);
+    }
   });
 }
 

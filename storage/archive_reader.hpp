@@ -41,8 +41,9 @@ class ArchiveReader {
   std::uint64_t run_count() const;
   // Whether runs in which nothing went wrong have no rows of their own.
   bool is_folded() const;
-  // Of a folded file: how many runs have the trace that another run of their cell had before.
-  std::optional<std::uint64_t> repeated_traces() const;
+  // Of a folded file of an older schema: how many runs have a trace that another run of their cell had before. The file
+  // does not say which, and RunRecord::repeats is false for all.
+  std::uint64_t unplaced_repeats() const;
   // Nothing if the file does not have the run, or if it is folded.
   std::optional<RunRecord> run(std::uint64_t run_index) const;
   std::optional<KnownRun> folded_run(std::uint64_t run_index) const;

@@ -4,6 +4,7 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -31,6 +32,10 @@ constexpr std::size_t kRowsPerCommit = 4096;
 constexpr std::chrono::seconds kCommitPeriod{2};
 constexpr const char* kPartial = ".partial";
 constexpr std::size_t kBytesOfARow = 4096;  // a recording counts as so many rows
+
+bool counts_hours(const GateRecord& gate) {
+  return gate.unit == GateUnit::AgvHour && gate.method == GateMethod::AnyTime;
+}
 
 }  // namespace
 
@@ -126,9 +131,15 @@ void ArchiveWriter::Impl::go_on(StoredPlan plan, const Resumption& resumption) {
     throw InputError(path,
                      "its runs without a failure are folded (keep = \"failing\"), so this campaign cannot go on; "
                      "give another name with --db, or --overwrite to begin again");
+  const bool counts_otherwise = stored->schema() < kFirstJudged && std::ranges::any_of(stored->gates(), counts_hours);
+  if (counts_otherwise)
+    throw InputError(
+        path,
+        "a gate of it counts AGV-hours as earlier versions did, in microseconds, so this campaign cannot go on; give "
+        "another name with --db, or --overwrite to begin again");
   resumption.check(stored->campaign(), plan.campaign);
-  stored->for_each_run(resumption.visit);
   stored->for_each_audit(resumption.visit_audit);
+  stored->for_each_run(resumption.visit);
   if (stored->schema() < kSchemaVersion) {
     create(plan, std::move(stored));
     return;
@@ -174,7 +185,9 @@ void ArchiveWriter::Impl::take_over(const ArchiveReader& earlier) {
   });
   earlier.for_each_audit([&](const AuditRecord& audit, bool same) {
     begin();
-    rows->add(AuditRecord{audit.run_index, same ? row_checksum(*earlier.run(audit.run_index)) : audit.checksum});
+    AuditRecord kept = audit;
+    if (same) kept.checksum = row_checksum(*earlier.run(audit.run_index));
+    rows->add(kept);
   });
 }
 

@@ -23,10 +23,10 @@ enum class LiveName : std::uint8_t { Partial, Merging };
 struct Resumption {
   // Throws if the stored campaign must not go on as `continued`. May add to `continued`.
   std::function<void(const CampaignRecord& stored, CampaignRecord& continued)> check = [](const auto&, auto&) {};
-  // Sees every stored run, in order of run index. Its checksum was right.
-  std::function<void(const RunRecord& run)> visit = [](const RunRecord&) {};
-  // Sees every stored audit, in order of run index, after the runs.
+  // Sees every stored audit, in order of run index.
   std::function<void(const AuditRecord& audit, bool same)> visit_audit = [](const AuditRecord&, bool) {};
+  // Sees every stored run after that, in order of run index. Its checksum was right.
+  std::function<void(const RunRecord& run)> visit = [](const RunRecord&) {};
 };
 
 // The live file of a running campaign: NAME.partial beside NAME, with a write-ahead log. One connection writes and

@@ -88,8 +88,8 @@ void insert_chunks(SQLite::Database& db, const std::vector<ChunkRecord>& chunks)
 }
 
 // With the count and the seal, a lost or added row and a changed view are noticed too, not only a changed row. The
-// chunks are those of all runs, folded or not.
-void seal(SQLite::Database& db, const std::string& below_stop, bool folded) {
+// chunks are those of all runs, folded or not. `repeated_traces`: of a folded file.
+void seal(SQLite::Database& db, const std::string& below_stop, std::optional<std::uint64_t> repeated_traces) {
   const auto one = [&](const char* query) { return std::bit_cast<std::uint64_t>(db.execAndGet(query).getInt64()); };
   SealedContent content(one("SELECT chunk_runs FROM main.campaign"));
   RowsDigest all;
@@ -99,11 +99,11 @@ void seal(SQLite::Database& db, const std::string& below_stop, bool folded) {
     content.add_run(count, unsigned_of(rows));
     all.add(unsigned_of(rows));
   }
-  content.add_rest(db);
+  content.add_rest(db, kSchemaVersion);
   insert_chunks(db, content.chunks());
   std::optional<FoldedContent> fold;
-  if (folded)
-    fold = {content.digest(), all.value(), repeated_traces(db),
+  if (repeated_traces)
+    fold = {content.digest(), all.value(), *repeated_traces,
             checksums_digest(db, "SELECT checksum FROM main.runs ORDER BY run_index"),
             checksums_digest(db, "SELECT checksum FROM main.folded ORDER BY place")};
   const auto seal = seal_of(schema_text(db), one("SELECT plan_checksum FROM main.campaign"), count,
@@ -140,11 +140,11 @@ void write_canonical_file(const std::string& live_path, const std::string& targe
     db.exec(fmt::format("PRAGMA main.application_id={}; PRAGMA main.user_version={}", kApplicationId, kSchemaVersion));
     db.exec(schema_ddl());
     copy_plan(db);
-    const bool folded = may_fold != nullptr;
-    if (folded) fold_runs(db, live_path, may_fold);
-    CopiedRows rows(db, stop_index, folded);
+    std::optional<std::uint64_t> repeated_traces;
+    if (may_fold) repeated_traces = fold_runs(db, live_path, may_fold);
+    CopiedRows rows(db, stop_index, may_fold != nullptr);
     rows.copy();
-    seal(db, rows.below_stop(), folded);
+    seal(db, rows.below_stop(), repeated_traces);
     transaction.commit();
   } catch (const SQLite::Exception&) {
     remove_with_journal(target);

@@ -87,6 +87,12 @@ std::uint64_t plan_checksum(const StoredPlan& plan, std::int32_t schema) {
   for (const auto& pair : campaign.exempt_pairs) bytes << pair;
   bytes << std::uint64_t{campaign.plugin_agents.size()};
   for (const auto& agent : campaign.plugin_agents) bytes << agent;
+  if (schema >= kFirstJudged) {
+    for (const auto* agents : {&campaign.deterministic_agents, &campaign.agents_under_test}) {
+      bytes << std::uint64_t{agents->size()};
+      for (const auto& agent : *agents) bytes << agent;
+    }
+  }
   if (schema >= kFirstChunked) bytes << campaign.chunk_runs;
   bytes << std::uint64_t{cells.size()};
   for (const auto& cell : cells) {

@@ -17,9 +17,9 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::string_view kMagic = "FPCHUNK1";  // the last character is the version
+constexpr std::string_view kMagic = "FPCHUNK2";  // the last character is the version
 constexpr std::uint64_t kFixedHead = kMagic.size() + 8 + 4, kDigest = 8;
-constexpr std::uint64_t kLongestLabel = 1U << 20, kAuditBytes = 16;
+constexpr std::uint64_t kLongestLabel = 1U << 20, kAuditBytes = 8 * (4 + kAuditNumbers.size());
 
 std::string encode(const ChunkLabel& label) {
   ByteSink sink;
@@ -43,6 +43,28 @@ ChunkLabel decode_label(std::string_view bytes) {
   label.run_count = source.u64();
   source.end();
   return label;
+}
+
+std::string encode(const AuditRecord& audit) {
+  ensure(audit.outcome.has_value(), "an audit of this program says what the run came to");
+  ByteSink sink;
+  for (const std::uint64_t value : {audit.run_index, audit.checksum, std::uint64_t{audit.outcome->judged.failed},
+                                    std::uint64_t{audit.outcome->judged.unknown}})
+    sink.u64(value);
+  for (const auto member : kAuditNumbers) sink.u64(*audit.outcome.*member);
+  return sink.take();
+}
+
+AuditRecord decode_audit(std::string_view bytes) {
+  ByteSource source(bytes, "an audit of a chunk");
+  AuditRecord audit;
+  audit.run_index = source.u64();
+  audit.checksum = source.u64();
+  AuditedOutcome& outcome = audit.outcome.emplace();
+  outcome.judged.failed = static_cast<std::uint32_t>(source.u64());
+  outcome.judged.unknown = static_cast<std::uint32_t>(source.u64());
+  for (const auto member : kAuditNumbers) outcome.*member = source.u64();
+  return audit;
 }
 
 std::string number(std::uint64_t value) {
@@ -103,7 +125,7 @@ void write_chunk_file(const std::string& path, const ChunkLabel& label, const Ch
     put(sink.take());
   }
   put(number(audits.size()));
-  for (const AuditRecord& audit : audits) put(number(audit.run_index) + number(audit.checksum));
+  for (const AuditRecord& audit : audits) put(encode(audit));
   file << number(digest.value());
   file.close();
   if (!file) not_written(path);
@@ -186,12 +208,7 @@ std::vector<AuditRecord> ChunkFile::audits() {
   const std::uint64_t length = ByteSource(count, "a chunk").u64();
   if (length > size_ / kAuditBytes) damaged("it has room for fewer audits than it says");
   std::vector<AuditRecord> audits(length);
-  for (AuditRecord& audit : audits) {
-    const std::string bytes = take(kAuditBytes);
-    ByteSource source(bytes, "an audit of a chunk");
-    audit.run_index = source.u64();
-    audit.checksum = source.u64();
-  }
+  for (AuditRecord& audit : audits) audit = decode_audit(take(kAuditBytes));
   return audits;
 }
 

@@ -51,11 +51,12 @@ class Folder {
         block_(cells.size()) {}
 
   void add(const RunRecord& run) {
+    repeated_traces_ += run.repeats ? 1 : 0;
     FoldedCell& cell = block_[run.cell];
     if (is_folded(run, cell)) {
       cell.fold(run, row_checksum(run));
     } else {
-      cell.keep();
+      cell.keep(run.repeats);
       insert_kept_.bind(1, std::bit_cast<std::int64_t>(run.run_index));
       insert_kept_.run();
     }
@@ -63,9 +64,11 @@ class Folder {
     if (ends_replicate && (run.replicate + 1) % kReplicatesPerFold == 0) end_block();
   }
 
+  std::uint64_t repeated_traces() const { return repeated_traces_; }
+
   void end_block() {
     for (std::size_t cell = 0; cell < block_.size(); ++cell) {
-      if (block_[cell].runs() == 0) continue;
+      if (block_[cell].says_nothing()) continue;
       const FoldedRow row =
           row_of(block_[cell], block_number_ * block_.size() + cell, static_cast<std::uint32_t>(cell));
       bind_folded(insert_folded_, row, folded_checksum(row));
@@ -96,27 +99,19 @@ class Folder {
   std::set<std::tuple<std::string, ProbeSource, std::string>> met_;
   std::set<std::string> in_safe_mode_;
   Insert insert_folded_, insert_kept_;
-  std::uint64_t block_number_ = 0;
+  std::uint64_t block_number_ = 0, repeated_traces_ = 0;
   std::vector<FoldedCell> block_;  // by cell
 };
 
 }  // namespace
 
-std::uint64_t repeated_traces(SQLite::Database& db) {
-  std::vector<std::uint64_t> keys;  // eight bytes a run
-  SQLite::Statement rows(db, "SELECT cell, digest FROM live.runs");
-  while (rows.executeStep())
-    keys.push_back(trace_key(static_cast<std::uint32_t>(unsigned_of(rows, 0)), unsigned_of(rows, 1)));
-  std::ranges::sort(keys);
-  return static_cast<std::uint64_t>(keys.end() - std::unique(keys.begin(), keys.end()));
-}
-
-void fold_runs(SQLite::Database& db, const std::string& live_path, const MayFold& may_fold) {
+std::uint64_t fold_runs(SQLite::Database& db, const std::string& live_path, const MayFold& may_fold) {
   db.exec("CREATE TEMP TABLE kept (run_index INTEGER PRIMARY KEY)");
   const ArchiveReader live(live_path);
   Folder folder(db, live.cells(), may_fold);
   live.for_each_run([&](const RunRecord& run) { folder.add(run); });
   folder.end_block();
+  return folder.repeated_traces();
 }
 
 }  // namespace fleetproof

@@ -19,10 +19,8 @@ using MayFold = std::function<bool(const RunRecord& run)>;
 // `temp.kept` with the indices of all other runs. These are the runs that may not be folded. More runs keep their rows,
 // because a page may name them: the first one in which an agent meets something or is in safe mode; one whose audit
 // came out differently; one with a recording. So does one with another time or fleet than its cell has. Requires: the
-// live file is closed and attached to `db` as `live`. Throws SQLite::Exception, and what ArchiveReader throws.
-void fold_runs(SQLite::Database& db, const std::string& live_path, const MayFold& may_fold);
-
-// The number of runs of the live file whose trace another run of their cell had before.
-std::uint64_t repeated_traces(SQLite::Database& db);
+// live file is closed and attached to `db` as `live`. Returns how many runs have a trace that another run of their cell
+// had before. Throws SQLite::Exception, and what ArchiveReader throws.
+std::uint64_t fold_runs(SQLite::Database& db, const std::string& live_path, const MayFold& may_fold);
 
 }  // namespace fleetproof

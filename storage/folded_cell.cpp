@@ -7,8 +7,13 @@
 namespace fleetproof {
 namespace {
 
-// Of the first number of a run: 0 stands for a run that is kept, so the others begin at 1.
-constexpr std::uint64_t kHasClearance = 1, kHasSafeMode = 2, kBeyondContract = 4, kTransports = 8;
+// Of the first number of a run. 0 and 1 stand for runs that are kept, so the others begin at 2. Without repetitions, 0
+// alone does, and they begin at 1.
+constexpr std::uint64_t kKept = 0, kKeptRepetition = 1;
+constexpr std::uint64_t kHasClearance = 1, kHasSafeMode = 2, kBeyondContract = 4, kRepeats = 8, kTransports = 16;
+constexpr std::uint64_t kTransportsWithoutRepeats = 8;
+
+std::uint64_t first_folded(FoldEncoding encoding) { return encoding == FoldEncoding::WithRepeats ? 2 : 1; }
 
 // Seven bits a byte, the lowest first; the last byte has no top bit.
 void put_number(std::string& bytes, std::uint64_t value) {
@@ -30,6 +35,11 @@ void FoldedCell::meet(ProbeSource source, const std::string& name, std::uint64_t
   total.times += times;
 }
 
+void FoldedCell::keep(bool repeats) {
+  put_number(bytes_, repeats ? kKeptRepetition : kKept);
+  keeps_a_repetition_ |= repeats;
+}
+
 void FoldedCell::fold(const RunRecord& run, std::uint64_t checksum) {
   const Outcome& outcome = run.outcome;
   ensure(suits(outcome), "runs that are folded together are alike");
@@ -46,8 +56,9 @@ void FoldedCell::fold(const RunRecord& run, std::uint64_t checksum) {
 
   const auto& clearance_um = outcome.min_clearance_um;
   const std::uint64_t safe_mode_ns = outcome.counters.safe_mode_ns;
-  put_number(bytes_, 1 + outcome.counters.transports_done * kTransports + (clearance_um ? kHasClearance : 0) +
-                         (safe_mode_ns > 0 ? kHasSafeMode : 0) + (run.factors.in_contract() ? 0 : kBeyondContract));
+  put_number(bytes_, first_folded(FoldEncoding::WithRepeats) + outcome.counters.transports_done * kTransports +
+                         (clearance_um ? kHasClearance : 0) + (safe_mode_ns > 0 ? kHasSafeMode : 0) +
+                         (run.factors.in_contract() ? 0 : kBeyondContract) + (run.repeats ? kRepeats : 0));
   bytes_.push_back(static_cast<char>(static_cast<std::uint8_t>(checksum)));
   bytes_.push_back(static_cast<char>(static_cast<std::uint8_t>(checksum >> 8)));
   if (clearance_um) {
@@ -71,7 +82,8 @@ std::string FoldedCell::content() const {
   return content + bytes_;
 }
 
-UnfoldedCell::UnfoldedCell(std::string content) : content_(std::move(content)) {
+UnfoldedCell::UnfoldedCell(std::string content, FoldEncoding encoding)
+    : content_(std::move(content)), encoding_(encoding) {
   const std::uint64_t count = number();
   for (std::uint64_t i = 0; i < count; ++i) {
     MetTotal& total = met_.emplace_back();
@@ -82,18 +94,28 @@ UnfoldedCell::UnfoldedCell(std::string content) : content_(std::move(content)) {
   }
 }
 
-std::optional<FoldedRun> UnfoldedCell::next() {
-  const std::uint64_t first = number();
-  if (first == 0) return std::nullopt;
+bool UnfoldedCell::next_is_folded_and_new() const {
+  if (at_end()) return false;
+  const auto byte = static_cast<unsigned char>(content_[at_]);  // its lowest bits hold the flags
+  if (byte < first_folded(encoding_)) return false;
+  return encoding_ == FoldEncoding::WithoutRepeats || ((byte - first_folded(encoding_)) & kRepeats) == 0;
+}
+
+UnfoldedRun UnfoldedCell::next() {
+  const bool with_repeats = encoding_ == FoldEncoding::WithRepeats;
+  const std::uint64_t first = number(), kept = first_folded(encoding_);
+  if (first < kept) return {std::nullopt, first == kKeptRepetition};
+  const std::uint64_t said = first - kept;
   FoldedRun run;
-  run.transports_done = (first - 1) / kTransports;
-  run.in_contract = ((first - 1) & kBeyondContract) == 0;
+  run.transports_done = said / (with_repeats ? kTransports : kTransportsWithoutRepeats);
+  run.in_contract = (said & kBeyondContract) == 0;
+  run.repeats = with_repeats && (said & kRepeats) != 0;
   const std::string check = text(2);
   run.check = static_cast<std::uint16_t>(static_cast<unsigned char>(check[0]) |
                                          static_cast<unsigned>(static_cast<unsigned char>(check[1])) << 8);
-  if (((first - 1) & kHasClearance) != 0) run.min_clearance_um = static_cast<std::int64_t>(number());
-  if (((first - 1) & kHasSafeMode) != 0) run.safe_mode_ns = number();
-  return run;
+  if ((said & kHasClearance) != 0) run.min_clearance_um = static_cast<std::int64_t>(number());
+  if ((said & kHasSafeMode) != 0) run.safe_mode_ns = number();
+  return {run, run.repeats};
 }
 
 std::uint64_t UnfoldedCell::number() {

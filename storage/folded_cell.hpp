@@ -27,6 +27,7 @@ struct FoldedRun {
   std::uint64_t transports_done = 0, safe_mode_ns = 0;
   std::optional<std::int64_t> min_clearance_um;
   bool in_contract = true;  // the factors of the run itself
+  bool repeats = false;     // an earlier run of its cell had the same trace
   std::uint16_t check = 0;  // the lowest bits of the checksum that its row had
   friend bool operator==(const FoldedRun&, const FoldedRun&) = default;
 };
@@ -56,9 +57,11 @@ class FoldedCell {
  public:
   // The next replicate's run. Requires of all that are folded: the same simulated time and the same number of AGVs.
   void fold(const RunRecord& run, std::uint64_t checksum);
-  void keep() { bytes_.push_back('\0'); }
+  void keep(bool repeats);
 
   std::uint64_t runs() const { return runs_; }  // folded
+  // A row says nothing if all of its runs are kept and none repeats another one.
+  bool says_nothing() const { return runs_ == 0 && !keeps_a_repetition_; }
   std::uint64_t transports_done() const { return transports_done_; }
   std::uint64_t simulated_ns() const { return simulated_ns_; }  // of each folded run
   std::uint32_t agv_count() const { return agv_count_; }
@@ -72,20 +75,29 @@ class FoldedCell {
 
   std::uint64_t runs_ = 0, transports_done_ = 0, simulated_ns_ = 0;
   std::uint32_t agv_count_ = 0;
+  bool keeps_a_repetition_ = false;
   std::optional<std::int64_t> min_clearance_um_;
   std::map<std::pair<ProbeSource, std::string>, MetTotal> met_;
   std::string bytes_;  // of the runs
 };
 
+// How the bytes of a run say what it is: an earlier schema did not know which run repeats another one.
+enum class FoldEncoding : std::uint8_t { WithoutRepeats, WithRepeats };
+
+// The next run of a cell; nothing if it was kept.
+struct UnfoldedRun {
+  std::optional<FoldedRun> run;
+  bool repeats = false;
+};
+
 // Reads the content of a folded cell. Its functions throw BrokenFold.
 class UnfoldedCell {
  public:
-  explicit UnfoldedCell(std::string content);
+  UnfoldedCell(std::string content, FoldEncoding encoding);
 
   const std::vector<MetTotal>& met() const { return met_; }
-  // Of the next replicate; nothing if its run was kept.
-  std::optional<FoldedRun> next();
-  bool next_is_folded() const { return !at_end() && content_[at_] != '\0'; }
+  UnfoldedRun next();  // of the next replicate
+  bool next_is_folded_and_new() const;
   bool at_end() const { return at_ == content_.size(); }
 
  private:
@@ -93,6 +105,7 @@ class UnfoldedCell {
   std::string text(std::size_t size);
 
   std::string content_;
+  FoldEncoding encoding_;
   std::size_t at_ = 0;
   std::vector<MetTotal> met_;
 };

@@ -15,6 +15,10 @@
 namespace fleetproof {
 namespace {
 
+FoldEncoding encoding_of(std::int32_t schema) {
+  return schema < kFirstJudged ? FoldEncoding::WithoutRepeats : FoldEncoding::WithRepeats;
+}
+
 std::string name_of_row(const FoldedRow& row) { return fmt::format("the folded runs {}", row.place); }
 
 // A row and its checksum, which was right.
@@ -37,6 +41,7 @@ RunRecord known_of(const FoldedRun& run, const CellRecord& cell, std::uint64_t r
   known.outcome.agv_count = row.agv_count;
   known.outcome.counters.transports_done = run.transports_done;
   known.outcome.counters.safe_mode_ns = run.safe_mode_ns;
+  known.repeats = run.repeats;
   known.folded = true;
   return known;
 }
@@ -58,6 +63,7 @@ struct FoldedRows::Impl {
     UnfoldedCell runs;
   };
 
+  const std::int32_t schema;
   const std::vector<CellRecord>& cells;
   const VisitMet& visit_met;
   Query rows;
@@ -66,8 +72,9 @@ struct FoldedRows::Impl {
   std::optional<std::uint64_t> open_number;
   RowsDigest digest;
 
-  Impl(SQLite::Database& db, const std::vector<CellRecord>& of, const VisitMet& visit)
-      : cells(of),
+  Impl(SQLite::Database& db, std::int32_t of_schema, const std::vector<CellRecord>& of, const VisitMet& visit)
+      : schema(of_schema),
+        cells(of),
         visit_met(visit),
         rows(db, fmt::format("SELECT {} FROM folded ORDER BY place", kFoldedColumns)),
         more(rows.step()),
@@ -90,7 +97,7 @@ struct FoldedRows::Impl {
       if (row.place / cells.size() < number || row.place % cells.size() != row.cell || block[row.cell])
         throw BrokenFold(name_of_row(row) + " belong to no runs of the file");
       digest.add(checksum);
-      UnfoldedCell runs(row.content);
+      UnfoldedCell runs(row.content, encoding_of(schema));
       if (visit_met) visit_met(row.cell, runs.met());
       const std::uint32_t cell = row.cell;
       block[cell].emplace(Open{std::move(row), std::move(runs)});
@@ -98,18 +105,19 @@ struct FoldedRows::Impl {
   }
 };
 
-FoldedRows::FoldedRows(SQLite::Database& db, const std::vector<CellRecord>& cells, const VisitMet& visit_met)
-    : impl_(std::make_unique<Impl>(db, cells, visit_met)) {}
+FoldedRows::FoldedRows(SQLite::Database& db, std::int32_t schema, const std::vector<CellRecord>& cells,
+                       const VisitMet& visit_met)
+    : impl_(std::make_unique<Impl>(db, schema, cells, visit_met)) {}
 FoldedRows::~FoldedRows() = default;
 
-std::optional<RunRecord> FoldedRows::next(std::uint64_t run_index) {
+FoldedPlace FoldedRows::next(std::uint64_t run_index) {
   const std::uint64_t replicate = run_index / impl_->cells.size(), cell = run_index % impl_->cells.size();
   if (cell == 0 && replicate % kReplicatesPerFold == 0) impl_->open_block(replicate / kReplicatesPerFold);
   auto& open = impl_->block[cell];
-  if (!open) return std::nullopt;
-  const auto run = open->runs.next();
-  if (!run) return std::nullopt;
-  return known_of(*run, impl_->cells[cell], replicate, run_index, open->row);
+  if (!open) return {};
+  const auto [run, repeats] = open->runs.next();
+  if (!run) return {std::nullopt, repeats};
+  return {known_of(*run, impl_->cells[cell], replicate, run_index, open->row), repeats};
 }
 
 QuietReplicates FoldedRows::skip_quiet(std::uint64_t run_index) {
@@ -117,11 +125,11 @@ QuietReplicates FoldedRows::skip_quiet(std::uint64_t run_index) {
   impl_->open_block(replicate / kReplicatesPerFold);
   auto& block = impl_->block;
   QuietReplicates quiet;
-  const auto is_quiet = [](const auto& open) { return open && open->runs.next_is_folded(); };
+  const auto is_quiet = [](const auto& open) { return open && open->runs.next_is_folded_and_new(); };
   for (std::uint64_t left = kReplicatesPerFold - replicate % kReplicatesPerFold;
        left > 0 && std::ranges::all_of(block, is_quiet); --left) {
     quiet.by_cell.resize(block.size());
-    for (std::size_t cell = 0; cell < block.size(); ++cell) quiet.by_cell[cell].add(*block[cell]->runs.next());
+    for (std::size_t cell = 0; cell < block.size(); ++cell) quiet.by_cell[cell].add(*block[cell]->runs.next().run);
     ++quiet.replicates;
   }
   for (std::size_t cell = 0; cell < quiet.by_cell.size(); ++cell) {
@@ -137,16 +145,16 @@ std::uint64_t FoldedRows::digest() {
   return impl_->digest.value();
 }
 
-std::optional<KnownRun> find_folded(SQLite::Database& db, const std::vector<CellRecord>& cells,
+std::optional<KnownRun> find_folded(SQLite::Database& db, std::int32_t schema, const std::vector<CellRecord>& cells,
                                     std::uint64_t run_index) {
   const std::uint64_t replicate = run_index / cells.size(), cell = run_index % cells.size();
   Query rows(db, fmt::format("SELECT {} FROM folded WHERE place = ?", kFoldedColumns));
   rows.bind(1, static_cast<std::int64_t>(replicate / kReplicatesPerFold * cells.size() + cell));
   if (!rows.step()) return std::nullopt;
   const FoldedRow row = sound_row(rows).first;
-  UnfoldedCell runs(row.content);
+  UnfoldedCell runs(row.content, encoding_of(schema));
   for (std::uint64_t before = replicate % kReplicatesPerFold; before > 0; --before) (void)runs.next();
-  const auto run = runs.next();
+  const auto run = runs.next().run;
   if (!run) return std::nullopt;
   return KnownRun{known_of(*run, cells[cell], replicate, run_index, row), run->check};
 }

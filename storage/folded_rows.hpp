@@ -28,24 +28,33 @@ struct QuietRuns {
 
   void add(const FoldedRun& run);  // one more, of the same time and as many AGVs
 };
-// Consecutive replicates of which all runs are folded: nothing went wrong in any of them.
+// Consecutive replicates of which all runs are folded: nothing went wrong in any of them, and none of their runs
+// repeats an earlier one, as far as the file says.
 struct QuietReplicates {
   std::uint64_t replicates = 0;
   std::vector<QuietRuns> by_cell;
 };
 using VisitQuiet = std::function<void(const QuietReplicates& quiet)>;
 
-// The folded rows of a file, in order of run index. Its functions throw BrokenFold and SQLite::Exception. Threads: one.
+// What a file has at the place of a run. `known`: what is known of it (RunRecord::folded); nothing if it was kept.
+struct FoldedPlace {
+  std::optional<RunRecord> known;
+  bool repeats = false;  // an earlier run of its cell had the same trace
+};
+
+// The folded rows of a file of this schema, in order of run index. Its functions throw BrokenFold and
+// SQLite::Exception. Threads: one.
 class FoldedRows {
  public:
   // `cells` and `visit_met` outlive the object. Visits what a block met when its first run is asked for.
-  FoldedRows(SQLite::Database& db, const std::vector<CellRecord>& cells, const VisitMet& visit_met);
+  FoldedRows(SQLite::Database& db, std::int32_t schema, const std::vector<CellRecord>& cells,
+             const VisitMet& visit_met);
   ~FoldedRows();
   FoldedRows(const FoldedRows&) = delete;
   FoldedRows& operator=(const FoldedRows&) = delete;
 
-  // What is known of the run (RunRecord::folded); nothing if it was kept. Ask for all runs, in order of run index.
-  std::optional<RunRecord> next(std::uint64_t run_index);
+  // Ask for all runs, in order of run index.
+  FoldedPlace next(std::uint64_t run_index);
   // Instead, for whole replicates: as many as follow from this run on, perhaps none. Requires: it is the first of its
   // replicate.
   QuietReplicates skip_quiet(std::uint64_t run_index);
@@ -62,7 +71,7 @@ struct KnownRun {
   RunRecord run;
   std::uint16_t check = 0;
 };
-std::optional<KnownRun> find_folded(SQLite::Database& db, const std::vector<CellRecord>& cells,
+std::optional<KnownRun> find_folded(SQLite::Database& db, std::int32_t schema, const std::vector<CellRecord>& cells,
                                     std::uint64_t run_index);
 
 }  // namespace fleetproof

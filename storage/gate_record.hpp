@@ -14,8 +14,8 @@ namespace fleetproof {
 enum class Region : std::uint8_t { Contract, WorstCase, All };
 enum class GateKind : std::uint8_t { None, Rate };  // None: any failing run refutes. Rate: the bounds decide.
 // What is counted. World: one draw of all randomness, run in every cell; it fails if any of its runs fails. Run: the
-// runs of each cell; the worst cell decides. AgvHour: events per hour that an AGV is simulated; a world's exposure ends
-// at its first event.
+// runs of each cell; the worst cell decides. AgvHour: worlds, for a limit on failures per hour that an AGV is
+// simulated.
 enum class GateUnit : std::uint8_t { World, Run, AgvHour };
 // AnyTime: bounds that hold however often one looks, stops or extends. Fixed: exact bounds for the number of replicates
 // that was planned, and for no other.
@@ -63,7 +63,7 @@ constexpr const char* name_of(GateMethod method) {
 }
 
 // The decisions of an any-time gate as whole numbers, computed once before the first run: no rounding of a later
-// program or machine moves a verdict. Index: the number of failing units. A unit of AGV-hours is a microsecond.
+// program or machine moves a verdict. Index: the number of failing units.
 struct GateTable {
   std::vector<std::uint64_t> passes_from;    // the smallest number of units that meets the limit
   std::vector<std::uint64_t> refuted_up_to;  // the largest number of units that exceeds the limit; 0: none does

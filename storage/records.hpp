@@ -1,12 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/words.hpp"
+#include "core/outcome/end_point.hpp"
 #include "core/outcome/outcome.hpp"
 #include "storage/factors.hpp"
 #include "storage/gate_record.hpp"
@@ -86,6 +89,8 @@ struct CampaignRecord {
   std::uint64_t seed = 0, replicates = 0;
   std::string plan_json;  // the resolved campaign, layouts embedded by content: enough to build every scenario again
   std::uint64_t plan_hash = 0;  // of plan_json
+  double horizon_s = 0.0;       // of every run; part of plan_json
+  double audit_share = 0.0;     // of its runs that are simulated once more; part of plan_json
   EngineIdentity engine;
   // What the runs must meet, or the evidence is weak (reports/evidence/coverage.hpp explains the words). No word
   // contains a line end.
@@ -101,6 +106,9 @@ struct CampaignRecord {
   // "tugger and cart": pairs of kinds of bodies to which the safety distance does not apply
   std::vector<std::string> exempt_pairs;
   std::vector<std::string> plugin_agents;  // names of the agents that came from shared objects, without line ends
+  std::vector<std::string> deterministic_agents;  // those of them that declare that they always do the same
+  // The software whose verdict this is. Empty in files of schema 11 and older: those that a deciding gate names.
+  std::vector<std::string> agents_under_test;
   // Digests of rows are taken over blocks of so many runs. The chunks of shards are others (shards/chunk_grid.hpp).
   // Part of the campaign's identity; the number of runs is not, so that a campaign can grow.
   std::uint64_t chunk_runs = kChunkRuns;
@@ -123,6 +131,8 @@ struct RunRecord {
   std::uint64_t scenario_digest = 0;  // of the canonical scenario text
   FactorValues factors;               // the cell's, or what the replicate drew within its bounds
   Outcome outcome;
+  // An earlier run of its cell had the same trace. Known once the runs are read in their order.
+  bool repeats = false;
   // The run was folded: of its outcome only transports, safe mode, smallest clearance, time and AGVs are known. All
   // else is as in a run in which nothing went wrong. Of drawn factors, a bound of the cell stands for what was drawn,
   // within the contract if the run was.
@@ -135,11 +145,33 @@ struct RunRecord {
 // are simulated again from their seeds, and need no recordings.
 inline constexpr std::uint64_t kAuditsToPass = 20;
 
+// What a run came to that was simulated once more.
+struct AuditedOutcome {
+  JudgedOutcome judged;
+  std::uint64_t digest = 0;  // of the whole trace
+  std::uint64_t transports_done = 0, simulated_ns = 0, agv_count = 0;
+  std::uint64_t violations = 0, contacts = 0, incidents = 0;
+  friend bool operator==(const AuditedOutcome&, const AuditedOutcome&) = default;
+};
+// The numbers of it in the order in which files have them.
+inline constexpr std::array kAuditNumbers{&AuditedOutcome::digest,       &AuditedOutcome::transports_done,
+                                          &AuditedOutcome::simulated_ns, &AuditedOutcome::agv_count,
+                                          &AuditedOutcome::violations,   &AuditedOutcome::contacts,
+                                          &AuditedOutcome::incidents};
+
 // A run that was simulated once more, in another process: the checksum that its row would have had.
 struct AuditRecord {
   std::uint64_t run_index = 0;
   std::uint64_t checksum = 0;
+  std::optional<AuditedOutcome> outcome{};  // files of schema 11 and older do not have it
   friend bool operator==(const AuditRecord&, const AuditRecord&) = default;
+};
+AuditedOutcome audited_outcome(const RunRecord& run);
+
+// And whether it came out the same.
+struct AuditedRun {
+  AuditRecord audit;
+  bool same = false;
 };
 
 }  // namespace fleetproof

@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "core/base/error.hpp"
+#include "core/outcome/run_result.hpp"
 #include "storage/row_fields.hpp"
 
 namespace fleetproof {
@@ -36,6 +37,8 @@ void bind_run(Insert& insert, const RunRecord& run, std::uint64_t checksum) {
   to << run.run_index << run.cell << run.replicate << run.scenario_digest << run.factors;
   to << name_of(o.outcome_class());
   for (const RunEnd& end : kRunEnds) to << o.*end.flag;
+  const JudgedOutcome ends = judged(o);
+  to << ends.failed << ends.unknown;
   to << o.min_clearance_um << o.simulated_ns << o.agv_count << o.digest << o.running_digests << o.message;
   for (const auto& counter : kCounters) to << o.counters.*counter.member;
   to << checksum;
@@ -59,7 +62,14 @@ void bind_probe(Insert& insert, int first, const ProbeCount& probe) {
   to << probe.count;
 }
 
-void bind_audit(Insert& insert, const AuditRecord& audit) { Binder(insert) << audit.run_index << audit.checksum; }
+void bind_audit(Insert& insert, const AuditRecord& audit) {
+  Binder to(insert);
+  to << audit.run_index << audit.checksum;
+  const auto put = [&](auto value) { to << (audit.outcome ? std::optional(value(*audit.outcome)) : std::nullopt); };
+  put([](const AuditedOutcome& o) { return o.judged.failed; });
+  put([](const AuditedOutcome& o) { return o.judged.unknown; });
+  for (const auto number : kAuditNumbers) put([&](const AuditedOutcome& o) { return o.*number; });
+}
 
 void bind_chunk(Insert& insert, const ChunkRecord& chunk) {
   Binder(insert) << chunk.chunk << chunk.run_count << chunk.digest;
@@ -84,6 +94,8 @@ void read_run(const Row& row, StoredRun& into) {
   run.factors = from.factors();
   from.text(into.outcome_class);
   for (const RunEnd& end : kRunEnds) o.*end.flag = from.flag();
+  into.judged.failed = from.u32();
+  into.judged.unknown = from.u32();
   o.min_clearance_um = from.maybe_i64();
   o.simulated_ns = from.u64();
   o.agv_count = from.u32();
@@ -146,6 +158,11 @@ AuditRecord read_audit(const Row& row) {
   AuditRecord audit;
   audit.run_index = from.u64();
   audit.checksum = from.u64();
+  const auto failed = from.maybe_u32(), unknown = from.maybe_u32();
+  if (!failed || !unknown) return audit;
+  AuditedOutcome& outcome = audit.outcome.emplace();
+  outcome.judged = {*failed, *unknown};
+  for (const auto number : kAuditNumbers) outcome.*number = from.u64();
   return audit;
 }
 

@@ -40,6 +40,7 @@ void bind_folded(Insert& insert, const FoldedRow& row, std::uint64_t checksum);
 struct StoredRun {
   RunRecord run;
   std::string outcome_class;
+  JudgedOutcome judged;
   std::uint64_t checksum = 0;
 };
 // Throws EngineError if a field contains a value that this program never writes. Those that read into something replace

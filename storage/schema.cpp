@@ -38,6 +38,8 @@ CREATE TABLE campaign (
   plan_checksum INTEGER NOT NULL,
   chunk_runs INTEGER NOT NULL,
   keep TEXT NOT NULL,
+  deterministic_agents TEXT NOT NULL,
+  agents_under_test TEXT NOT NULL,
   run_count INTEGER,
   rows_digest INTEGER,
   repeated_traces INTEGER,
@@ -77,7 +79,9 @@ CREATE TABLE runs (
   replicate INTEGER NOT NULL,
   scenario_digest INTEGER NOT NULL{factors},
   outcome_class TEXT NOT NULL,
-{ends}  min_clearance_um INTEGER,
+{ends}  failed INTEGER NOT NULL,
+  unknown INTEGER NOT NULL,
+  min_clearance_um INTEGER,
   simulated_ns INTEGER NOT NULL,
   agv_count INTEGER NOT NULL,
   digest INTEGER NOT NULL,
@@ -122,7 +126,16 @@ CREATE TABLE probes (
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE audits (
   run_index INTEGER PRIMARY KEY,
-  checksum INTEGER NOT NULL
+  checksum INTEGER NOT NULL,
+  failed INTEGER,
+  unknown INTEGER,
+  digest INTEGER,
+  transports_done INTEGER,
+  simulated_ns INTEGER,
+  agv_count INTEGER,
+  violations INTEGER,
+  contacts INTEGER,
+  incidents INTEGER
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE recordings (
   run_index INTEGER PRIMARY KEY,
@@ -167,7 +180,9 @@ SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
                 max(f.min_clearance_um)) AS min_clearance_um,
        coalesce(sum(r.transports_done), 0) + coalesce(max(f.transports_done), 0) AS transports_done,
        (coalesce(sum(r.simulated_ns / 1000 * r.agv_count), 0) + coalesce(max(f.agv_us), 0)) / 3.6e9 AS agv_hours,
-       c.mean_outage_s, c.loss_to, c.delay_to_s, c.mean_outage_to_s{later_bounds}
+       c.mean_outage_s, c.loss_to, c.delay_to_s, c.mean_outage_to_s{later_bounds},
+       coalesce(sum(r.failed & {violation_bit} <> 0), 0) AS violation_failed_runs,
+       coalesce(sum(r.unknown & {violation_bit} <> 0), 0) AS violation_unknown_runs
 FROM cells c LEFT JOIN runs r ON r.cell = c.cell LEFT JOIN
      (SELECT cell, sum(runs) AS runs, sum(transports_done) AS transports_done,
              min(min_clearance_um) AS min_clearance_um,
@@ -182,7 +197,9 @@ SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss
 {run_counters},
        printf('%016x', r.digest) AS digest,
        printf('%016x', r.scenario_digest) AS scenario_digest,
-       r.mean_outage_s{later_factors}
+       r.mean_outage_s{later_factors},
+       {failed_words} AS failed,
+       {unknown_words} AS unknown
 FROM runs r JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_violations AS
 SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
@@ -205,7 +222,10 @@ SELECT p.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss
 FROM probes p JOIN runs r ON r.run_index = p.run_index JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_audits AS
 SELECT a.run_index, c.cell, a.run_index / n.count AS replicate, c.agent, c.layout, c.fleet_size,
-       coalesce(a.checksum = r.checksum, 1) AS same
+       coalesce(a.checksum = r.checksum, 1) AS same,
+       {audit_failed_words} AS failed,
+       {audit_unknown_words} AS unknown,
+       printf('%016x', a.digest) AS digest, a.transports_done, a.violations, a.contacts, a.incidents
 FROM audits a JOIN (SELECT count(*) AS count FROM cells) n JOIN cells c ON c.cell = a.run_index % n.count
      LEFT JOIN runs r ON r.run_index = a.run_index;
 )sql";
@@ -267,9 +287,9 @@ std::string end_list(const std::string& prefix) {
   return list;
 }
 
-std::string run_list(const std::string& factors) {
+std::string run_list(const std::string& factors, const std::string& judged = "failed, unknown") {
   return listed({"run_index", "cell", "replicate", "scenario_digest"}) + factors + ", " + "outcome_class, " +
-         end_list("") + ", " +
+         end_list("") + ", " + judged + ", " +
          listed({"min_clearance_um", "simulated_ns", "agv_count", "digest", "running_digests", "message"}) + ", " +
          counter_list("") + ", checksum";
 }
@@ -284,6 +304,17 @@ std::string incident_words(std::string_view IncidentKindInfo::*word) {
   for (const auto& info : incident_kinds())
     cases += fmt::format(" WHEN {} THEN '{}'", static_cast<std::uint32_t>(info.kind), info.*word);
   return cases;
+}
+
+// "violation contact": the end points of a set of bits. NULL stays NULL.
+std::string end_point_words(const std::string& set) {
+  std::string words;
+  for (const EndPoint end_point : kValuesOf<EndPoint>) {
+    if (end_point == EndPoint::Throughput) continue;
+    words += fmt::format("{}CASE WHEN {} & {} THEN ' {}' ELSE '' END", words.empty() ? "" : " || ", set,
+                         bit_of(end_point), name_of(end_point));
+  }
+  return fmt::format("CASE WHEN {} >= 0 THEN ltrim({}) END", set, words);
 }
 
 // With a fixed number of digits, so that the script stays the same to the byte. Requires: they hold the whole value.
@@ -309,6 +340,11 @@ std::string ddl_with(std::string_view runs_order) {
                                                   later_factor_names(&FactorInfo::key_to, "c.")),
                      fmt::arg("world", name_of(ProbeSource::World)), fmt::arg("agent", name_of(ProbeSource::Agent)),
                      fmt::arg("hazardous", kHazardousSpeed_um_s),
+                     fmt::arg("violation_bit", bit_of(EndPoint::Violation)),
+                     fmt::arg("failed_words", end_point_words("r.failed")),
+                     fmt::arg("unknown_words", end_point_words("r.unknown")),
+                     fmt::arg("audit_failed_words", end_point_words("a.failed")),
+                     fmt::arg("audit_unknown_words", end_point_words("a.unknown")),
                      fmt::arg("near", name_of(ViolationLevel::SafetyDistance)),
                      fmt::arg("contact", name_of(ViolationLevel::Contact)),
                      fmt::arg("hazardous_contact", name_of(ViolationLevel::HazardousContact)),
@@ -332,7 +368,20 @@ std::string live_schema_ddl() { return without_constraints(ddl_with("")); }
 
 std::string run_columns() { return run_list(factor_names(&FactorInfo::key)); }
 
-std::string run_values(std::int32_t schema) { return run_list(factor_values(&FactorInfo::key, schema)); }
+std::string run_values(std::int32_t schema) {
+  return run_list(factor_values(&FactorInfo::key, schema),
+                  schema < kFirstJudged ? "0 AS failed, 0 AS unknown" : "failed, unknown");
+}
+
+std::string audit_values(std::int32_t schema) {
+  std::string columns = kAuditColumns;
+  if (schema >= kFirstJudged) return columns;
+  const std::size_t first_newer = columns.find(", failed");
+  const auto newer = std::count(columns.begin() + static_cast<std::ptrdiff_t>(first_newer), columns.end(), ',');
+  columns.resize(first_newer);
+  for (auto left = newer; left > 0; --left) columns += ", NULL";
+  return columns;
+}
 
 std::string campaign_values(std::int32_t schema) {
   std::string columns = kCampaignColumns;
@@ -341,7 +390,12 @@ std::string campaign_values(std::int32_t schema) {
   };
   give(kFirstChunked, "chunk_runs", std::to_string(kChunkRuns));
   give(kFirstFolded, "keep", fmt::format("'{}'", name_of(Keep::All)));
-  return columns;
+  give(kFirstJudged, "deterministic_agents", "''");
+  give(kFirstJudged, "agents_under_test", "''");
+  const auto of_plan = [](std::string_view path, std::string_view name) {
+    return fmt::format(", CASE WHEN json_valid(plan_json) THEN json_extract(plan_json, '$.{}') END AS {}", path, name);
+  };
+  return columns + of_plan("horizon_s", "horizon_s") + of_plan("audit.share", "audit_share");
 }
 
 std::string gate_columns() { return gate_values(kSchemaVersion); }

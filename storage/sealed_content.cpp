@@ -6,8 +6,14 @@
 
 #include "core/base/error.hpp"
 #include "storage/rows.hpp"
+#include "storage/schema.hpp"
 
 namespace fleetproof {
+namespace {
+
+constexpr int kAuditsAlways = 2;  // the columns that an audit of every schema has
+
+}  // namespace
 
 SealedContent::SealedContent(std::uint64_t chunk_runs) : chunk_runs_(chunk_runs) {
   ensure(chunk_runs >= 1, "a chunk has at least one run");
@@ -31,15 +37,17 @@ void SealedContent::add_chunk(const ChunkRecord& chunk) {
   all_.add(chunk.digest);
 }
 
-void SealedContent::add_rest(SQLite::Database& db) {
+void SealedContent::add_rest(SQLite::Database& db, std::int32_t schema) {
   if (in_chunk_ > 0) end_chunk();
   all_.add(chunks_.size());  // the lists have no marks between them, but counts
   std::uint64_t count = 0;
-  SQLite::Statement audits(db, "SELECT run_index, checksum FROM main.audits ORDER BY run_index");
-  while (audits.executeStep()) {
-    all_.add(unsigned_of(audits, 0));
-    all_.add(unsigned_of(audits, 1));
-    ++count;
+  SQLite::Statement audits(db, fmt::format("SELECT {} FROM main.audits ORDER BY run_index",
+                                           schema < kFirstJudged ? "run_index, checksum" : kAuditColumns));
+  for (; audits.executeStep(); ++count) {
+    for (int column = 0; column < audits.getColumnCount(); ++column) {
+      if (column >= kAuditsAlways) all_.add(audits.isColumnNull(column) ? 0 : 1);
+      all_.add(unsigned_of(audits, column));
+    }
   }
   all_.add(count);
   SQLite::Statement recordings(db, "SELECT run_index, checksum, calls FROM main.recordings ORDER BY run_index");

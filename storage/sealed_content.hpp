@@ -30,7 +30,7 @@ class SealedContent {
   void add_chunk(const ChunkRecord& chunk);  // instead of its runs, which the file no longer has as rows
   // Takes the audits and recordings of the file. Call this after the last run. Throws EngineError if a recording does
   // not match its checksum. Throws SQLite::Exception.
-  void add_rest(SQLite::Database& db);
+  void add_rest(SQLite::Database& db, std::int32_t schema);
 
   const std::vector<ChunkRecord>& chunks() const { return chunks_; }
   std::uint64_t digest() const { return all_.value(); }

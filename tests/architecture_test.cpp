@@ -64,6 +64,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   const std::set<std::string> subjects = {"reports/attempts", "reports/comparison", "reports/findings",
                                           "reports/sensitivity"};
   for (const std::string& subject : subjects) rooms[subject] = pages;
+  rooms["reports/comparison"].insert("core/outcome");  // it compares runs one by one
   rooms["reports/markup"] = {"core/base", "reports/page"};
   rooms["reports/sections"] = with(pages, subjects);
   rooms["reports/formats"] = with(pages, {"reports/sections"});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "campaign/batch/stored_plan.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "storage/checksum.hpp"
@@ -27,7 +28,9 @@ int threads_for(double share, int workers) {
 }  // namespace
 
 AuditQueue::AuditQueue(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& program, int workers)
-    : share_(plan, programs), threads_wanted_(threads_for(plan.audit.share, workers)), wanted_(kFirstBatch) {
+    : share_(plan.seed, plan.audit.share, plan.cells(), plugin_agents(plan, programs)),
+      threads_wanted_(threads_for(plan.audit.share, workers)),
+      wanted_(kFirstBatch) {
   if (program.empty() || plan.audit.share <= 0.0) return;
   Hosting hosting;
   hosting.workers = threads_wanted_;
@@ -138,7 +141,7 @@ void AuditQueue::audit(const Batch& batch) {
     runs_->take_losses();  // what ended a worker here stands in the record, and so in the finding
     const std::uint64_t now = row_checksum(record);
     const std::lock_guard lock(mutex_);
-    findings_.push_back({{run_index, now}, now == checksum});
+    findings_.push_back({{run_index, now, audited_outcome(record)}, now == checksum});
     if (++found_ >= kAuditsToPass) wanted_ = kBatch;
     // Each costs eleven times the limit.
     if (record.outcome.hang && ++hung_ >= kMostHangs)

@@ -9,17 +9,11 @@
 #include <thread>
 #include <vector>
 
-#include "campaign/batch/audit_share.hpp"
 #include "campaign/workers/isolated_runs.hpp"
+#include "reports/evidence/audit_share.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
-
-// A run that was audited, and whether it came out the same.
-struct AuditedRun {
-  AuditRecord audit;
-  bool same = false;
-};
 
 // Simulates a share of the finished runs once more: in processes that are started afresh, with other addresses, other
 // bytes in fresh memory, and in another order. Works beside the campaign, on threads of its own.
@@ -37,8 +31,6 @@ class AuditQueue {
   // that no audit has a lower limit than its run had.
   // True: it will be audited, unless the queue fails or is told to abandon.
   bool offer(const RunRecord& run, std::uint64_t slowest_cpu_ns = 0);
-  // An earlier session has audited the run. Call this before start().
-  void forget(std::uint64_t run_index) { waiting_.erase(run_index); }
   void start();
 
   void no_more_runs();  // what waits is audited, in batches of any size

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <unordered_set>
 
 #include "campaign/batch/audit_counts.hpp"
 #include "campaign/batch/same_campaign.hpp"
@@ -31,6 +32,7 @@ class CampaignPolicy final : public SessionPolicy {
         verdict_(stored),
         archive_(path, stored, session.options().overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
     session_.progress().planned = plan.run_count();
+    if (session_.options().audit_program.empty()) verdict_.audits_end();
     for (std::size_t agent = 0; agent < audit_counts_.agent_count(); ++agent)
       session_.runs().record(agent, audit_counts_.needs_recordings(agent));
   }
@@ -52,8 +54,13 @@ class CampaignPolicy final : public SessionPolicy {
     count(finding);
   }
 
+  bool is_far_ahead() const override { return verdict_.waits_for_audits() && verdict_.waiting_runs() >= kLiveWindow; }
+
   void tick() override {
     const auto now = Clock::now();
+    if (!session_.audits().failure().empty()) verdict_.audits_end();
+    if (!verdict_.waits_for_audits()) last_without_waiting_ = now;
+    if (now - last_without_waiting_ >= std::chrono::milliseconds(200)) session_.audits().hurry();
     if (now - last_commit_ < std::chrono::seconds(1)) return;  // even while one slow run lets no other finish
     last_commit_ = now;
     archive_.commit();
@@ -64,7 +71,7 @@ class CampaignPolicy final : public SessionPolicy {
   // The gap-free prefix of runs becomes the results file.
   void publish(CampaignResult& result, Keep keep) {
     result.stored = stop_length().value_or(ledger_.prefix_length());
-    const bool goes_on = !result.complete() || result.progress.audits_open > 0;
+    const bool goes_on = !result.complete() || result.progress.audits_open > 0 || !result.audit_failure.empty();
     archive_.publish(result.stored, keep == Keep::Failing && !goes_on ? MayFold(is_quiet) : MayFold());
   }
 
@@ -76,15 +83,16 @@ class CampaignPolicy final : public SessionPolicy {
               stored_runs_are_ours_ = has_one_engine(stored.engine, continued.engine);
               require_same_campaign(path, stored, continued, session_.options().allow_drift);
             },
-            [this](const RunRecord& run) {
-              session_.count(run);
-              count(run);
-              if (stored_runs_are_ours_) session_.audits().offer(run);  // another engine's run may well differ
-            },
             [this](const AuditRecord& audit, bool same) {
               ++session_.progress().audited;
               count({audit, same});
-              session_.audits().forget(audit.run_index);
+              audited_before_.insert(audit.run_index);
+            },
+            [this](const RunRecord& run) {
+              session_.count(run);
+              count(run);
+              // Another engine's run may well differ.
+              if (stored_runs_are_ours_ && !audited_before_.contains(run.run_index)) session_.audits().offer(run);
             }};
   }
 
@@ -95,6 +103,7 @@ class CampaignPolicy final : public SessionPolicy {
 
   void count(const AuditedRun& finding) {
     audit_counts_.add(finding);
+    if (session_.options().until_verdict) verdict_.add(finding);
     const std::size_t agent = audit_counts_.agent_of(finding.audit.run_index);
     session_.runs().record(agent, audit_counts_.needs_recordings(agent));
   }
@@ -110,10 +119,11 @@ class CampaignPolicy final : public SessionPolicy {
   Session& session_;
   RunLedger ledger_;
   bool stored_runs_are_ours_ = true;
+  std::unordered_set<std::uint64_t> audited_before_;  // in an earlier session
   AuditCounts audit_counts_;
   VerdictWatch verdict_;
   ArchiveWriter archive_;
-  Clock::time_point last_commit_ = Clock::now();
+  Clock::time_point last_commit_ = Clock::now(), last_without_waiting_ = last_commit_;
 };
 
 // Nothing is left to do in a folded file: the campaign was complete.

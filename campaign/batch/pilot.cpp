@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "campaign/batch/audit_share.hpp"
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/workers/run_host.hpp"
 
@@ -52,11 +51,11 @@ class Costs {
 // Each agent has as many cells as the others; its first runs are audited in any case.
 double first_audits_s(const CampaignPlan& plan, const AgentPrograms& programs, const std::vector<CellCost>& cells) {
   if (plan.audit.share <= 0.0) return 0.0;
-  const AuditShare share(plan, programs);
+  const AuditShare share(plan.seed, plan.audit.share, plan.cells(), plugin_agents(plan, programs));
   const std::size_t agents = plan.agents.size();
   double sum_s = 0.0;
   for (std::size_t cell = 0; cell < cells.size(); ++cell)
-    sum_s += cells[cell].mean_s * static_cast<double>(share.first_runs(agent_of_run(cell, agents)));
+    sum_s += cells[cell].mean_s * static_cast<double>(share.first_runs(static_cast<std::uint32_t>(cell)));
   return sum_s * static_cast<double>(agents) / static_cast<double>(cells.size());
 }
 

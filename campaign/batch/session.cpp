@@ -65,7 +65,8 @@ void Session::simulate(SessionPolicy& policy, TaskRange places) {
   pool.take_all([&](std::uint64_t, const RunRecord& run) { take(policy, run); },
                 [&] {
                   look();
-                  while (audits_.is_far_behind() && !stopped_) {  // with a large share the audits set the pace
+                  // With a large share the audits set the pace.
+                  while ((audits_.is_far_behind() || policy.is_far_ahead()) && !stopped_) {
                     std::this_thread::sleep_for(std::chrono::milliseconds(5));
                     look();
                   }
@@ -75,11 +76,13 @@ void Session::simulate(SessionPolicy& policy, TaskRange places) {
   result_.progress.elapsed_s = elapsed_s();
 }
 
-// Audits that a stop leaves open are done by the session that goes on.
+// A verdict needs the audits of its runs: after a stop they get what is left of the time that runs get. What is open
+// then is done by the session that goes on.
 void Session::finish_audits(SessionPolicy& policy) {
   audits_.no_more_runs();
   while (!audits_.idle()) {
-    if (policy.piece() == 0 && must_stop(options_)) break;
+    if (policy.piece() == 0 && !stopped_ && must_stop(options_)) stopped_ = Clock::now();
+    if (stopped_ && Clock::now() - *stopped_ >= kDrain) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     tick_if_due(policy, [] { return std::vector<RunUnderWay>(); });
   }

@@ -81,6 +81,8 @@ class SessionPolicy {
   virtual void keep(const RunRecord& run, bool audited) = 0;
   virtual void keep(const AuditedRun& finding) = 0;
   virtual void tick() = 0;  // about ten times a second
+  // Whether no more runs should finish before their audits do.
+  virtual bool is_far_ahead() const { return false; }
   // Whether the results so far end the session.
   virtual bool is_decided() const { return false; }
   // If a session is asked to stop, each piece of so many places that was begun comes to its end, with its audits. 0: no

@@ -29,9 +29,31 @@ void VerdictWatch::add(const RunRecord& run) {
   if (decided_length_) return;
   RunRecord& kept = ahead_.emplace(run.run_index, run).first->second;
   kept.recording.clear();
+  advance();
+}
+
+void VerdictWatch::add(const AuditedRun& audit) {
+  if (decided_length_ || audit.audit.run_index < evidence_.runs()) return;
+  evidence_.know(audit);
+  advance();
+}
+
+void VerdictWatch::audits_end() {
+  audits_come_ = false;
+  advance();
+}
+
+bool VerdictWatch::waits_for_audits() const {
+  return !decided_length_ && !ahead_.empty() && ahead_.begin()->first == evidence_.runs();
+}
+
+void VerdictWatch::advance() {
   for (auto next = ahead_.begin(); next != ahead_.end() && next->first == evidence_.runs() && !decided_length_;
        next = ahead_.erase(next)) {
-    evidence_.add(next->second);
+    RunRecord& run = next->second;
+    if (is_open(run)) return;
+    run.repeats = !seen_.add(run);
+    evidence_.add(run);
     const bool replicate_ends = evidence_.runs() % evidence_.cells().size() == 0;
     if (replicate_ends && overall_verdict(evidence_, evidence_.judge_all()) != Verdict::NotDemonstrated)
       decided_length_ = evidence_.runs();

@@ -8,6 +8,7 @@
 
 #include "reports/evidence/evidence.hpp"
 #include "storage/records.hpp"
+#include "storage/seen_traces.hpp"
 
 namespace fleetproof {
 
@@ -34,18 +35,29 @@ class RunLedger {
 };
 
 // Says when a campaign has its verdict, with the code that the report judges with. Runs are judged in the order of
-// their index, whatever the order in which they finish: otherwise short runs would be over-represented. Threads: one.
+// their index, whatever the order in which they finish: otherwise short runs would be over-represented. A run that is
+// due for an audit waits for it. Threads: one.
 class VerdictWatch {
  public:
   explicit VerdictWatch(const StoredPlan& plan) : evidence_(plan) {}
 
   void add(const RunRecord& run);
+  void add(const AuditedRun& audit);
+  void audits_end();  // no audit is waited for; those that are due are missing then
+  // The next run in order is here, and only its audit is missing.
+  bool waits_for_audits() const;
+  std::size_t waiting_runs() const { return ahead_.size(); }
   // How many runs the campaign needed to be demonstrated or violated, in whole replicates. Empty until then.
   std::optional<std::uint64_t> decided_length() const { return decided_length_; }
 
  private:
+  void advance();
+  bool is_open(const RunRecord& run) const { return audits_come_ && evidence_.audits().is_awaited(run); }
+
   Evidence evidence_;
-  std::map<std::uint64_t, RunRecord> ahead_;  // of runs whose predecessors are not finished
+  SeenTraces seen_;
+  bool audits_come_ = true;
+  std::map<std::uint64_t, RunRecord> ahead_;  // of runs whose predecessors or audits are not finished
   std::optional<std::uint64_t> decided_length_;
 };
 

@@ -28,6 +28,7 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
   record.replicates = plan.replicates;
   record.plan_json = plan_text(plan);
   record.plan_hash = name_hash(record.plan_json);
+  record.horizon_s = plan.horizon_s;
   record.required_probes = plan.probes_to_meet();
   if (plan.is_drawn()) record.sampling = name_of(plan.sampling);
   for (const Stream stream : plan.held_streams) record.held_streams.emplace_back(name_of(stream));
@@ -35,7 +36,16 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
   record.exempt_purposes = purposes_text(plan.law.exempt_purposes);
   record.exempt_radius_m = plan.law.exempt_radius_m;
   for (const ExemptPair& pair : plan.law.exempt_pairs) record.exempt_pairs.push_back(text_of(pair));
+  record.audit_share = plan.audit.share;
   record.plugin_agents = plugin_agents(plan, programs);
+  std::vector<bool> is_plugin;
+  for (const AgentFactor& agent : plan.agents) {
+    const AgentProgram& program = programs.program(agent.program, "factors.agents");
+    is_plugin.push_back(program.is_plugin());
+    if (program.is_plugin() && (program.flags & FP_DETERMINISTIC) != 0)
+      record.deterministic_agents.push_back(agent.name);
+  }
+  record.agents_under_test = agents_under_test(plan, is_plugin);
   record.keep = plan.keep;
   record.engine = engine_identity();
   for (const std::string& plugin : programs.plugin_identities()) record.engine.libraries += ", plug-in " + plugin;
@@ -45,9 +55,7 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
 StoredPlan stored_plan(const CampaignPlan& plan, const AgentPrograms& programs) {
   StoredPlan stored{campaign_record(plan, programs), plan.cells(), plan.gates};
   stored.gates = Evidence(stored).gates();  // with their tables
-  std::vector<bool> is_plugin;
-  for (const AgentFactor& agent : plan.agents) is_plugin.push_back(programs.is_plugin(agent.program));
-  const std::vector<std::string> judged = agents_under_test(plan, is_plugin);
+  const std::vector<std::string>& judged = stored.campaign.agents_under_test;
   for (GateRecord& gate : stored.gates) gate.decides = std::ranges::find(judged, gate.agent) != judged.end();
   return stored;
 }

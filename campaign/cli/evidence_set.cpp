@@ -141,18 +141,15 @@ void write_runs(EvidenceFolder& folder, const ArchiveReader& archive, const Repo
   std::vector<std::ofstream> files;
   for (const CsvTable& table : tables) write_heading(files.emplace_back(folder.open(table.file)), table);
   RunsToReplay replays;
-  DuplicateCheck duplicates;
   archive.for_each_run([&](const RunRecord& run) {
     const CellRecord& cell = archive.cells()[run.cell];
     for (std::size_t i = 0; i < tables.size() && !run.folded; ++i) write_rows(files[i], tables[i], run, cell);
-    replays.add(run, is_under_test(archive.gates(), cell.agent));
-    duplicates.add(run);
+    replays.add(run, is_under_test(archive.plan(), cell.agent));
   });
-  if (const auto repeated = archive.repeated_traces()) duplicates.know_repeated(*repeated);
   for (std::size_t i = 0; i < tables.size(); ++i) folder.close(files[i], tables[i].file);
   folder.write("replay.txt", replays.text(input));
   folder.write("columns.csv", csv_dictionary());
-  folder.write("validity.txt", validity_text(input, duplicates));
+  folder.write("validity.txt", validity_text(input));
 }
 
 }  // namespace

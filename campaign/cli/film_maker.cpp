@@ -99,7 +99,7 @@ html::FilmStrip without_frames(const std::string& why) {
 std::map<std::uint64_t, html::FilmStrip> film_strips(const ArchiveReader& archive, const std::string& archive_path,
                                                      const FailureGroups& failures) {
   std::map<std::uint64_t, html::FilmStrip> strips;
-  const auto groups = failures.list(archive.gates());
+  const auto groups = failures.list(archive.plan());
   if (groups.empty()) return strips;
   std::unique_ptr<FilmMaker> maker;
   std::string no_plan;

@@ -41,7 +41,8 @@ struct Forecast {
   Reach file;                                     // the replicates of the file
   std::optional<Reach> budget;                    // those that fit into --max-time
   std::vector<std::vector<std::uint32_t>> gates;  // the cells that each gate judges
-  std::vector<GateRecord> rules;                  // the gates, with their tables
+  std::vector<GateCells> gate_cells;
+  std::vector<GateRecord> rules;  // the gates, with their tables
 };
 
 // The part of a campaign's time that some cells take.
@@ -109,24 +110,12 @@ std::vector<Cost> most_expensive_cells(const Forecast& forecast) {
 
 bool counts_only(const Forecast& forecast) { return forecast.plan.kind == CampaignKind::Search; }
 
-// A replicate is one unit of a gate, or so many microseconds of AGVs.
-std::uint64_t units_of_replicate(const Forecast& forecast, std::size_t index) {
-  if (forecast.rules[index].unit != GateUnit::AgvHour) return 1;
-  const std::vector<CellRecord> cells = forecast.plan.cells();
-  double agv_s = 0.0;
-  for (const std::uint32_t cell : forecast.gates[index]) agv_s += cells[cell].fleet_size * forecast.plan.horizon_s;
-  return static_cast<std::uint64_t>(agv_s * 1e6);
-}
-
 double bound_without_failure(const Forecast& forecast, std::size_t index, std::uint64_t replicates) {
-  return gate_bounds(forecast.rules[index], 0, replicates * units_of_replicate(forecast, index)).upper;
+  return gate_bounds(forecast.rules[index], 0, replicates, forecast.gate_cells[index]).upper;
 }
 
 std::optional<std::uint64_t> replicates_without_failure(const Forecast& forecast, std::size_t index) {
-  const GateRecord& gate = forecast.rules[index];
-  const auto units = units_to_pass(gate, 0, 0);
-  const std::uint64_t each = units_of_replicate(forecast, index);
-  return units ? std::optional((*units + each - 1) / std::max<std::uint64_t>(each, 1)) : std::nullopt;
+  return units_to_pass(forecast.rules[index], 0, 0, forecast.gate_cells[index]);
 }
 
 void print_gate(const Forecast& forecast, std::size_t index) {
@@ -243,8 +232,10 @@ int plan(const PlanWords& words) {
     forecast.budget = {forecast.pilot.replicates_within(time_s), time_s};
   }
   const Evidence evidence(stored_plan(forecast.plan, programs));
-  for (std::size_t gate = 0; gate < forecast.plan.gates.size(); ++gate)
+  for (std::size_t gate = 0; gate < forecast.plan.gates.size(); ++gate) {
     forecast.gates.push_back(evidence.cells_of(gate));
+    forecast.gate_cells.push_back(evidence.gate_cells(gate));
+  }
   forecast.rules = evidence.gates();
   words.json ? print_json(forecast) : print_text(words, forecast);
   return kDemonstrated;

@@ -92,10 +92,8 @@ struct AuditSetup {
   friend bool operator==(const AuditSetup&, const AuditSetup&) = default;
 };
 
-// Agents vary fastest (CampaignPlan::cells): the position of the agent of a run, or of a cell, in CampaignPlan::agents,
-// and the number of the run among those of its agent.
+// Agents vary fastest (CampaignPlan::cells): the position of the agent of a run, or of a cell, in CampaignPlan::agents.
 constexpr std::size_t agent_of_run(std::uint64_t run_index, std::size_t agents) { return run_index % agents; }
-constexpr std::uint64_t number_within_agent(std::uint64_t run_index, std::size_t agents) { return run_index / agents; }
 
 // Everything that decides the outcomes of a campaign: no path, no number of jobs. And `keep`, which decides nothing.
 struct CampaignPlan {

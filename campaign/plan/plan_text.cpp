@@ -266,6 +266,8 @@ CampaignPlan parse_plan(const std::string& text) {
     if (json.is_discarded()) throw EngineError("the plan in the archive cannot be read: it is no JSON");
     CampaignPlan plan;
     PlanReader().read(json, plan);
+    if (plan.agents.empty() || plan.cell_count() == 0)
+      throw EngineError("the plan in the archive cannot be read: it has no agent or no cell");
     return plan;
   } catch (const Json::exception& error) {
     throw EngineError(fmt::format("the plan in the archive cannot be read: {}", error.what()));

@@ -9,7 +9,8 @@
 namespace fleetproof {
 
 // What a run may fail, and what a gate of a campaign counts. Incidents name the end point that they fail
-// (incident.hpp); violations and the flags of an outcome decide the others.
+// (incident.hpp); violations and the flags of an outcome decide the others. Results files store the numbers: a new one
+// stands at the end.
 enum class EndPoint : std::uint8_t {
   Violation,
   Contact,
@@ -87,5 +88,13 @@ static_assert(
 
 constexpr const EndPointInfo& info_of(EndPoint end_point) { return kEndPoints.at(static_cast<std::size_t>(end_point)); }
 constexpr bool is_stall(EndPoint end_point) { return info_of(end_point).stall_weight > 0; }
+
+// The end points that a run failed, and those of which nothing is known, as sets of bits (bit_of). Throughput, which
+// takes more than one run, is in neither.
+struct JudgedOutcome {
+  std::uint32_t failed = 0, unknown = 0;
+  friend bool operator==(const JudgedOutcome&, const JudgedOutcome&) = default;
+};
+constexpr std::uint32_t bit_of(EndPoint end_point) { return 1U << static_cast<unsigned>(end_point); }
 
 }  // namespace fleetproof

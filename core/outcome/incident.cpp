@@ -111,4 +111,9 @@ bool is_fallen_load(const Incident& incident) {
   return incident.kind == IncidentKind::ForeignBody && incident.value == kFallenLoad;
 }
 
+SimTime surely_began(const Incident& incident) {
+  const bool slow = incident.kind == IncidentKind::Livelock || incident.kind == IncidentKind::Starvation;
+  return slow ? incident.last : incident.first;
+}
+
 }  // namespace fleetproof

@@ -72,4 +72,8 @@ bool is_load_drop(const Incident& incident);
 inline constexpr std::int64_t kObstacle = 0, kFallenLoad = 1;  // its values
 bool is_fallen_load(const Incident& incident);
 
+// The instant from which the incident was there without doubt. A livelock or starvation is dated from the last
+// progress, long before anybody could call it one: whatever happens until its end may be its cause.
+SimTime surely_began(const Incident& incident);
+
 }  // namespace fleetproof

@@ -29,8 +29,9 @@ EnvelopeGrid grid_of(const std::vector<const Condition*>& places, std::size_t co
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (i % columns == 0) grid.emplace_back();
     const Condition* place = places[i];
-    grid.back().push_back(place == nullptr ? EnvelopeCell{}
-                                           : EnvelopeCell{place->pool.failing_or_unknown, place->pool.units});
+    grid.back().push_back(place == nullptr
+                              ? EnvelopeCell{}
+                              : EnvelopeCell{place->pool.worlds.failing_or_unknown, place->pool.worlds.counted});
   }
   return grid;
 }

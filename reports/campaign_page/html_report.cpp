@@ -119,7 +119,7 @@ Element worst_of_group(const HtmlInput& input, const FailureGroup& group) {
 // its replay line and its strip, if there is one.
 Element failure_part(const HtmlInput& input) {
   Element part = titled(kFailuresTitle);
-  auto groups = input.report.failures.list(input.report.evidence.gates());
+  auto groups = input.report.failures.list(input.report.evidence.plan());
   if (groups.empty()) return part.add(paragraph("No run failed."));
   const std::size_t all = groups.size();
   groups.resize(std::min(all, kMostFailureGroups));

@@ -45,13 +45,15 @@ double shade_of_bound(double upper) {
 }
 
 MapField risk_field(const Condition& condition, const Evidence& evidence) {
-  const auto& pool = condition.pool;
-  if (pool.units == 0) return {};
+  const UnitCount& worlds = condition.pool.worlds;
+  if (worlds.units == 0) return {};
   if (evidence.counts_only()) {
-    const auto failing = pool.failing_or_unknown;
-    return {fmt::format("{}/{}", failing, pool.units), "counts only", failing > 0 ? 0.75 : 0.0};
+    const auto failing = worlds.failing_or_unknown;
+    return {fmt::format("{}/{}", failing, worlds.units), "counts only", failing > 0 ? 0.75 : 0.0};
   }
-  const Estimate claim = estimate(bound_rule(evidence, condition.agent), pool.failing_or_unknown, pool.units);
+  const Estimate claim = estimate(bound_rule(evidence, condition.agent), worlds.failing_or_unknown, worlds.counted);
+  if (is_always_the_same(worlds))
+    return {fmt::format("{}/{}", claim.failing, claim.units), "always the same", claim.failing > 0 ? 0.75 : 0.0};
   return {fmt::format("{}/{}", claim.failing, claim.units), "≤ " + rounded_up(claim.upper),
           shade_of_bound(claim.upper)};
 }

@@ -14,7 +14,7 @@ bool ComparedRun::is_clean() const {
 std::vector<std::string> agents_to_compare(const ArchiveReader& archive) {
   std::vector<std::string> agents;
   for (const CellRecord& cell : archive.cells()) {
-    if (is_under_test(archive.gates(), cell.agent) && std::ranges::find(agents, cell.agent) == agents.end())
+    if (is_under_test(archive.plan(), cell.agent) && std::ranges::find(agents, cell.agent) == agents.end())
       agents.push_back(cell.agent);
   }
   return agents;

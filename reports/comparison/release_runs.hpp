@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/evidence/run_result.hpp"
+#include "core/outcome/run_result.hpp"
 #include "storage/archive_reader.hpp"
 
 namespace fleetproof {

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "reports/evidence/run_result.hpp"
+#include "core/outcome/run_result.hpp"
 
 namespace fleetproof {
 namespace {
@@ -46,40 +46,38 @@ std::vector<std::pair<BreakdownKey, std::vector<std::uint32_t>>> grouped_cells(c
 
 }  // namespace
 
-Breakdown::Breakdown(const std::vector<CellRecord>& cells)
-    : tallies_(cells.size()), pending_tallies_(cells.size()), groups_of_cell_(cells.size()) {
-  for (auto& [key, members] : grouped_cells(cells)) {
+Breakdown::Breakdown(const StoredPlan& plan)
+    : tallies_(plan.cells.size()), pending_tallies_(plan.cells.size()), groups_of_cell_(plan.cells.size()) {
+  for (auto& [key, members] : grouped_cells(plan.cells)) {
     for (const std::uint32_t cell : members) groups_of_cell_[cell].push_back(groups_.size());
-    Pool hours;
-    hours.rule.unit = GateUnit::AgvHour;
-    hours.cells = members;
-    groups_.push_back({key, PoolCounter(std::move(hours))});
+    const GateCells cells = gate_cells(plan, members);
+    Pool pool;
+    pool.cells = std::move(members);
+    groups_.push_back({key, cells, PoolCounter(std::move(pool))});
   }
 }
 
 void Breakdown::add(const RunRecord& run) {
   const RunResult violation = result_of(run.outcome, EndPoint::Violation);
-  pending_tallies_[run.cell] = Tally::of(run.outcome, violation);
+  pending_tallies_[run.cell] = Tally::of(run, violation);
   const bool stalled = stalls(run.outcome);
   for (const std::size_t index : groups_of_cell_[run.cell]) {
     Group& group = groups_[index];
-    group.events.add(run, violation);
+    group.worlds.add(run, violation);
     group.stalls |= stalled;
   }
   if (run.cell + 1 == groups_of_cell_.size()) finish_replicate();
 }
 
 void Breakdown::add(const QuietReplicates& quiet) {
-  replicates_ += quiet.replicates;
-  for (Group& group : groups_) group.events.add(quiet);
+  for (Group& group : groups_) group.worlds.add(quiet);
   for (std::size_t cell = 0; cell < tallies_.size(); ++cell) tallies_[cell].add(quiet.by_cell[cell]);
 }
 
 void Breakdown::finish_replicate() {
-  ++replicates_;
   for (std::size_t cell = 0; cell < tallies_.size(); ++cell) tallies_[cell].add(pending_tallies_[cell]);
   for (Group& group : groups_) {
-    group.events.finish_replicate();
+    group.worlds.finish_replicate();
     group.stalled += std::exchange(group.stalls, false) ? 1 : 0;
   }
 }
@@ -88,11 +86,8 @@ std::vector<BreakdownRow> Breakdown::rows() const {
   std::vector<BreakdownRow> list;
   for (const Group& group : groups_) {
     Tally tally;
-    for (const std::uint32_t cell : group.events.pool().cells) tally.add(tallies_[cell]);
-    Pool worlds = group.events.pool();
-    worlds.rule.unit = GateUnit::World;
-    worlds.units = worlds.most_units = replicates_;
-    list.push_back({group.key, tally, std::move(worlds), group.events.pool(), group.stalled,
+    for (const std::uint32_t cell : group.worlds.pool().cells) tally.add(tallies_[cell]);
+    list.push_back({group.key, tally, group.worlds.pool(), group.cells, group.stalled,
                     static_cast<double>(tally.longest_ns) / 1e9});
   }
   return list;

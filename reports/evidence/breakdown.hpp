@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/evidence/hourly_rate.hpp"
 #include "reports/evidence/pool.hpp"
 #include "reports/evidence/tally.hpp"
 #include "storage/records.hpp"
@@ -23,7 +24,7 @@ struct BreakdownRow {
   BreakdownKey key;
   Tally tally;                // over complete replicates, as all counts here
   Pool violations;            // worlds with a violation or an unknown outcome
-  Pool violations_per_hour;   // the same events by the time at risk of one
+  GateCells cells;            // those of the row
   std::uint64_t stalled = 0;  // worlds with a deadlock, livelock or starvation that nothing else explains
   double run_length_s = 0.0;  // the longest run
 };
@@ -32,7 +33,7 @@ struct BreakdownRow {
 // not matter. Threads: one.
 class Breakdown {
  public:
-  explicit Breakdown(const std::vector<CellRecord>& cells);
+  explicit Breakdown(const StoredPlan& plan);
   // Runs in order of their index, without gaps.
   void add(const RunRecord& run);
   void add(const QuietReplicates& quiet);  // instead of their runs
@@ -42,13 +43,13 @@ class Breakdown {
  private:
   struct Group {
     BreakdownKey key;
-    PoolCounter events;  // of the unit AgvHour: its events are worlds
+    GateCells cells;
+    PoolCounter worlds;
     std::uint64_t stalled = 0;
     bool stalls = false;  // in the replicate that is not complete yet
   };
   void finish_replicate();
 
-  std::uint64_t replicates_ = 0;
   std::vector<Tally> tallies_, pending_tallies_;  // by cell: a run adds once, and not to each of its groups
   std::vector<Group> groups_;
   std::vector<std::vector<std::size_t>> groups_of_cell_;

@@ -1,11 +1,14 @@
 #include "reports/evidence/evidence.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "core/outcome/probe_names.hpp"
 #include "reports/evidence/gate_table.hpp"
 #include "storage/records.hpp"
@@ -30,32 +33,29 @@ std::vector<Pool> condition_pools(const std::vector<CellRecord>& cells) {
 }  // namespace
 
 Evidence::Evidence(const StoredPlan& plan)
-    : counts_only_(plan.campaign.kind == "search"),
-      planned_(plan.campaign.replicates),
-      sampling_(plan.campaign.sampling),
-      held_streams_(plan.campaign.held_streams),
-      held_replicate_(plan.campaign.held_replicate),
-      cells_(plan.cells),
-      gates_(plan.gates),
-      tallies_(cells_.size()),
-      pending_tallies_(cells_.size()),
-      pools_of_cell_(cells_.size()) {
-  for (std::size_t i = 0; i < cells_.size(); ++i) ensure(cells_[i].index == i, "cells are numbered from 0 on");
-  for (const auto& cell : cells_) {
+    : plan_(plan),
+      audits_(plan),
+      tallies_(plan.cells.size()),
+      pending_tallies_(plan.cells.size()),
+      pools_of_cell_(plan.cells.size()) {
+  for (std::size_t i = 0; i < plan_.cells.size(); ++i)
+    ensure(plan_.cells[i].index == i, "cells are numbered from 0 on");
+  for (const auto& cell : plan_.cells) {
     for (const FactorInfo& factor : kFactors)
       ensure(cell.lowest[factor.id] <= cell.highest[factor.id], "the upper bound is not below the lower");
   }
-  for (auto& gate : gates_) {
+  for (auto& gate : plan_.gates) {
     Pool pool;
     pool.rule = {gate.end_point, gate.unit, gate.min_transports_per_agv_hour};
-    for (const auto& cell : cells_) {
-      if (covers(gate, cell)) pool.cells.push_back(cell.index);
-    }
-    if (gate.table == GateTable{}) gate.table = gate_table(gate, pool.cells.size(), planned_);
+    pool.cells = fleetproof::cells_of(gate, plan_.cells);
+    gate_cells_.push_back(fleetproof::gate_cells(plan, pool.cells));
+    const GateTable stored = gate.table;
+    if (stored == GateTable{} || gate.unit == GateUnit::AgvHour)
+      gate.table = gate_table(gate, gate_cells_.back(), planned_replicates());
+    judged_anew_.push_back(stored != GateTable{} && stored != gate.table);
     pools_.emplace_back(std::move(pool));
   }
-  for (auto& pool : condition_pools(cells_)) pools_.emplace_back(std::move(pool));
-  required_probes_ = plan.campaign.required_probes;
+  for (auto& pool : condition_pools(plan_.cells)) pools_.emplace_back(std::move(pool));
   coverage_.resize(pools_.size());
   pending_coverage_.resize(pools_.size());
   worst_of_pool_.resize(pools_.size(), WorstRuns(1));
@@ -67,12 +67,15 @@ Evidence::Evidence(const StoredPlan& plan)
 
 void Evidence::add(const RunRecord& run) {
   ensure(run.run_index == runs_, "evidence takes runs in order of their index, without gaps");
-  ensure(run.cell < cells_.size() && run.run_index == run.replicate * cells_.size() + run.cell,
+  ensure(run.cell < plan_.cells.size() && run.run_index == run.replicate * plan_.cells.size() + run.cell,
          "run_index = replicate x cells + cell");
   ++runs_;
   engine_errors_ += run.outcome.engine_error;
+  repeated_runs_ += run.repeats ? 1 : 0;
+  const std::optional<AuditRecord> differing = audits_.add(run);
+  const AuditedOutcome* const audit = differing && differing->outcome ? &*differing->outcome : nullptr;
   const RunResult violation = result_of(run.outcome, EndPoint::Violation);
-  pending_tallies_[run.cell] = Tally::of(run.outcome, violation);
+  pending_tallies_[run.cell] = Tally::of(run, violation);
   if (const auto failing = FailingRun::of(run)) {
     (run.factors.in_contract() ? worst_inside_ : worst_outside_).add(*failing);
     if (run.factors.in_contract() && (run.outcome.violation || run.outcome.contact)) {
@@ -82,9 +85,9 @@ void Evidence::add(const RunRecord& run) {
   add_incidents(run);
   for (const auto pool : pools_of_cell_[run.cell]) {
     pending_coverage_[pool].add(run.outcome);
-    add_to_pool(pool, run, violation);
+    add_to_pool(pool, run, violation, audit);
   }
-  if (run.cell + 1 == cells_.size()) finish_replicate();
+  if (run.cell + 1 == plan_.cells.size()) finish_replicate();
 }
 
 void Evidence::add_incidents(const RunRecord& run) {
@@ -94,21 +97,23 @@ void Evidence::add_incidents(const RunRecord& run) {
   }
   for (const auto& [kind, count] : incidents) {
     auto& tally =
-        incidents_[cells_[run.cell].agent].try_emplace(kind, IncidentTally{0, 0, run.run_index}).first->second;
+        incidents_[plan_.cells[run.cell].agent].try_emplace(kind, IncidentTally{0, 0, run.run_index}).first->second;
     ++tally.runs;
     tally.incidents += count;
   }
 }
 
 bool Evidence::quiet_counts() const {
-  return std::ranges::none_of(gates_, [](const GateRecord& gate) { return gate.end_point == EndPoint::Throughput; });
+  return std::ranges::none_of(plan_.gates,
+                              [](const GateRecord& gate) { return gate.end_point == EndPoint::Throughput; });
 }
 
 void Evidence::add(const QuietReplicates& quiet) {
-  ensure(runs_ % cells_.size() == 0, "whole replicates follow whole replicates");
-  runs_ += quiet.replicates * cells_.size();
+  ensure(runs_ % plan_.cells.size() == 0, "whole replicates follow whole replicates");
+  audits_.add_quiet(replicates_, quiet.replicates);
+  runs_ += quiet.replicates * plan_.cells.size();
   replicates_ += quiet.replicates;
-  for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+  for (std::size_t cell = 0; cell < plan_.cells.size(); ++cell) {
     tallies_[cell].add(quiet.by_cell[cell]);
     for (const auto pool : pools_of_cell_[cell]) coverage_[pool].add(quiet.by_cell[cell]);
   }
@@ -116,12 +121,12 @@ void Evidence::add(const QuietReplicates& quiet) {
 }
 
 void Evidence::add_met(std::uint32_t cell, const std::vector<MetTotal>& met) {
-  ensure(cell < cells_.size(), "folded runs belong to a cell of the campaign");
+  ensure(cell < plan_.cells.size(), "folded runs belong to a cell of the campaign");
   for (const auto pool : pools_of_cell_[cell]) coverage_[pool].add(met);
 }
 
 void Evidence::add_to(RunsByAgent& runs, const FailingRun& run) const {
-  const auto& agent = cells_[run.cell].agent;
+  const auto& agent = plan_.cells[run.cell].agent;
   AgentRuns& of_agent = runs.try_emplace(agent, AgentRuns{agent, 0, run}).first->second;
   ++of_agent.runs;
   if (more_serious(run, of_agent.worst)) of_agent.worst = run;
@@ -129,8 +134,8 @@ void Evidence::add_to(RunsByAgent& runs, const FailingRun& run) const {
 
 std::vector<AgentRuns> Evidence::in_order(const RunsByAgent& runs) const {
   std::vector<AgentRuns> list;
-  for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
-    const auto found = runs.find(cells_[pools_[i].pool().cells.front()].agent);
+  for (std::size_t i = plan_.gates.size(); i < pools_.size(); ++i) {
+    const auto found = runs.find(plan_.cells[pools_[i].pool().cells.front()].agent);
     const bool listed =
         !list.empty() && found != runs.end() && list.back().agent == found->first;  // conditions come agent by agent
     if (found != runs.end() && !listed) list.push_back(found->second);
@@ -138,8 +143,8 @@ std::vector<AgentRuns> Evidence::in_order(const RunsByAgent& runs) const {
   return list;
 }
 
-void Evidence::add_to_pool(std::size_t index, const RunRecord& run, RunResult violation) {
-  const RunResult result = pools_[index].add(run, violation);
+void Evidence::add_to_pool(std::size_t index, const RunRecord& run, RunResult violation, const AuditedOutcome* audit) {
+  const RunResult result = pools_[index].add(run, violation, audit);
   if (result == RunResult::Passed) return;
   const auto failing = FailingRun::of(run);
   if (!failing) return;  // a slow run is none
@@ -162,52 +167,66 @@ void Evidence::finish_replicate() {
   }
 }
 
+// A world that passed is no evidence if all of its runs repeat others: there are at most so many such worlds.
+UnitCount Evidence::counted(const UnitCount& count, std::size_t cells) const {
+  UnitCount least = count;
+  const std::uint64_t repeated = cells == 0 ? 0 : unplaced_repeats_ / cells;
+  least.distinct -= std::min(repeated, least.distinct);
+  least.counted -= std::min(repeated, least.counted - least.failing_or_unknown);
+  return least;
+}
+
 GateResult Evidence::judge(std::size_t index) const {
-  ensure(index < gates_.size(), "a gate of the campaign is judged");
+  ensure(index < plan_.gates.size(), "a gate of the campaign is judged");
   const Pool& pool = pools_[index].pool();
   // Outside the contract region, safe mode (standing still) is legal. Progress is required inside the region, or
   // everywhere if the gate has no cell inside.
   std::vector<std::uint32_t> due;
   std::ranges::copy_if(pool.cells, std::back_inserter(due),
-                       [&](std::uint32_t cell) { return cells_[cell].in_contract(); });
+                       [&](std::uint32_t cell) { return plan_.cells[cell].in_contract(); });
   if (due.empty()) due = pool.cells;
   Tally progress;
+  const GateRecord& gate = plan_.gates[index];
+  std::vector<UnitCount> units;
+  for (const UnitCount& count : pool.runs_by_cell) units.push_back(counted(count, 1));
+  if (units.empty()) units.push_back(counted(pool.worlds, pool.cells.size()));
   GateCounts counts;
+  static_cast<UnitCount&>(counts) = deciding_count(gate, units, gate_cells_[index]);
   counts.due_cells = due.size();
   for (const auto cell : due) {
     progress.add(tallies_[cell]);
     counts.idle_cells += tallies_[cell].transports_done == 0;
   }
-  counts.cells = pool.cells.size();
-  counts.units = pool.units;
-  counts.most_units = pool.most_units;
+  counts.cells = gate_cells_[index];
   counts.replicates = replicates_;
-  counts.planned = planned_;
-  counts.failing = pool.failing;
-  counts.failing_or_unknown = pool.failing_or_unknown;
+  counts.planned = planned_replicates();
   counts.failing_runs = pool.failing_runs;
+  counts.failing_audits = pool.failing_audits;
+  if (!pool.cells.empty()) counts.audit_doubt = audit_doubt(audits_.of(gate.agent));
   counts.transports_per_agv_hour = progress.transports_per_agv_hour();
-  counts.counts_only = counts_only_;
-  const bool asks_for_encounters = std::ranges::find(required_probes_, kEncounterProbe) != required_probes_.end();
+  counts.counts_only = counts_only();
+  const bool asks_for_encounters =
+      std::ranges::find(plan_.campaign.required_probes, kEncounterProbe) != plan_.campaign.required_probes.end();
   counts.met_nobody = asks_for_encounters && coverage_[index].seen(kEncounterProbe).runs == 0;
-  auto result = judge_gate(gates_[index], counts);
-  if (!pool.cells.empty()) result.missing = missing_probes(coverage_[index], required_probes_);
+  auto result = judge_gate(gate, counts);
+  if (!pool.cells.empty()) result.missing = missing_probes(coverage_[index], plan_.campaign.required_probes);
   result.worst = worst_of(index);
   return result;
 }
 
 std::vector<GateResult> Evidence::judge_all() const {
   std::vector<GateResult> results;
-  for (std::size_t i = 0; i < gates_.size(); ++i) results.push_back(judge(i));
+  for (std::size_t i = 0; i < plan_.gates.size(); ++i) results.push_back(judge(i));
   return results;
 }
 
 std::vector<Condition> Evidence::conditions() const {
   std::vector<Condition> list;
-  for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
-    const auto& first = cells_[pools_[i].pool().cells.front()];
+  for (std::size_t i = plan_.gates.size(); i < pools_.size(); ++i) {
+    const auto& first = plan_.cells[pools_[i].pool().cells.front()];
     Condition condition{first.agent,           first.lowest, first.highest,    first.in_contract(),
                         first.is_worst_case(), {},           pools_[i].pool(), {}};
+    condition.pool.worlds = counted(condition.pool.worlds, condition.pool.cells.size());
     for (const auto cell : pools_[i].pool().cells) condition.tally.add(tallies_[cell]);
     condition.worst = worst_of(i);
     list.push_back(std::move(condition));
@@ -217,25 +236,77 @@ std::vector<Condition> Evidence::conditions() const {
 
 std::vector<AgentCoverage> Evidence::agent_coverage() const {
   std::vector<AgentCoverage> list;
-  for (std::size_t i = gates_.size(); i < pools_.size(); ++i) {
-    const auto& agent = cells_[pools_[i].pool().cells.front()].agent;
+  for (std::size_t i = plan_.gates.size(); i < pools_.size(); ++i) {
+    const auto& agent = plan_.cells[pools_[i].pool().cells.front()].agent;
     if (list.empty() || list.back().agent != agent) list.push_back({agent, {}, {}, {}});
     list.back().coverage.add(coverage_[i]);
   }
   for (auto& agent : list) {
-    agent.missing = missing_probes(agent.coverage, required_probes_);
+    agent.missing = missing_probes(agent.coverage, plan_.campaign.required_probes);
     if (const auto found = incidents_.find(agent.agent); found != incidents_.end()) agent.incidents = found->second;
   }
   return list;
 }
 
-bool is_under_test(const std::vector<GateRecord>& gates, const std::string& agent) {
+bool is_under_test(const StoredPlan& plan, const std::string& agent) {
+  const auto& named = plan.campaign.agents_under_test;
+  if (!named.empty()) return std::ranges::find(named, agent) != named.end();
   bool any_decides = false;
-  for (const GateRecord& gate : gates) {
+  for (const GateRecord& gate : plan.gates) {
     if (gate.decides && gate.agent == agent) return true;
     any_decides |= gate.decides;
   }
   return !any_decides;
+}
+
+namespace {
+
+bool asks_for_safety(EndPoint end_point) {
+  return end_point == EndPoint::Violation || end_point == EndPoint::Contact || end_point == EndPoint::HazardousContact;
+}
+
+// By cell: whether a gate that decides asks for violations or contacts there.
+std::vector<bool> judged_cells(const Evidence& evidence) {
+  std::vector<bool> judged(evidence.cells().size());
+  for (std::size_t i = 0; i < evidence.gates().size(); ++i) {
+    const GateRecord& gate = evidence.gates()[i];
+    if (!gate.decides || !asks_for_safety(gate.end_point)) continue;
+    for (const std::uint32_t cell : evidence.cells_of(i)) judged[cell] = true;
+  }
+  return judged;
+}
+
+}  // namespace
+
+std::vector<std::string> unjudged_agents(const Evidence& evidence) {
+  std::vector<std::string> sentences;
+  if (evidence.gates().empty() || evidence.counts_only()) return sentences;
+  const std::vector<bool> judged = judged_cells(evidence);
+  for (const AgentAudit& each : evidence.audits().agents()) {
+    if (!is_under_test(evidence.plan(), each.agent)) continue;
+    std::vector<CellRecord> due, all;
+    for (const CellRecord& cell : evidence.cells()) {
+      if (cell.agent != each.agent) continue;
+      all.push_back(cell);
+      if (cell.in_contract()) due.push_back(cell);
+    }
+    const bool in_contract = !due.empty();
+    if (!in_contract) due = all;
+    const std::string where = in_contract ? " in the contract region" : "";
+    const std::string agent = printable(each.agent, 40);
+    if (std::ranges::none_of(due, [&](const CellRecord& cell) { return judged[cell.index]; })) {
+      sentences.push_back(
+          fmt::format("{} is under test, and no gate asks whether it breaks the safety distance{}", agent, where));
+      continue;
+    }
+    const auto fails_unseen = [&](const CellRecord& cell) {
+      return !judged[cell.index] && evidence.tally(cell.index).violating_runs > 0;
+    };
+    if (const auto count = std::ranges::count_if(due, fails_unseen); count > 0)
+      sentences.push_back(fmt::format("{} broke the safety distance in {}{} for which no gate asks", agent,
+                                      count == 1 ? "a cell" : fmt::format("{} cells", count), where));
+  }
+  return sentences;
 }
 
 Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates) {
@@ -247,7 +318,7 @@ Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>&
     demonstrated += gates[i].verdict == Verdict::Demonstrated ? 1 : 0;
   }
   if (violated > 0) return Verdict::Violated;
-  const bool all = deciding > 0 && demonstrated == deciding;
+  const bool all = deciding > 0 && demonstrated == deciding && unjudged_agents(evidence).empty();
   return all && evidence.runs() > 0 ? Verdict::Demonstrated : Verdict::NotDemonstrated;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/evidence/audit_tally.hpp"
 #include "reports/evidence/coverage.hpp"
 #include "reports/evidence/failing_run.hpp"
 #include "reports/evidence/gate_verdict.hpp"
@@ -49,6 +50,8 @@ class Evidence {
 
   explicit Evidence(const StoredPlan& plan);
 
+  // What an audit found. Before its run is added.
+  void know(const AuditedRun& audit) { audits_.know(audit); }
   // Adds the next run. Requires: its run_index == runs().
   void add(const RunRecord& run);
   // Instead, for whole replicates. Requires: quiet_counts().
@@ -58,19 +61,29 @@ class Evidence {
   // What folded runs of the cell met. Requires: they belong to complete replicates.
   void add_met(std::uint32_t cell, const std::vector<MetTotal>& met);
 
-  bool counts_only() const { return counts_only_; }  // a campaign of kind "search"
-  std::uint64_t runs() const { return runs_; }       // read so far
+  // So many of the runs to come have a trace that an earlier run of their cell had, and nobody knows which.
+  void know_unplaced_repeats(std::uint64_t runs) { unplaced_repeats_ = runs; }
+  void know_recordings(const std::string& agent, std::uint64_t count) { audits_.add_recordings(agent, count); }
+
+  bool counts_only() const { return plan_.campaign.kind == "search"; }  // a campaign of kind "search"
+  std::uint64_t runs() const { return runs_; }                          // read so far
   std::uint64_t complete_replicates() const { return replicates_; }
-  std::uint64_t planned_replicates() const { return planned_; }
-  bool complete() const { return replicates_ >= planned_; }       // every planned replicate is complete
-  std::uint64_t engine_errors() const { return engine_errors_; }  // among the runs read so far
-  const std::string& sampling() const { return sampling_; }       // of cells with bounds; empty if there is none
-  const std::vector<std::string>& held_streams() const { return held_streams_; }
-  std::uint64_t held_replicate() const { return held_replicate_; }
-  const std::vector<CellRecord>& cells() const { return cells_; }
-  const std::vector<GateRecord>& gates() const { return gates_; }
+  std::uint64_t planned_replicates() const { return plan_.campaign.replicates; }
+  bool complete() const { return replicates_ >= planned_replicates(); }  // every planned replicate is complete
+  std::uint64_t engine_errors() const { return engine_errors_; }         // among the runs read so far
+  const StoredPlan& plan() const { return plan_; }                       // its gates have their tables
+  const std::vector<CellRecord>& cells() const { return plan_.cells; }
+  const std::vector<GateRecord>& gates() const { return plan_.gates; }
   const Tally& tally(std::uint32_t cell) const { return tallies_.at(cell); }
   const std::vector<std::uint32_t>& cells_of(std::size_t gate) const { return pools_.at(gate).pool().cells; }
+  const GateCells& gate_cells(std::size_t gate) const { return gate_cells_.at(gate); }
+  // The file has another table for the gate: older programs counted AGV-hours in another way.
+  bool is_judged_anew(std::size_t gate) const { return judged_anew_.at(gate); }
+
+  const AuditTally& audits() const { return audits_; }
+  std::uint64_t repeated_runs() const { return repeated_runs_ + unplaced_repeats_; }  // among the runs read so far
+  // What a claim may count of a pool's units.
+  UnitCount counted(const UnitCount& count, std::size_t cells) const;
 
   GateResult judge(std::size_t gate) const;
   std::vector<GateResult> judge_all() const;
@@ -90,36 +103,38 @@ class Evidence {
   using RunsByAgent = std::map<std::string, AgentRuns>;
   void add_to(RunsByAgent& runs, const FailingRun& run) const;
   std::vector<AgentRuns> in_order(const RunsByAgent& runs) const;
-  void add_to_pool(std::size_t index, const RunRecord& run, RunResult violation);
+  void add_to_pool(std::size_t index, const RunRecord& run, RunResult violation, const AuditedOutcome* audit);
   std::optional<FailingRun> worst_of(std::size_t pool) const;  // that failed; else that stayed unknown
   void add_incidents(const RunRecord& run);
   void finish_replicate();
 
-  bool counts_only_ = false;
-  std::uint64_t planned_ = 0;
-  std::string sampling_;
-  std::vector<std::string> held_streams_;
-  std::uint64_t held_replicate_ = 0;
-  std::vector<CellRecord> cells_;
-  std::vector<GateRecord> gates_;
+  StoredPlan plan_;
+  std::vector<GateCells> gate_cells_;  // by gate
+  std::vector<bool> judged_anew_;      // in the same order
   std::uint64_t runs_ = 0, replicates_ = 0, engine_errors_ = 0;
+  std::uint64_t repeated_runs_ = 0, unplaced_repeats_ = 0;
+  AuditTally audits_;
   std::vector<Tally> tallies_, pending_tallies_;  // by cell
   std::vector<PoolCounter> pools_;                // one for each gate, then one for each condition
   std::vector<std::vector<std::size_t>> pools_of_cell_;
-  std::vector<WorstRuns> worst_of_pool_;               // that failed, in the same order
-  std::vector<WorstRuns> worst_unknown_of_pool_;       // of unknown outcome
-  std::vector<Coverage> coverage_, pending_coverage_;  // in the same order
-  std::vector<std::string> required_probes_;
+  std::vector<WorstRuns> worst_of_pool_;                                    // that failed, in the same order
+  std::vector<WorstRuns> worst_unknown_of_pool_;                            // of unknown outcome
+  std::vector<Coverage> coverage_, pending_coverage_;                       // in the same order
   std::map<std::string, std::map<IncidentKind, IncidentTally>> incidents_;  // by agent, of the runs read so far
   RunsByAgent contract_failures_, foreign_body_runs_;                       // of the runs read so far
   WorstRuns worst_inside_{kWorstRuns}, worst_outside_{kWorstRuns};
 };
 
-// Whether a gate that decides names the agent. Without any gate that decides, every agent is under test.
-bool is_under_test(const std::vector<GateRecord>& gates, const std::string& agent);
+// Whether the verdict is about the agent. In a file that does not say so: whether a gate that decides names it; without
+// any such gate, every agent is under test.
+bool is_under_test(const StoredPlan& plan, const std::string& agent);
 
-// Of the gates that decide: violated if one of them is violated; demonstrated if all are demonstrated; otherwise, and
-// without such a gate, not demonstrated.
+// Of the agents under test: those with runs in the contract region (in all cells, if it has none there) for which no
+// gate that decides asks for violations or contacts, in a sentence each. Without any gate, none.
+std::vector<std::string> unjudged_agents(const Evidence& evidence);
+
+// Of the gates that decide: violated if one of them is violated; demonstrated if all are demonstrated and no agent is
+// unjudged; otherwise, and without such a gate, not demonstrated.
 Verdict overall_verdict(const Evidence& evidence, const std::vector<GateResult>& gates);
 
 }  // namespace fleetproof

@@ -28,7 +28,7 @@ void FailureGroups::add(const RunRecord& run, const std::string& agent) {
   }
 }
 
-std::vector<FailureGroup> FailureGroups::list(const std::vector<GateRecord>& gates) const {
+std::vector<FailureGroup> FailureGroups::list(const StoredPlan& plan) const {
   std::vector<FailureGroup> all;
   for (const auto& [key, group] : groups_) {
     all.push_back(group.shown);
@@ -37,7 +37,7 @@ std::vector<FailureGroup> FailureGroups::list(const std::vector<GateRecord>& gat
   std::ranges::stable_sort(all,
                            [](const FailureGroup& a, const FailureGroup& b) { return more_serious(a.worst, b.worst); });
   std::stable_partition(all.begin(), all.end(),
-                        [&](const FailureGroup& group) { return is_under_test(gates, group.agent); });
+                        [&](const FailureGroup& group) { return is_under_test(plan, group.agent); });
   return all;
 }
 

@@ -27,8 +27,8 @@ class FailureGroups {
  public:
   void add(const RunRecord& run, const std::string& agent);
   std::uint64_t failing_runs() const { return failing_runs_; }
-  // Agents that the gates put under test before reference agents; of each, the most serious first.
-  std::vector<FailureGroup> list(const std::vector<GateRecord>& gates) const;
+  // Agents under test before reference agents; of each, the most serious first.
+  std::vector<FailureGroup> list(const StoredPlan& plan) const;
 
  private:
   struct Group {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "reports/evidence/foreign_bodies.hpp"
+#include "core/outcome/foreign_bodies.hpp"
 
 namespace fleetproof {
 namespace {
@@ -78,11 +78,6 @@ std::optional<FirstCause> first_cause(const Outcome& outcome) {
                     cause->at == outcome.violations.front().first;
   if (cause->before == CameBefore::Nothing && any_before && !pair) cause->before = CameBefore::Undecided;
   return cause;
-}
-
-SimTime surely_began(const Incident& incident) {
-  const bool slow = incident.kind == IncidentKind::Livelock || incident.kind == IncidentKind::Starvation;
-  return slow ? incident.last : incident.first;
 }
 
 bool is_judged(IncidentKind kind) { return info_of(kind).end_point.has_value(); }

@@ -59,10 +59,6 @@ struct FirstCause {
 // if the run counted faults.
 std::optional<FirstCause> first_cause(const Outcome& outcome);
 
-// The instant from which the incident was there without doubt. A livelock or starvation is dated from the last
-// progress, long before anybody could call it one: whatever happens until its end may be its cause.
-SimTime surely_began(const Incident& incident);
-
 // Whether an end point of this archive may be judged on the incident (a deadlock, a wrong load, ...).
 bool is_judged(IncidentKind kind);
 

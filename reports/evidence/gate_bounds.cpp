@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "reports/evidence/confidence_sequence.hpp"
-#include "reports/evidence/exposure.hpp"
 #include "reports/evidence/gate_table.hpp"
-#include "reports/evidence/poisson_rate.hpp"
 #include "reports/evidence/refutation.hpp"
 #include "reports/evidence/release_gate.hpp"
 
 namespace fleetproof {
 namespace {
-
-constexpr RateInterval kNothingKnown{0.0, std::numeric_limits<double>::infinity()};
 
 double largest_limit_not_passed(std::uint64_t failing, std::uint64_t units, Confidence confidence) {
   if (units == 0 || failing == units) return 1.0;
@@ -26,44 +20,40 @@ double largest_limit_not_passed(std::uint64_t failing, std::uint64_t units, Conf
   return high;
 }
 
-RateInterval per_agv_hour(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, Confidence confidence) {
-  if (units == 0) return kNothingKnown;
-  if (gate.method == GateMethod::AnyTime) return any_time_rate(failing, agv_hours(units), confidence);
-  return {lower_rate(failing, agv_hours(units), confidence), upper_rate(failing, agv_hours(units), confidence)};
-}
-
-RateInterval bounds_at(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, Confidence confidence) {
-  if (gate.unit == GateUnit::AgvHour) return per_agv_hour(gate, failing, units, confidence);
-  if (gate.method == GateMethod::Fixed)
+RateInterval bounds_of_share(GateMethod method, std::uint64_t failing, std::uint64_t units, Confidence confidence) {
+  if (method == GateMethod::Fixed)
     return {lower_bound(failing, units, confidence), upper_bound(failing, units, confidence)};
   return {refuted_limit(failing, units, confidence), largest_limit_not_passed(failing, units, confidence)};
 }
 
-RateInterval bounds_of_worst(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, std::size_t cells,
+RateInterval bounds_of_worst(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, const GateCells& cells,
                              Confidence confidence) {
-  RateInterval bounds = bounds_at(gate, failing, units, confidence);
-  if (gate.unit == GateUnit::Run && cells > 1)
-    bounds.lower = bounds_at(gate, failing, units, confidence.shared(static_cast<double>(cells))).lower;
+  RateInterval bounds = bounds_of_share(gate.method, failing, units, confidence);
+  if (gate.unit == GateUnit::AgvHour) return hourly_rate(bounds, cells);
+  if (gate.unit == GateUnit::Run && cells.count > 1) {
+    const Confidence shared = confidence.shared(static_cast<double>(cells.count));
+    bounds.lower = bounds_of_share(gate.method, failing, units, shared).lower;
+  }
   return bounds;
 }
 
 }  // namespace
 
-RateInterval gate_bounds(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, std::size_t cells) {
+RateInterval gate_bounds(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, const GateCells& cells) {
   return bounds_of_worst(gate, failing, units, cells, gate.confidence);
 }
 
-RateInterval gate_interval_95(const GateRecord& gate, std::uint64_t failing, std::uint64_t units, std::size_t cells) {
+RateInterval gate_interval_95(const GateRecord& gate, std::uint64_t failing, std::uint64_t units,
+                              const GateCells& cells) {
   return bounds_of_worst(gate, failing, units, cells, Confidence(0.95).shared(2.0));
 }
 
-std::optional<std::uint64_t> units_to_pass(const GateRecord& gate, std::uint64_t failing, std::uint64_t units) {
+std::optional<std::uint64_t> units_to_pass(const GateRecord& gate, std::uint64_t failing, std::uint64_t units,
+                                           const GateCells& cells) {
   if (gate.method == GateMethod::AnyTime) return passes_from(gate.table, failing);
-  if (gate.unit == GateUnit::AgvHour) {
-    if (gate.limit <= 0.0) return std::nullopt;
-    return static_cast<std::uint64_t>(std::ceil(exposure_needed(failing, gate.limit, gate.confidence) * kAgvUsPerHour));
-  }
-  auto needed = units_needed(failing, gate.limit, gate.confidence);
+  const double share = share_to_pass(gate, cells);
+  if (share <= 0.0) return std::nullopt;
+  auto needed = units_needed(failing, share, gate.confidence);
   if (needed) needed = std::max(*needed, units + 1);  // the two bounds agree but for rounding
   return needed;
 }

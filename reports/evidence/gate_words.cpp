@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "reports/evidence/exposure.hpp"
-
 namespace fleetproof {
 
 std::string value_text(const GateRecord& gate, double value, std::string (*rounded)(double)) {
@@ -15,9 +13,6 @@ std::string limit_text(const GateRecord& gate) {
                                         : fmt::format("{:g} %", 100.0 * gate.limit);
 }
 
-std::string amount_text(const GateRecord& gate, std::uint64_t units, std::string_view unit) {
-  return gate.unit == GateUnit::AgvHour ? fmt::format("{:.6g} {}", agv_hours(units), unit)
-                                        : fmt::format("{} {}", units, unit);
-}
+std::string amount_text(std::uint64_t units, std::string_view unit) { return fmt::format("{} {}", units, unit); }
 
 }  // namespace fleetproof

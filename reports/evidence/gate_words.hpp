@@ -11,7 +11,7 @@ namespace fleetproof {
 // `rounded` is one of rounding.hpp.
 std::string value_text(const GateRecord& gate, double value, std::string (*rounded)(double));
 std::string limit_text(const GateRecord& gate);  // with all its digits
-// "380 worlds", or "12.5 AGV-hours". `unit` is the word for a unit of the gate.
-std::string amount_text(const GateRecord& gate, std::uint64_t units, std::string_view unit);
+// "380 worlds". `unit` is the word for a unit of the gate.
+std::string amount_text(std::uint64_t units, std::string_view unit);
 
 }  // namespace fleetproof

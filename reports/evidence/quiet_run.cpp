@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "core/outcome/foreign_bodies.hpp"
+#include "core/outcome/run_result.hpp"
 #include "reports/evidence/failing_run.hpp"
-#include "reports/evidence/foreign_bodies.hpp"
-#include "reports/evidence/run_result.hpp"
 
 namespace fleetproof {
 

@@ -4,11 +4,14 @@
 
 namespace fleetproof {
 
-Tally Tally::of(const Outcome& outcome, RunResult violation) {
+Tally Tally::of(const RunRecord& run, RunResult violation) {
+  const Outcome& outcome = run.outcome;
   Tally one;
   one.runs = 1;
   one.violating_runs = violation == RunResult::Failed;
   one.unknown_runs = violation == RunResult::Unknown;
+  one.repeats = run.repeats;
+  one.passing_repeats = run.repeats && violation == RunResult::Passed;
   one.contact_runs = outcome.contact;
   one.hazardous_contact_runs = std::ranges::any_of(
       outcome.violations, [](const Violation& v) { return level_of(v) == ViolationLevel::HazardousContact; });
@@ -27,10 +30,10 @@ Tally Tally::of(const Outcome& outcome, RunResult violation) {
 }
 
 void Tally::add(const Tally& other) {
-  for (const auto count :
-       {&Tally::runs, &Tally::violating_runs, &Tally::contact_runs, &Tally::hazardous_contact_runs, &Tally::stuck_runs,
-        &Tally::crash_runs, &Tally::hang_runs, &Tally::indeterminate_runs, &Tally::engine_error_runs,
-        &Tally::unknown_runs, &Tally::unmeasured_runs, &Tally::transports_done, &Tally::agv_us}) {
+  for (const auto count : {&Tally::runs, &Tally::violating_runs, &Tally::contact_runs, &Tally::hazardous_contact_runs,
+                           &Tally::stuck_runs, &Tally::crash_runs, &Tally::hang_runs, &Tally::indeterminate_runs,
+                           &Tally::engine_error_runs, &Tally::unknown_runs, &Tally::repeats, &Tally::passing_repeats,
+                           &Tally::unmeasured_runs, &Tally::transports_done, &Tally::agv_us}) {
     this->*count += other.*count;
   }
   longest_ns = std::max(longest_ns, other.longest_ns);

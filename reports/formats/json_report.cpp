@@ -16,7 +16,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr int kReportSchemaVersion = 1;
+constexpr int kReportSchemaVersion = 2;
 
 template <class T>
 Json maybe(const std::optional<T>& value) {
@@ -33,7 +33,7 @@ Json finite(double bound) { return std::isfinite(bound) ? Json(bound) : Json(nul
 Json estimate_json(const std::optional<Estimate>& estimate, GateUnit unit) {
   if (!estimate) return nullptr;
   return {{"units", estimate->units},
-          {"agv_hours", unit == GateUnit::AgvHour ? Json(agv_hours(estimate->units)) : Json(nullptr)},
+          {"agv_hours", unit == GateUnit::AgvHour ? Json(estimate->exposure) : Json(nullptr)},
           {"failing", estimate->failing},
           {"rate", maybe(estimate->rate())},
           {"lower_bound", estimate->lower},
@@ -43,7 +43,8 @@ Json estimate_json(const std::optional<Estimate>& estimate, GateUnit unit) {
 
 Json agv_hours_needed(const GateRecord& gate, const GateResult& result) {
   if (gate.unit != GateUnit::AgvHour || !result.units_needed) return nullptr;
-  return agv_hours(*result.units_needed);
+  const GateCells& cells = result.counts.cells;
+  return cells.run_agv_hours * static_cast<double>(cells.count * *result.units_needed);
 }
 
 void add_factors(Json& json, std::string_view FactorInfo::*key, const FactorValues& values) {
@@ -130,6 +131,7 @@ void add_tally(Json& json, const Tally& tally) {
   json["indeterminate_runs"] = tally.indeterminate_runs;
   json["engine_error_runs"] = tally.engine_error_runs;
   json["unknown_runs"] = tally.unknown_runs;
+  json["repeating_runs"] = tally.repeats;
   json["clearance_unmeasured_runs"] = tally.unmeasured_runs;
   json["min_clearance_m"] = metres(tally.min_clearance_um);
   json["min_clearance_um"] = maybe(tally.min_clearance_um);
@@ -208,7 +210,9 @@ Json gate_json(const ReportInput& input, std::size_t index) {
                {"verdict", name_of(result.verdict)},
                {"reason", result.reason},
                {"unit", result.unit},
-               {"weak", !result.missing.empty()},
+               {"weak", !result.missing.empty() || !result.counts.audit_doubt.empty()},
+               {"worlds", result.counts.units},
+               {"distinct_worlds", result.counts.distinct},
                {"missing_probes", missing_json(result.missing)},
                {"claim", estimate_json(result.claim, gate.unit)},
                {"optimistic", estimate_json(result.optimistic, gate.unit)},
@@ -232,13 +236,13 @@ Json condition_json(const ReportInput& input, const Condition& condition) {
   json["cells"] = condition.pool.cells;
   add_tally(json, condition.tally);
   const GateRecord rule = bound_rule(input.evidence, condition.agent);
-  const auto& pool = condition.pool;
+  const UnitCount& worlds = condition.pool.worlds;
   if (!input.evidence.counts_only()) {
-    json["unit"] = pool.cells.size() == 1 ? "runs" : "worlds";
+    json["unit"] = condition.pool.cells.size() == 1 ? "runs" : "worlds";
     json["confidence"] = rule.confidence;
     json["method"] = name_of(rule.method);
-    json["claim"] = estimate_json(estimate(rule, pool.failing_or_unknown, pool.units), rule.unit);
-    json["optimistic"] = estimate_json(estimate(rule, pool.failing, pool.units), rule.unit);
+    json["claim"] = estimate_json(estimate(rule, worlds.failing_or_unknown, worlds.counted), rule.unit);
+    json["optimistic"] = estimate_json(estimate(rule, worlds.failing, worlds.units), rule.unit);
   }
   json["worst_run"] = failing_run_json(input, condition.worst);
   return json;
@@ -252,7 +256,11 @@ Json one_cell_json(const ReportInput& input, const CellRecord& cell) {
     const GateRecord rule = bound_rule(input.evidence, cell.agent);
     json["confidence"] = rule.confidence;
     json["method"] = name_of(rule.method);
-    json["claim"] = estimate_json(estimate(rule, tally.violating_runs + tally.unknown_runs, tally.runs), rule.unit);
+    const UnitCount runs =
+        input.evidence.counted({tally.runs, tally.runs - tally.repeats, tally.runs - tally.passing_repeats,
+                                tally.violating_runs, tally.violating_runs + tally.unknown_runs},
+                               1);
+    json["claim"] = estimate_json(estimate(rule, runs.failing_or_unknown, runs.counted), rule.unit);
     json["optimistic"] = estimate_json(estimate(rule, tally.violating_runs, tally.runs), rule.unit);
   }
   return json;
@@ -287,7 +295,11 @@ Json audit_json(const AgentAudit& audit) {
           {"plugin", audit.is_plugin},
           {"audited", audit.audited},
           {"differing", audit.differing},
-          {"first_differing", audit.first_differing ? Json(*audit.first_differing) : Json(nullptr)},
+          {"first_differing", maybe(audit.first_differing)},
+          {"judged_otherwise", audit.judged_otherwise},
+          {"first_judged_otherwise", maybe(audit.first_judged_otherwise)},
+          {"open", audit.open},
+          {"declares_deterministic", audit.promises_to_repeat},
           {"failed_runs", audit.failed_runs},
           {"recordings", audit.recordings}};
 }
@@ -352,6 +364,7 @@ std::string render_json(const ReportInput& input) {
   json["exit_code"] = input.exit_code ? Json(*input.exit_code) : Json(nullptr);
   json["complete"] = evidence.complete();
   json["weak"] = is_weak(input);
+  json["unjudged_agents"] = unjudged_agents(evidence);
   json["exemptions"] = exemptions_json(input.campaign);
   json["campaign"] = campaign_json(input);
   json["gates"] = list_of(input.gates.size(), [&](std::size_t i) { return gate_json(input, i); });
@@ -359,7 +372,7 @@ std::string render_json(const ReportInput& input) {
   json["cells"] =
       list_of(evidence.cells().size(), [&](std::size_t i) { return one_cell_json(input, evidence.cells()[i]); });
   json["attempts"] = attempts_json(input);
-  const auto groups = input.failures.list(input.evidence.gates());
+  const auto groups = input.failures.list(input.evidence.plan());
   json["failure_groups"] = list_of(groups.size(), [&](std::size_t i) { return group_json(input, groups[i]); });
   json["coverage"] = coverage_json(input);
   json["incidents"] = incidents_json(input);
@@ -367,7 +380,7 @@ std::string render_json(const ReportInput& input) {
   json["sensitivity"] = sensitivity ? read_json(sensitivity_text(*sensitivity)) : Json(nullptr);
   const auto& found = input.findings.record;
   json["findings"] = found ? read_json(findings_text(*found)) : Json(nullptr);
-  const auto& audits = input.audits.agents();
+  const auto& audits = input.evidence.audits().agents();
   json["audits"] = list_of(audits.size(), [&](std::size_t i) { return audit_json(audits[i]); });
   json["weak_points"] = weak_points(input);
   for (const bool in_contract : {true, false}) {

@@ -23,7 +23,7 @@ enum class Ending { Passed, Failed, Skipped, Error };
 Ending ending_of(const ReportInput& input, std::size_t gate) {
   const GateResult& result = input.gates[gate];
   if (conclusion_of(input) == Conclusion::EngineFault) return Ending::Error;
-  const bool tested = result.counts.cells > 0 && !result.counts.met_nobody;
+  const bool tested = result.counts.cells.count > 0 && !result.counts.met_nobody;
   if (!input.evidence.gates()[gate].decides || (!tested && result.verdict != Verdict::Violated)) return Ending::Skipped;
   return result.verdict == Verdict::Demonstrated ? Ending::Passed : Ending::Failed;
 }
@@ -50,8 +50,8 @@ std::string figures_text(const ReportInput& input, std::size_t index) {
 // What keeps a gate from being demonstrated, in two or three words that programs may compare. The first that holds:
 // "violated", "counts only" (of a search), "not complete" (of a fixed gate, planned replicates are missing; of others,
 // all), "unknown outcomes" (without them, the counts would do), "too few worlds" (or runs, or AGV-hours: more of them
-// without a failure would do), "too many failures", "not tested", "too little progress". Requires: the gate is not
-// demonstrated.
+// without a failure would do), "too many failures", "audits" (that came out otherwise, or are not done), "not tested",
+// "too little progress". Requires: the gate is not demonstrated.
 std::string shortfall_of(const GateRecord& gate, const GateResult& result) {
   ensure(result.verdict != Verdict::Demonstrated, "a gate that is demonstrated falls short of nothing");
   const GateCounts& counts = result.counts;
@@ -64,6 +64,7 @@ std::string shortfall_of(const GateRecord& gate, const GateResult& result) {
     if (result.units_needed) return "too few " + std::string(result.unit);
     return counts.failing == 0 && counts.failing_or_unknown > 0 ? "unknown outcomes" : "too many failures";
   }
+  if (!counts.audit_doubt.empty()) return "audits";
   return counts.met_nobody ? "not tested" : "too little progress";
 }
 
@@ -148,10 +149,10 @@ std::string properties(const ReportInput& input) {
          property("archive", input.archive_path) +
          property("replicates", fmt::format("{} of {}", input.evidence.complete_replicates(), campaign.replicates)) +
          property("simulated_agv_hours", fmt::format("{:.1f}", all_agv_hours(input.evidence))) +
-         property("engine_errors", std::to_string(input.evidence.engine_errors())) + audit_properties(input.audits) +
-         property("seed", std::to_string(campaign.seed)) + property("plan_hash", hex_text(campaign.plan_hash)) +
-         property("fleetproof", campaign.engine.version) + property("program_sha256", campaign.engine.program_sha256) +
-         "    </properties>\n";
+         property("engine_errors", std::to_string(input.evidence.engine_errors())) +
+         audit_properties(input.evidence.audits()) + property("seed", std::to_string(campaign.seed)) +
+         property("plan_hash", hex_text(campaign.plan_hash)) + property("fleetproof", campaign.engine.version) +
+         property("program_sha256", campaign.engine.program_sha256) + "    </properties>\n";
 }
 
 struct Counts {
@@ -175,6 +176,14 @@ std::string gate_suite(const ReportInput& input, Counts& counts) {
     counts.errors += ending == Ending::Error ? 1 : 0;
     counts.skipped += ending == Ending::Skipped ? 1 : 0;
     cases += case_element(input, i);
+  }
+  for (const std::string& sentence : unjudged_agents(input.evidence)) {
+    ++counts.tests;
+    ++counts.failures;
+    cases += fmt::format(
+        "    <testcase name=\"every agent under test is judged\" classname=\"fleetproof\" time=\"0\">\n      <failure "
+        "type=\"not judged\" message=\"{}\"/>\n    </testcase>\n",
+        escaped(sentence));
   }
   return suite(input.campaign.name, 0, counts, properties(input) + cases);
 }

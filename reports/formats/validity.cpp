@@ -9,7 +9,6 @@
 #include "reports/evidence/binomial.hpp"
 #include "reports/evidence/poisson_rate.hpp"
 #include "reports/page/wording.hpp"
-#include "storage/checksum.hpp"
 
 namespace fleetproof {
 namespace {
@@ -37,13 +36,7 @@ bool estimators_give_known_answers() {
 
 }  // namespace
 
-void DuplicateCheck::add(const RunRecord& run) {
-  ++runs_;
-  if (run.folded) return;
-  repeated_ += seen_[trace_key(run.cell, run.outcome.digest)]++ > 0 ? 1 : 0;
-}
-
-std::string validity_text(const ReportInput& input, const DuplicateCheck& duplicates) {
+std::string validity_text(const ReportInput& input) {
   std::string text = "Checks of the tool and of the data, done when this file was written\n\n";
   text += line(generator_gives_known_answers(), "the random generator gives the published answers (Philox4x32-10)");
   text += line(estimators_give_known_answers(), "the exact bounds agree with published values to 1e-10");
@@ -51,14 +44,16 @@ std::string validity_text(const ReportInput& input, const DuplicateCheck& duplic
   text += line(input.evidence.engine_errors() == 0,
                fmt::format("{} ended in an error of the simulator", count_text(input.evidence.engine_errors(), "run")));
   text +=
-      line(duplicates.repeated() == 0,
-           fmt::format("{} of {} runs have a trace that another run of the same cell had before; equal traces are no "
-                       "independent evidence (traces of a fleet that never moves may be equal)",
-                       duplicates.repeated(), duplicates.runs()));
-  for (const AgentAudit& audit : input.audits.agents()) {
+      line(input.evidence.repeated_runs() == 0,
+           fmt::format("{} of {} runs have a trace that an earlier run of the same cell had: a claim counts no world "
+                       "that passed and whose runs all repeat others (traces of a fleet that never moves may be equal)",
+                       input.evidence.repeated_runs(), input.evidence.runs()));
+  for (const AgentAudit& audit : input.evidence.audits().agents()) {
     text +=
         line(audit.differing == 0, fmt::format("{} of {} audited runs of {} came out differently in another process",
                                                audit.differing, audit.audited, printable(audit.agent, 40)));
+    text += line(audit.open == 0,
+                 fmt::format("{} of {} due and not done", count_text(audit.open, "audit"), printable(audit.agent, 40)));
   }
   text += fmt::format(
       "\nIndependence: replicate i of seed {} draws everything from keys of its own (Philox counters); replicates "

@@ -34,31 +34,43 @@ Headline headline_of(const ReportInput& input, const AgentAudit& audit) {
                                 replay_line(input, *audit.first_differing)});
     return headline;
   }
-  return {"not deterministic",
-          fmt::format("agent {}: this software is not deterministic in {}, first in run {}. Its rates are those of the "
-                      "runs as they "
-                      "were; the same run may end in another way. {}",
-                      agent, share_text(audit), *audit.first_differing, recordings_text(audit)),
-          {}};
+  std::string text = fmt::format("agent {}: this software is not deterministic in {}, first in run {}. ", agent,
+                                 share_text(audit), *audit.first_differing);
+  text += audit.judged_otherwise == 0
+              ? "All of them were judged alike, so its rates stand; what an AGV does at an instant may differ. "
+              : fmt::format(
+                    "{} of them {} judged otherwise: another end point failed, or none did. So nothing is "
+                    "demonstrated for it. ",
+                    audit.judged_otherwise, audit.judged_otherwise == 1 ? "was" : "were");
+  if (audit.judged_otherwise == 0 && audit.promises_to_repeat)
+    text += "It declares that it always does the same, so nothing is demonstrated for it. ";
+  return {"not deterministic", text + recordings_text(audit), {}};
 }
 
 std::string remark_of(const AgentAudit& audit) {
   const std::string agent = printable(audit.agent, 40);
-  if (audit.audited == 0) return fmt::format("Agent {}: no run was audited.", agent);
+  const std::string open = audit.open == 0 ? "" : fmt::format(" {} due and not done.", count_text(audit.open, "audit"));
+  if (audit.audited == 0) return fmt::format("Agent {}: no run was audited.{}", agent, open);
   if (audit.differing == 0)
-    return audit.audited == 1
-               ? fmt::format("Agent {}: 1 run was audited, and it came out the same.", agent)
-               : fmt::format("Agent {}: {} runs were audited, and every one came out the same.", agent, audit.audited);
+    return audit.audited == 1 ? fmt::format("Agent {}: 1 run was audited, and it came out the same.{}", agent, open)
+                              : fmt::format("Agent {}: {} runs were audited, and every one came out the same.{}", agent,
+                                            audit.audited, open);
   if (audit.engine_at_fault()) return fmt::format("Agent {}: an error of the engine in {}.", agent, share_text(audit));
-  return fmt::format("Agent {}: not deterministic in {}. {}", agent, share_text(audit), recordings_text(audit));
+  return fmt::format("Agent {}: not deterministic in {}. {}{}", agent, share_text(audit), recordings_text(audit), open);
 }
 
 }  // namespace
 
 std::vector<Headline> audit_headlines(const ReportInput& input) {
   std::vector<Headline> list;
-  for (const AgentAudit& audit : input.audits.agents()) {
+  for (const AgentAudit& audit : input.evidence.audits().agents()) {
     if (audit.differing > 0) list.push_back(headline_of(input, audit));
+    if (audit.open > 0 && is_under_test(input.evidence.plan(), audit.agent))
+      list.push_back({"audits open",
+                      fmt::format("agent {}: {} due and not done: nothing is demonstrated for it before they are. The "
+                                  "same command goes on with them.",
+                                  printable(audit.agent, 40), count_text(audit.open, "audit")),
+                      {}});
   }
   return list;
 }
@@ -69,7 +81,7 @@ Section audit_section(const ReportInput& input) {
       "An audit simulates a run once more: in another process, with other addresses, other bytes in fresh memory, and "
       "in another order of runs.";
   section.remarks.emplace_back().text = std::move(what);
-  for (const AgentAudit& audit : input.audits.agents()) section.remarks.push_back({remark_of(audit), ""});
+  for (const AgentAudit& audit : input.evidence.audits().agents()) section.remarks.push_back({remark_of(audit), ""});
   return section;
 }
 

@@ -39,18 +39,19 @@ GateRecord hourly(GateRecord rule) {
 std::vector<std::string> row(const ReportInput& input, const BreakdownRow& group, const std::string& name) {
   std::vector<std::string> cells{printable(group.key.agent, 40), name, group.key.in_contract ? "contract" : "beyond",
                                  std::to_string(group.tally.runs)};
-  const Pool &worlds = group.violations, &hours = group.violations_per_hour;
+  const UnitCount worlds = input.evidence.counted(group.violations.worlds, group.violations.cells.size());
   if (input.evidence.counts_only()) {
     cells.push_back(std::to_string(group.tally.violating_runs));
   } else {
     const GateRecord rule = bound_rule(input.evidence, group.key.agent);
-    const Estimate share = estimate(rule, worlds.failing_or_unknown, worlds.units);
+    const Estimate share = estimate(rule, worlds.failing_or_unknown, worlds.counted);
     cells.push_back(fmt::format("{}/{}", failed_text(worlds.failing, worlds.failing_or_unknown), share.units));
-    cells.push_back(worlds.units == 0 ? "-" : rounded_up(share.upper));
-    if (hours.units == 0) {
+    const bool says_nothing = worlds.counted == 0 || is_always_the_same(worlds);
+    cells.push_back(says_nothing ? "-" : rounded_up(share.upper));
+    if (says_nothing) {
       cells.insert(cells.end(), {"-", "-"});
     } else {
-      const Estimate rate = estimate(hourly(rule), hours.failing_or_unknown, hours.units);
+      const Estimate rate = estimate(hourly(rule), worlds.failing_or_unknown, worlds.counted, group.cells);
       cells.push_back(rounded_rate(*rate.rate()));
       cells.push_back(
           fmt::format("[{}, {}]", rounded_down(rate.interval_95.lower), rounded_up(rate.interval_95.upper)));
@@ -78,8 +79,8 @@ std::string explanation(const ReportInput& input) {
   return fmt::format(
              "failed worlds = worlds with a violation in a run of this row; +N? = N more with an unknown "
              "outcome, "
-             "which every rate and bound counts as failing. per AGV-h = such worlds per hour of one AGV; the time of "
-             "a world ends with its first run that failed. A run takes up to {}. ",
+             "which every rate and bound counts as failing. per AGV-h = such worlds per planned hour of one AGV; the "
+             "interval holds whenever in a run they failed. A run takes up to {}. ",
              seconds_text(longest_s)) +
          text;
 }
@@ -93,7 +94,7 @@ std::vector<std::string> layout_clusters(const ReportInput& input) {
   }
   std::vector<std::string> sentences;
   for (const auto& [agent, clusters] : by_agent) {
-    if (clusters.size() < 2 || !is_under_test(input.evidence.gates(), agent)) continue;
+    if (clusters.size() < 2 || !is_under_test(input.evidence.plan(), agent)) continue;
     const ClusterUnits layouts = cluster_units(clusters);
     const DesignEffect effect = design_effect(clusters);
     std::string text = fmt::format("Layouts as units: runs of {} failed or stayed unknown on {} of {} layouts",

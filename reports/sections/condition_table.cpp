@@ -52,14 +52,18 @@ std::vector<std::string> row(const Condition& condition, const Shown& shown, con
   cells.push_back(std::to_string(tally.runs));
   cells.push_back(std::to_string(tally.violating_runs));
   if (!shown.counts_only) {
-    const auto& pool = condition.pool;
-    const auto k = pool.failing_or_unknown, n = pool.units;
+    const UnitCount& worlds = condition.pool.worlds;
+    const auto k = worlds.failing_or_unknown, n = worlds.counted;
     const Estimate claim = estimate(rule, k, n);
-    cells.push_back(fmt::format("{}/{}", failed_text(pool.failing, k), n));
-    cells.push_back(claim.rate() ? rounded_rate(*claim.rate()) : "-");
-    cells.push_back(
-        fmt::format("[{}, {}]", rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper)));
-    cells.push_back(rounded_up(claim.upper));
+    cells.push_back(fmt::format("{}/{}", failed_text(worlds.failing, k), n));
+    if (is_always_the_same(worlds)) {
+      cells.insert(cells.end(), {"-", "-", "-"});
+    } else {
+      cells.push_back(claim.rate() ? rounded_rate(*claim.rate()) : "-");
+      cells.push_back(
+          fmt::format("[{}, {}]", rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper)));
+      cells.push_back(rounded_up(claim.upper));
+    }
   }
   const auto ended_early = tally.crash_runs + tally.hang_runs;
   for (const auto count : {tally.contact_runs, tally.stuck_runs, ended_early}) cells.push_back(std::to_string(count));
@@ -71,7 +75,7 @@ std::vector<std::string> row(const Condition& condition, const Shown& shown, con
 // Failures first; without any, the fewest transports.
 bool more_interesting(const Condition& a, const Condition& b) {
   const auto rank = [](const Condition& c) {
-    const auto failing = c.pool.failing_or_unknown;
+    const auto failing = c.pool.worlds.failing_or_unknown;
     return std::tuple(-static_cast<double>(failing), -static_cast<double>(c.tally.violating_runs),
                       c.tally.transports_per_agv_hour().value_or(0.0));
   };
@@ -143,7 +147,7 @@ Section table_legend(const ReportInput& input) {
   for (const FactorInfo& factor : shown_factors(evidence)) {
     if (!factor.legend.empty()) add(std::string(factor.legend));
   }
-  if (!evidence.sampling().empty())
+  if (!evidence.plan().campaign.sampling.empty())
     add("0 .. 40 % = every replicate draws its own value in between, the same for all agents, layouts and fleets; a "
         "rate is the mean over the region.");
   if (evidence.counts_only()) return section;

@@ -53,7 +53,7 @@ std::string missing_text(const std::vector<MissingProbe>& missing) {
 std::vector<Headline> weak_headlines(const ReportInput& input) {
   std::vector<Headline> list;
   for (const auto& agent : input.evidence.agent_coverage()) {
-    if (agent.missing.empty() || !is_under_test(input.evidence.gates(), agent.agent)) continue;
+    if (agent.missing.empty() || !is_under_test(input.evidence.plan(), agent.agent)) continue;
     list.push_back(
         {"weak",
          fmt::format(
@@ -69,8 +69,10 @@ std::vector<Headline> weak_headlines(const ReportInput& input) {
 bool is_weak(const ReportInput& input) {
   const auto& gates = input.evidence.gates();
   for (std::size_t i = 0; i < input.gates.size(); ++i) {
-    if (is_under_test(gates, gates[i].agent) && !input.gates[i].missing.empty()) return true;
+    if (!is_under_test(input.evidence.plan(), gates[i].agent)) continue;
+    if (!input.gates[i].missing.empty() || !input.gates[i].counts.audit_doubt.empty()) return true;
   }
+  if (!unjudged_agents(input.evidence).empty()) return true;
   return !weak_headlines(input).empty();
 }
 

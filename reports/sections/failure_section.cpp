@@ -32,7 +32,7 @@ Table failure_table(const std::vector<FailureGroup>& groups) {
 
 Section failure_section(const ReportInput& input, std::size_t most_groups) {
   Section section{kFailuresTitle, {}, {}};
-  auto groups = input.failures.list(input.evidence.gates());
+  auto groups = input.failures.list(input.evidence.plan());
   if (groups.empty()) {
     section.remarks.emplace_back().text = "No run failed.";
     return section;

@@ -69,19 +69,24 @@ std::string where_text(const GateRecord& gate) {
   return region_text(gate.region) + (named.empty() ? "" : ", " + named);
 }
 
+// " (2400 AGV-hours)", as planned; and ", 12 distinct", if worlds repeat others.
+std::string distinct_text(const GateRecord& gate, const GateResult& result) {
+  std::string text;
+  if (gate.unit == GateUnit::AgvHour) text += fmt::format(" ({:.6g} AGV-hours)", result.optimistic->exposure);
+  if (result.counts.distinct < result.counts.units) text += fmt::format(", {} distinct", result.counts.distinct);
+  return text;
+}
+
 std::string counted_text(const GateRecord& gate, const GateResult& result) {
   const auto &claim = *result.claim, &known = *result.optimistic;
   const std::string text =
-      gate.unit == GateUnit::AgvHour
-          ? fmt::format("{} in {:.6g} AGV-hours", count_text(known.failing, "time"), claim.exposure)
-          : fmt::format("in {} of {} {}", known.failing, claim.units, result.unit);
+      fmt::format("in {} of {} {}{}", known.failing, known.units, result.unit, distinct_text(gate, result));
   const auto unknown = claim.failing - known.failing;
   return unknown == 0 ? text : text + fmt::format(", and {} more ended unknown and count as failing", unknown);
 }
 
-std::string failed_of_units(const GateRecord& gate, const GateResult& result) {
-  const std::string text = failed_text(result.optimistic->failing, result.claim->failing);
-  return gate.unit == GateUnit::AgvHour ? text : text + fmt::format("/{}", result.claim->units);
+std::string failed_of_units(const GateResult& result) {
+  return failed_text(result.optimistic->failing, result.claim->failing) + fmt::format("/{}", result.claim->units);
 }
 
 std::vector<std::string> row(const ReportInput& input, std::size_t index) {
@@ -92,7 +97,7 @@ std::vector<std::string> row(const ReportInput& input, std::size_t index) {
   if (!gate.requirement.empty()) what += " [" + printable(gate.requirement, 30) + "]";
   std::vector<std::string> cells{printable(gate.agent, 40), what, where_text(gate)};
   if (result.claim) {
-    cells.push_back(failed_of_units(gate, result));
+    cells.push_back(failed_of_units(result));
     cells.push_back(value_text(gate, result.claim->upper, rounded_up));
     cells.push_back(gate.kind == GateKind::None ? limit_text(gate) + ", none allowed" : limit_text(gate));
   } else {
@@ -104,12 +109,10 @@ std::vector<std::string> row(const ReportInput& input, std::size_t index) {
 
 std::string estimate_text(const GateRecord& gate, const GateResult& result) {
   const auto& claim = *result.claim;
-  std::string text = gate.unit == GateUnit::AgvHour
-                         ? fmt::format("{} in {:.6g} AGV-hours", count_text(claim.failing, "event"), claim.exposure)
-                         : fmt::format("{} of {} {} failed", result.optimistic->failing, claim.units, result.unit);
+  std::string text = fmt::format("{} of {} {}{} failed", result.optimistic->failing, result.optimistic->units,
+                                 result.unit, distinct_text(gate, result));
   const auto unknown = claim.failing - result.optimistic->failing;
-  if (unknown > 0 && gate.unit != GateUnit::AgvHour)
-    text += fmt::format(" and {} stayed unknown, which counts as failing", unknown);
+  if (unknown > 0) text += fmt::format(" and {} stayed unknown, which counts as failing", unknown);
   const auto up = [&](double bound) { return value_text(gate, bound, rounded_up); };
   if (claim.rate()) {
     text += ": ";
@@ -138,9 +141,14 @@ Remark remark_of(const ReportInput& input, std::size_t index) {
   const GateResult& result = input.gates[index];
   std::string text = fmt::format("\"{}\": ", printable(gate.name, 60));
   text += result.claim ? estimate_text(gate, result) : count_text(result.counts.failing_runs, "run") + " failed.";
-  if (result.claim && result.optimistic->failing != result.claim->failing && gate.unit != GateUnit::AgvHour)
-    text += optimistic_text(gate, result);
+  if (result.claim && result.optimistic->failing != result.claim->failing) text += optimistic_text(gate, result);
   text += fmt::format(" Why {}: {}.", name_of(result.verdict), result.reason);
+  if (cannot_be_violated(gate, input.evidence.gate_cells(index)))
+    text += " It cannot be violated: its limit lets a failure into every world.";
+  if (input.evidence.is_judged_anew(index))
+    text +=
+        " The version that wrote this file counted the time until the first failure of each world; judged here is "
+        "the share of worlds that failed, which needs no assumption about when failures come.";
   if (!result.missing.empty()) text += " Weak: " + missing_text(result.missing) + ".";
   if (!result.worst) return {text, ""};
   text += " " + worst_run_text(result);

@@ -24,11 +24,11 @@ std::vector<Remark> stall_notes(const ReportInput& input) {
   for (const BreakdownRow& row : input.breakdown.rows()) {
     const bool of_all = row.key.layout.empty() && row.key.fleet_size == 0;
     if (!of_all || !row.key.in_contract || row.stalled == 0) continue;
-    if (!is_under_test(input.evidence.gates(), row.key.agent)) continue;
+    if (!is_under_test(input.evidence.plan(), row.key.agent)) continue;
     std::string text = fmt::format(
         "{} stalled in {} of {} worlds of the contract region: AGVs waited for each other (deadlock), moved without a "
         "result (livelock), or one was left without progress (starvation), and no contact explains it.",
-        printable(row.key.agent, 40), row.stalled, row.violations.units);
+        printable(row.key.agent, 40), row.stalled, row.violations.worlds.units);
     if (!has_gate_on_progress(input.evidence, row.key.agent)) text += " No gate judges that.";
     notes.emplace_back().text = std::move(text);
   }
@@ -38,7 +38,7 @@ std::vector<Remark> stall_notes(const ReportInput& input) {
 std::vector<Remark> soundness_notes(const ReportInput& input) {
   std::uint64_t audited = 0;
   bool in_doubt = input.evidence.engine_errors() > 0;
-  for (const AgentAudit& audit : input.audits.agents()) {
+  for (const AgentAudit& audit : input.evidence.audits().agents()) {
     audited += audit.audited;
     in_doubt = in_doubt || audit.differing > 0;
   }

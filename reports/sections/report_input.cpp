@@ -12,23 +12,18 @@ std::string replay_line(const ReportInput& input, std::uint64_t run_index) {
 }
 
 ReportInput read_report_input(const ArchiveReader& archive, std::string archive_path, const AlsoCount& also) {
-  ReportInput input{std::move(archive_path),
-                    archive.campaign(),
-                    Evidence(archive.plan()),
-                    Breakdown(archive.cells()),
-                    AuditTally(archive.campaign(), archive.cells()),
-                    {},
-                    {},
-                    0};
+  ReportInput input{
+      std::move(archive_path), archive.campaign(), Evidence(archive.plan()), Breakdown(archive.plan()), {}, {}, 0};
   const auto count = [&](const RunRecord& run) {
     ++input.stored_runs;
-    input.audits.add_run(run);
     if (run.run_index != input.evidence.runs()) return;
     input.evidence.add(run);
     input.breakdown.add(run);
     input.failures.add(run, input.evidence.cells()[run.cell].agent);
     if (also) also(run, input.evidence);
   };
+  archive.for_each_audit([&](const AuditRecord& audit, bool same) { input.evidence.know(AuditedRun{audit, same}); });
+  input.evidence.know_unplaced_repeats(archive.unplaced_repeats());
   VisitFolded folded;
   folded.met = [&](std::uint32_t cell, const auto& met) { input.evidence.add_met(cell, met); };
   if (input.evidence.quiet_counts() && !also) {
@@ -39,17 +34,14 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
     };
   }
   archive.for_each_run(count, folded);
-  archive.for_each_audit([&](const AuditRecord& audit, bool same) {
-    if (audit.run_index < input.evidence.runs()) input.audits.add_audit(audit.run_index, same);
-  });
   for (const std::string& agent : archive.campaign().plugin_agents)
-    input.audits.add_recordings(agent, archive.recording_count(agent));
+    input.evidence.know_recordings(agent, archive.recording_count(agent));
   input.gates = input.evidence.judge_all();
   return input;
 }
 
 Conclusion conclusion_of(const ReportInput& input) {
-  if (input.evidence.engine_errors() > 0 || input.audits.engine_at_fault()) return Conclusion::EngineFault;
+  if (input.evidence.engine_errors() > 0 || input.evidence.audits().engine_at_fault()) return Conclusion::EngineFault;
   switch (overall_verdict(input.evidence, input.gates)) {
     case Verdict::Demonstrated:
       return Conclusion::Demonstrated;

@@ -7,7 +7,6 @@
 
 #include "reports/attempts/attempt_history.hpp"
 #include "reports/comparison/baseline.hpp"
-#include "reports/evidence/audit_tally.hpp"
 #include "reports/evidence/breakdown.hpp"
 #include "reports/evidence/evidence.hpp"
 #include "reports/evidence/failure_groups.hpp"
@@ -23,7 +22,6 @@ struct ReportInput {
   CampaignRecord campaign;
   Evidence evidence;
   Breakdown breakdown;
-  AuditTally audits;
   FailureGroups failures;                      // of the runs before the first gap
   std::vector<GateResult> gates;               // in the order of evidence.gates()
   std::uint64_t stored_runs = 0;               // in the file; evidence.runs() of them are before the first gap

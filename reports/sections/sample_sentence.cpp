@@ -95,19 +95,20 @@ std::string where(const std::set<Span>& spans, const std::string& sampling) {
 
 // "in one warehouse, with the placement of replicate 3 throughout, "
 std::string held_before(const Evidence& evidence, std::size_t worlds) {
-  auto others = evidence.held_streams();
+  auto others = evidence.plan().campaign.held_streams;
   const bool one_layout = std::erase(others, "layout") > 0;
   std::string text;
   if (one_layout)
     text += worlds == 1 ? "in one warehouse, "
                         : fmt::format("in one warehouse for each of {} layouts and fleet sizes, ", worlds);
   if (!others.empty())
-    text += fmt::format("with the {} of replicate {} throughout, ", joined(others), evidence.held_replicate());
+    text += fmt::format("with the {} of replicate {} throughout, ", joined(others),
+                        evidence.plan().campaign.held_replicate);
   return text;
 }
 
 std::string held_world(const Evidence& evidence) {
-  if (std::ranges::find(evidence.held_streams(), "layout") == evidence.held_streams().end())
+  if (std::ranges::find(evidence.plan().campaign.held_streams, "layout") == evidence.plan().campaign.held_streams.end())
     return "that one draw of them";
   std::set<std::pair<std::string, std::uint32_t>> worlds;
   for (const auto& cell : evidence.cells()) worlds.emplace(cell.layout, cell.fleet_size);
@@ -130,9 +131,10 @@ std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& 
   }
   std::vector<std::string> sizes;
   for (const auto size : fleets) sizes.push_back(std::to_string(size));
-  auto text = fmt::format("{}{} {}, {} {}, fleets of {}", held_before(evidence, layouts.size() * fleets.size()),
-                          count_text(evidence.complete_replicates(), "world"), where(spans, evidence.sampling()),
-                          layouts.size() == 1 ? "layout" : "layouts", listed(layouts), joined(sizes, " or "));
+  auto text =
+      fmt::format("{}{} {}, {} {}, fleets of {}", held_before(evidence, layouts.size() * fleets.size()),
+                  count_text(evidence.complete_replicates(), "world"), where(spans, evidence.plan().campaign.sampling),
+                  layouts.size() == 1 ? "layout" : "layouts", listed(layouts), joined(sizes, " or "));
   if (tally.longest_ns > 0)
     text += fmt::format(", {} a run", seconds_text(static_cast<double>(tally.longest_ns) / 1e9));
   // A loss says little without the length of its bursts.

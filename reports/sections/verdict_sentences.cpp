@@ -59,7 +59,7 @@ std::string gates_by_verdict(const ReportInput& input) {
   }
   std::vector<std::string> others;
   for (const AgentCoverage& agent : input.evidence.agent_coverage()) {
-    if (!is_under_test(input.evidence.gates(), agent.agent)) others.push_back(printable(agent.agent, 40));
+    if (!is_under_test(input.evidence.plan(), agent.agent)) others.push_back(printable(agent.agent, 40));
   }
   if (!others.empty()) text += fmt::format("Reported only, no part of the verdict: {}.", joined(others));
   return text;
@@ -76,7 +76,9 @@ Headline claim(const ReportInput& input) {
     deciding += deciding_gates(input, each).size();
   Headline headline{name_of(verdict), "", {}};
   if (speaking.empty()) {
-    headline.text = "no gate binds an agent of this campaign.";
+    const std::vector<std::string> unjudged = unjudged_agents(input.evidence);
+    headline.text = deciding == 0 || unjudged.empty() ? "no gate binds an agent of this campaign." : unjudged[0] + ".";
+    headline.details.emplace_back().text = gates_by_verdict(input);
     return headline;
   }
   headline.text = subject(input, speaking.front());
@@ -85,6 +87,8 @@ Headline claim(const ReportInput& input) {
       deciding == 1 ? "1 gate (acceptance criterion)" : fmt::format("{} gates (acceptance criteria)", deciding),
       name_of(verdict));
   headline.text += is_weak(input) ? "; the evidence is weak." : ".";
+  for (const std::string& sentence : unjudged_agents(input.evidence))
+    headline.details.emplace_back().text = fmt::format("Not demonstrated in any case: {}.", sentence);
   headline.details.emplace_back().text = gates_by_verdict(input);
   std::ranges::move(stall_notes(input), std::back_inserter(headline.details));
   for (std::size_t i = 0; i < std::min(kGatesTold, speaking.size()); ++i) {
@@ -174,7 +178,7 @@ std::vector<Headline> warnings(const ReportInput& input) {
          {}});
   }
   for (const auto& [agent, runs, worst] : input.evidence.contract_failures()) {
-    if (!is_under_test(input.evidence.gates(), agent)) continue;
+    if (!is_under_test(input.evidence.plan(), agent)) continue;
     list.push_back(
         {"violation",
          fmt::format("agent {} broke the safety distance in {} within the contract region. The most serious:",
@@ -194,7 +198,7 @@ std::vector<Headline> verdicts(const ReportInput& input) {
 std::vector<Headline> foreign_body_notes(const ReportInput& input) {
   std::vector<Headline> list;
   for (const auto& [agent, runs, worst] : input.evidence.foreign_body_runs()) {
-    if (!is_under_test(input.evidence.gates(), agent)) continue;
+    if (!is_under_test(input.evidence.plan(), agent)) continue;
     list.push_back(
         {"unknown",
          fmt::format("in {} of agent {} within the contract region, all that AGVs came too close to were fallen "

@@ -47,7 +47,7 @@ void name_short_gates(std::vector<std::string>& points, const ReportInput& input
   for (std::size_t i = 0; i < evidence.gates().size(); ++i) {
     if (input.gates[i].claim && input.gates[i].claim->failing > 0) continue;
     const auto& gate = evidence.gates()[i];
-    const auto needed = gate.unit == GateUnit::AgvHour ? std::nullopt : units_to_pass(gate, 0, 0);
+    const auto needed = units_to_pass(gate, 0, 0, evidence.gate_cells(i));
     const auto done = evidence.complete_replicates();
     if (!needed || done >= *needed || evidence.cells_of(i).empty()) continue;
     points.push_back(
@@ -95,6 +95,11 @@ std::vector<std::string> weak_points(const ReportInput& input) {
              [](const Tally& tally) { return tally.unknown_runs > 0; });
   name_cells(points, evidence, Scope::Contract, "have stuck runs",
              [](const Tally& tally) { return tally.stuck_runs > 0; });
+  name_cells(points, evidence, Scope::All, "always have the same run, so that there is no rate",
+             [](const Tally& tally) { return tally.runs > 1 && tally.repeats + 1 >= tally.runs; });
+  if (evidence.repeated_runs() > 0)
+    points.push_back(fmt::format("{} of {} runs have a trace that an earlier run of their cell had.",
+                                 evidence.repeated_runs(), evidence.runs()));
   name_agents_without_gate(points, evidence);
   return points;
 }

@@ -55,17 +55,18 @@ TEST_F(ChunkCollectors, WaitForAudits) {
   collector.publish();
   EXPECT_EQ(published(), (std::vector<bool>{false, false, true}));
   EXPECT_TRUE(collector.waits_for_audits());
-  collector.add(AuditRecord{9, 99});
+  collector.add(AuditRecord{9, 99, audited_outcome(runs_[9])});
   collector.publish();
   EXPECT_FALSE(published()[0]);
-  collector.add(AuditRecord{3, 33});
+  collector.add(AuditRecord{3, 33, audited_outcome(runs_[3])});
   collector.publish();
   EXPECT_TRUE(published()[0]);
   ChunkFile first(folder_.chunk_file(0));
   first.for_each_run([](const RunRecord&) {});
-  EXPECT_EQ(first.audits(), (std::vector<AuditRecord>{{3, 33}, {9, 99}}));
+  EXPECT_EQ(first.audits(),
+            (std::vector<AuditRecord>{{3, 33, audited_outcome(runs_[3])}, {9, 99, audited_outcome(runs_[9])}}));
   collector.audits_end();
-  collector.add(AuditRecord{20, 1});
+  collector.add(AuditRecord{20, 1, audited_outcome(runs_[20])});
   collector.publish();
   EXPECT_FALSE(collector.waits_for_audits());
   EXPECT_EQ(published(), (std::vector<bool>{true, true, true}));

@@ -218,5 +218,69 @@ TEST(RelativeSpeed, IsThatOfTheAgvIfAnObstacleAppearsOnIt) {
   EXPECT_NEAR(um(violations[0].relative_speed_um_s), 1.5e6, kTo_um);
 }
 
+// A load makes a resting AGV wider where another one passes; the world stops that at once. `number`: of the resting
+// one.
+Violation growth_into(Scene& scene, const Piece& stops, const Piece& moves, std::uint32_t number) {
+  const auto law = make_exact_law(scene.scenario);
+  const SimTime at = moves.end;
+  Piece narrow = announced(rest_piece(EntityId{number}, {}, scene.bodies[number].pose(), kStart), kForever);
+  Piece wide = announced(rest_piece(EntityId{number}, {1.6, 1.6}, scene.bodies[number].pose(), at), kForever);
+  Piece passes = announced(moves, kForever), stands = announced(stops, kForever);
+  Teller teller(*law, scene.bodies.size());
+  teller.begins(narrow);
+  teller.begins(passes);
+  narrow.end = at;
+  teller.ends(narrow);
+  teller.begins(wide);
+  passes.end = at;
+  teller.ends(passes);
+  teller.begins(stands);
+  wide.end = stands.end = scene.end;
+  teller.ends(wide);
+  teller.ends(stands);
+  law->finish(scene.end);
+  const auto violations = law->findings().violations;
+  EXPECT_EQ(violations.size(), 1U);
+  return violations.empty() ? Violation{} : violations[0];
+}
+
+TEST(RelativeSpeed, IsThatOfTheOneThatPassesIfALoadGrowsIntoIt) {
+  for (const std::uint32_t resting : {0U, 1U}) {  // whichever is named first
+    Scene scene(10.0);
+    if (resting == 0) scene.agv(facing(5.0, 1.2, 1.0, 0.0));
+    scene.agv(facing(0.0, 0.0, 1.0, 0.0)).drive(12.0).cut_short_at(4.0);  // at 4 m, with 2 m/s
+    if (resting == 1) scene.agv(facing(5.0, 1.2, 1.0, 0.0));
+    const auto pieces = scene.bodies[1 - resting].until(scene.end);
+    const Violation violation = growth_into(scene, pieces[1], pieces[0], resting);
+    EXPECT_TRUE(violation.contact);
+    EXPECT_EQ(violation.first, at_seconds(4.0));
+    EXPECT_EQ(level_of(violation), ViolationLevel::HazardousContact);
+    EXPECT_NEAR(um(violation.relative_speed_um_s), 2e6, kTo_um);
+  }
+}
+
+// A corner at 1 rad/s.
+TEST(RelativeSpeed, IsThatOfTheOneThatTurnsIfALoadGrowsIntoIt) {
+  Scene scene(10.0);
+  scene.agv(facing(0.0, 1.5, 1.0, 0.0));
+  scene.agv(facing(0.0, 0.0, 1.0, 0.0)).turn(1.7).cut_short_at(1.0);  // 0.5 rad
+  const auto pieces = scene.bodies[1].until(scene.end);
+  const Violation violation = growth_into(scene, pieces[1], pieces[0], 0);
+  EXPECT_TRUE(violation.contact);
+  EXPECT_GT(violation.relative_speed_um_s, 300'000);
+}
+
+// One that only grows again, or that was there before, adds nothing.
+TEST(RelativeSpeed, IsNoneIfALoadGrowsIntoOneThatStands) {
+  Scene scene(10.0);
+  scene.agv(facing(0.0, 1.2, 1.0, 0.0));
+  scene.agv(facing(0.0, 0.0, 1.0, 0.0));
+  Piece before = scene.bodies[1].until(scene.end)[0], after = before;
+  before.end = after.begin = at_seconds(2.0);
+  const Violation violation = growth_into(scene, after, before, 0);
+  EXPECT_TRUE(violation.contact);
+  EXPECT_EQ(violation.relative_speed_um_s, 0);
+}
+
 }  // namespace
 }  // namespace fleetproof::test::relative_speed_test

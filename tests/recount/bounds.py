@@ -1,5 +1,5 @@
 """Bounds and intervals, written from the formulas of the method notes and from no code of the product."""
-from math import exp, inf, lgamma, log, log1p, expm1
+from math import exp, expm1, inf, lgamma, log, log1p
 
 
 def bisected(is_above, low, high):
@@ -78,56 +78,19 @@ def any_time_share(k, n, risk):
     return lower, upper
 
 
-def poisson_at_most(k, mean):
-    """P(Poisson(mean) <= k), as a sum from its largest term on."""
-    if mean == 0.0:
-        return 1.0
-    top = min(k, int(mean))
-    log_top = top * log(mean) - mean - lgamma(top + 1)
-    total, term = 0.0, 1.0
-    for i in range(top, -1, -1):
-        total += term
-        term *= i / mean
-        if term < 1e-18 * total:
-            break
-    term = 1.0
-    for i in range(top + 1, k + 1):
-        term *= mean / i
-        total += term
-        if term < 1e-18 * total:
-            break
-    return min(1.0, total * exp(log_top))
-
-
-def fixed_rate(k, hours, risk):
-    """Garwood."""
-    most = (k + 20.0 * (k + 1) ** 0.5 + 40.0) / hours
-    lower = 0.0 if k == 0 else bisected(lambda r: 1.0 - poisson_at_most(k - 1, r * hours) >= risk, 0.0, most)
-    return lower, bisected(lambda r: poisson_at_most(k, r * hours) <= risk, 0.0, most)
-
-
-def any_time_rate(k, hours, risk):
-    """The Gamma-Poisson sequence with shape 0.05 and rate 1."""
-    shape, goal = 0.05, -log(risk)
-
-    def log_m(rate):
-        return (lgamma(shape + k) - lgamma(shape) - (shape + k) * log(1.0 + hours)
-                - (k * log(rate) if k else 0.0) + rate * hours)
-
-    best = k / hours
-    lower = 0.0 if k == 0 else bisected(lambda r: log_m(r) < goal, best * 1e-300, best)
-    most = best + 1.0 / hours
-    while log_m(most) < goal:
-        most *= 2.0
-    return lower, bisected(lambda r: log_m(r) >= goal, best, most)
-
-
-def bounds(method, unit, k, units, risk, cells=1):
-    """One-sided lower and upper bound at `risk`. Units of AGV-hours are microseconds. If each of several cells is judged
-    for itself (unit "run") and k is of the worst, the cells share the risk of the lower bound."""
+def bounds(method, unit, k, units, risk, cells=1, run_hours=0.0):
+    """One-sided lower and upper bound at `risk`. If each of several cells is judged for itself (unit "run") and k is of
+    the worst, the cells share the risk of the lower bound. A rate per AGV-hour follows from the share of worlds, if a run
+    has `run_hours` of them."""
+    share = any_time_share if method == "any-time" else fixed_share
+    lower = share(k, units, risk / cells if unit == "run" and cells else risk)[0]
+    upper = share(k, units, risk)[1]
     if unit != "agv-hour":
-        share = any_time_share if method == "any-time" else fixed_share
-        return share(k, units, risk / cells if unit == "run" and cells else risk)[0], share(k, units, risk)[1]
-    if units == 0:
-        return 0.0, inf
-    return (any_time_rate if method == "any-time" else fixed_rate)(k, units / 3.6e9, risk)
+        return lower, upper
+    return lower / (run_hours * cells), upper / ((1.0 - upper) * run_hours) if upper < 1.0 else inf
+
+
+def largest_share(gate, run_hours):
+    """The largest share of worlds that meets the limit of a gate."""
+    failures = gate["limit_rate"] * run_hours
+    return failures / (1.0 + failures) if gate["unit"] == "agv-hour" else gate["limit_rate"]

@@ -10,8 +10,7 @@ RISK, MARGIN = 0.05, 0.05
 
 
 def agents_under_test(archive):
-    deciding = {gate["agent"] for gate in archive.gates if gate["decides"]}
-    return [agent for agent in archive.agents if not deciding or agent in deciding]
+    return [agent for agent in archive.agents if archive.is_under_test(agent)]
 
 
 def cells_of(archive, agent):

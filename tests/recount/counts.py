@@ -1,4 +1,5 @@
 """What an archive holds, counted with SQL from its tables. No code of the product."""
+import json
 import sqlite3
 from collections import defaultdict
 
@@ -14,9 +15,9 @@ EARLY = "(crash OR hang OR indeterminate OR engine_error)"
 
 NEVER = 2**62
 
-# By run: whether each end point failed (1), stayed unknown (2) or neither (0); and between which instants the first
-# event lies, if it failed. Behind the first contact a lack of progress is a consequence, hence unknown.
-# While a foreign body (a fallen load, an obstacle) lay on the floor, nobody knows what the fleet waited for.
+# By run: whether each end point failed (1), stayed unknown (2) or neither (0). Behind the first contact a lack of
+# progress is a consequence, hence unknown. While a foreign body (a fallen load, an obstacle) lay on the floor, nobody
+# knows what the fleet waited for.
 def progress(kind):
     lay = ("EXISTS (SELECT 1 FROM incidents b WHERE b.run_index = r.run_index AND b.kind = 19 AND b.first_ns < i.last_ns "
            "AND b.last_ns > i.first_ns)")
@@ -24,38 +25,30 @@ def progress(kind):
     began = "last_ns" if kind in (13, 14) else "first_ns"  # livelock and starvation are dated from the last progress
     before = f"EXISTS ({of_kind} AND {began} < w AND NOT {lay})"
     behind = f"EXISTS ({of_kind} AND ({began} >= w OR {lay}))"
-    result = f"CASE WHEN {before} AND NOT {EARLY} THEN 1 WHEN {behind} OR {EARLY} OR w < {NEVER} THEN 2 ELSE 0 END"
-    earliest, latest = (f"(SELECT min({at}) FROM incidents i WHERE i.run_index = r.run_index AND i.kind = {kind} AND "
-                        f"{began} < w AND NOT {lay})" for at in ("first_ns", began))
-    return result, earliest, latest
+    return f"CASE WHEN {before} AND NOT {EARLY} THEN 1 WHEN {behind} OR {EARLY} OR w < {NEVER} THEN 2 ELSE 0 END"
 
 
 # The software answers for violations that have no row in temp.foreign. A run without rows has its flags alone.
-def violation(condition, flags, at="first_ns"):
+def violation(condition, flags):
     rows = f"SELECT 1 FROM violations v WHERE v.run_index = r.run_index AND {condition}"
-    own_rows = (f"{rows} AND NOT EXISTS (SELECT 1 FROM temp.foreign_bodies f WHERE f.run_index = v.run_index AND "
-                "f.ordinal = v.ordinal)")
-    own = f"EXISTS ({own_rows})"
+    own = (f"EXISTS ({rows} AND NOT EXISTS (SELECT 1 FROM temp.foreign_bodies f WHERE f.run_index = v.run_index AND "
+           "f.ordinal = v.ordinal))")
     bare = "NOT EXISTS (SELECT 1 FROM violations v WHERE v.run_index = r.run_index)"
-    earliest, latest = (own_rows.replace("SELECT 1", f"SELECT min({column})", 1) for column in ("first_ns", at))
-    return (f"CASE WHEN {own} OR ({flags} AND {bare}) THEN 1 WHEN EXISTS ({rows}) OR {EARLY} THEN 2 ELSE 0 END",
-            f"coalesce(({earliest}), 0)", f"coalesce(({latest}), {NEVER})")
+    return f"CASE WHEN {own} OR ({flags} AND {bare}) THEN 1 WHEN EXISTS ({rows}) OR {EARLY} THEN 2 ELSE 0 END"
 
 
-def failed_or(failed, earliest="0", latest=str(NEVER)):
-    return f"CASE WHEN {failed} THEN 1 WHEN {EARLY} THEN 2 ELSE 0 END", earliest, latest
+def failed_or(failed):
+    return f"CASE WHEN {failed} THEN 1 WHEN {EARLY} THEN 2 ELSE 0 END"
 
 
 def incident(condition):
-    rows = f"FROM incidents i WHERE i.run_index = r.run_index AND {condition}"
-    first = f"(SELECT min(first_ns) {rows})"
-    return failed_or(f"EXISTS (SELECT 1 {rows})", first, first)
+    return failed_or(f"EXISTS (SELECT 1 FROM incidents i WHERE i.run_index = r.run_index AND {condition})")
 
 
 END_POINTS = {
     "violation": violation("1", "(r.violation OR r.contact)"),
-    "contact": violation("v.contact", "r.contact", "last_ns"),
-    "hazardous-contact": violation("v.contact AND v.relative_speed_um_s > 300000", "0", "last_ns"),
+    "contact": violation("v.contact", "r.contact"),
+    "hazardous-contact": violation("v.contact AND v.relative_speed_um_s > 300000", "0"),
     "deadlock": progress(10), "livelock": progress(13), "starvation": progress(14), "standstill": progress(16),
     "wrong-load": incident("i.kind BETWEEN 4 AND 9"), "empty-battery": incident("i.kind = 1"),
     "crash": failed_or("crash"), "hang": failed_or("hang")}
@@ -79,6 +72,21 @@ class Archive:
             "GROUP BY run_index")
         self.db.execute("CREATE UNIQUE INDEX temp.by_run ON wrecks(run_index)")
         self.note_foreign_bodies()
+        # Runs with a trace that an earlier run of their cell had.
+        self.db.execute("CREATE TEMP TABLE repeating AS SELECT run_index FROM (SELECT run_index, row_number() OVER "
+                        "(PARTITION BY cell, digest ORDER BY run_index) AS nth FROM runs) WHERE nth > 1")
+        self.db.execute("CREATE UNIQUE INDEX temp.by_repeating ON repeating(run_index)")
+
+    def is_under_test(self, agent):
+        named = self.campaign["agents_under_test"].split("\n")[:-1]
+        deciding = {gate["agent"] for gate in self.gates if gate["decides"]}
+        return agent in named if named else not deciding or agent in deciding
+
+    def run_hours(self, cells):
+        """Planned AGV-hours of one run, mean over the cells."""
+        horizon_s = json.loads(self.campaign["plan_json"]).get("horizon_s", 0.0) if self.campaign["plan_json"] else 0.0
+        fleets = [self.cells[cell]["fleet_size"] for cell in cells]
+        return horizon_s / 3600.0 * sum(fleets) / len(fleets) if fleets else 0.0
 
     def note_foreign_bodies(self):
         """Violations with a body that is no AGV, or with an AGV that hit one before and lies there; and runs with any
@@ -110,66 +118,65 @@ class Archive:
         return cell["loss_to"] <= 0.4 and cell["delay_to_s"] <= 2.0
 
     def results(self, end_point, cells):
-        """(replicate, run, cell, result, agv_us, at risk at least and at most, transports) of the complete replicates,
-        in order."""
+        """(replicate, run, cell, result, agv_us, transports, repeats) of the complete replicates, in order."""
         listed = ",".join(str(cell) for cell in cells) or "-1"
-        what, earliest, latest = END_POINTS[end_point] if end_point != "throughput" else failed_or("crash")
+        what = END_POINTS[end_point] if end_point != "throughput" else failed_or("crash")
         return self.db.execute(
             f"SELECT replicate, r.run_index, cell, {what} AS result, simulated_ns / 1000 * agv_count AS agv_us, "
-            f"min(simulated_ns, {earliest}) / 1000 * agv_count AS least_us, "
-            f"min(simulated_ns, {latest}) / 1000 * agv_count AS most_us, transports_done, EXISTS (SELECT 1 FROM temp.met_foreign m WHERE m.run_index = r.run_index) AS foreign_body "
+            "transports_done, EXISTS (SELECT 1 FROM temp.met_foreign m WHERE m.run_index = r.run_index) AS foreign_body, "
+            "EXISTS (SELECT 1 FROM temp.repeating t WHERE t.run_index = r.run_index) AS repeats "
             f"FROM (SELECT runs.*, coalesce(w, {NEVER}) AS w FROM runs LEFT JOIN temp.wrecks "
             f"USING (run_index)) r WHERE cell IN ({listed}) AND replicate < {self.replicates} ORDER BY r.run_index")
 
-    def units(self, end_point, unit, cells, floor=0.0):
-        """(units, failing, failing or unknown, units if unknown runs passed) over the complete replicates."""
-        if unit == "run":
-            return self.worst_cell(end_point, cells, floor)
-        failing = unknown = exposure_us = most_us = 0
-        replicate, worst, agv_us, done, foreign = None, 0, 0, 0, 0
+    def units(self, end_point, cells, floor=0.0):
+        """Of the worlds of the complete replicates: (those that a claim counts, failing, failing or unknown, all,
+        distinct). A world that passed counts if one of its runs is new to its cell."""
+        failing = unknown = counted = distinct = 0
+        replicate, worst, agv_us, done, foreign, is_new = None, 0, 0, 0, 0, False
 
         def close():
-            nonlocal failing, unknown
+            nonlocal failing, unknown, counted, distinct
             result = worst
             if end_point == "throughput" and result == 0:
                 result = 2 if agv_us == 0 else int(done / (agv_us / 3.6e9) < floor) * (1 + foreign)
             failing += result == 1
             unknown += result == 2
+            counted += result != 0 or is_new
+            distinct += is_new
 
         for row in self.results(end_point, cells):
             if row["replicate"] != replicate:
                 if replicate is not None:
                     close()
-                replicate, worst, agv_us, done, foreign = row["replicate"], 0, 0, 0, 0
+                replicate, worst, agv_us, done, foreign, is_new = row["replicate"], 0, 0, 0, 0, False
             result = row["result"]
             if end_point == "throughput" and result:
                 result = 2
-            if worst == 0:
-                exposure_us += (row["agv_us"], row["least_us"], 0)[result]
-            if worst != 1:
-                most_us += row["most_us"] if result == 1 else row["agv_us"]
             worst = 1 if 1 in (worst, result) else max(worst, result)
             agv_us += row["agv_us"]
             done += row["transports_done"]
             foreign |= row["foreign_body"]
+            is_new |= not row["repeats"]
         if replicate is not None:
             close()
-        units = self.replicates if cells else 0
-        return (exposure_us if unit == "agv-hour" else units, failing, failing + unknown,
-                most_us if unit == "agv-hour" else units)
+        return counted, failing, failing + unknown, self.replicates if cells else 0, distinct
 
-    def worst_cell(self, end_point, cells, floor):
-        failing, unknown = defaultdict(int), defaultdict(int)
+    def by_cell(self, end_point, cells, floor):
+        """The same of the runs of each cell."""
+        counts = {cell: [0, 0, 0, 0, 0] for cell in cells}
         for row in self.results(end_point, cells):
             result = row["result"]
             if end_point == "throughput":
                 hours = row["agv_us"] / 3.6e9
                 result = 2 if result or hours == 0.0 else int(row["transports_done"] / hours < floor) * (
                     1 + row["foreign_body"])
-            failing[row["cell"]] += result == 1
-            unknown[row["cell"]] += result != 0
-        units = self.replicates if cells else 0
-        return units, max(failing.values(), default=0), max(unknown.values(), default=0), units
+            count = counts[row["cell"]]
+            count[0] += result != 0 or not row["repeats"]
+            count[1] += result == 1
+            count[2] += result != 0
+            count[3] += 1
+            count[4] += not row["repeats"]
+        return [tuple(count) for count in counts.values()] or [(0, 0, 0, 0, 0)]
 
     def stalled_worlds(self, cells):
         worlds = set()
@@ -181,7 +188,7 @@ class Archive:
         """Sums over the complete replicates."""
         listed = ",".join(str(cell) for cell in cells) or "-1"
         return self.one(
-            f"SELECT count(*) AS runs, coalesce(sum(({END_POINTS['violation'][0]}) = 1), 0) AS violating, "
+            f"SELECT count(*) AS runs, coalesce(sum(({END_POINTS['violation']}) = 1), 0) AS violating, "
             "coalesce(sum(contact), 0) AS contact, coalesce(sum(stuck), 0) AS stuck, "
             "coalesce(sum(crash) + sum(hang), 0) AS ended, min(min_clearance_um) AS closest_um, "
             f"coalesce(sum({UNMEASURED}), 0) AS unmeasured, "
@@ -189,6 +196,12 @@ class Archive:
             "coalesce(sum(safe_mode_ns), 0) AS safe_mode_ns, coalesce(sum(simulated_ns * agv_count), 0) AS all_ns, "
             "coalesce(max(simulated_ns), 0) AS longest_ns "
             f"FROM runs r WHERE cell IN ({listed}) AND replicate < {self.replicates}")
+
+    def repeats(self, cells):
+        """Runs of these cells that repeat an earlier one, of the complete replicates."""
+        listed = ",".join(str(cell) for cell in cells) or "-1"
+        return self.one(f"SELECT count(*) AS n FROM runs JOIN temp.repeating USING (run_index) WHERE cell IN ({listed}) AND "
+                        f"replicate < {self.replicates}")["n"]
 
     def conditions(self):
         """[(agent, lowest factors, highest factors, cells)]: agents in their order, then by factors."""

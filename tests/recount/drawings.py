@@ -3,7 +3,7 @@ from collections import defaultdict
 from math import ceil, log, log1p
 
 import wording as w
-from bounds import log_gate, beta_cdf
+from bounds import beta_cdf, largest_share, log_gate
 from counts import UNMEASURED
 from tables import share
 
@@ -39,10 +39,12 @@ def field_maps(archive):
                 cells = by_place.get((loss, delay))
                 if not cells or archive.replicates == 0:
                     continue
-                units, _, failing, _ = archive.units("violation", "world", cells)
+                units, _, failing, every, distinct = archive.units("violation", cells)
                 tally = archive.tally(cells)
                 risk.append(f"{failing}/{units}")
-                risk.append("counts only" if archive.search else "≤ " + w.up(share(archive, agent, failing, units)[0]))
+                same = every > 1 >= distinct
+                risk.append("counts only" if archive.search else "always the same" if same else
+                            "≤ " + w.up(share(archive, agent, failing, units)[0]))
                 if tally["agv_us"]:
                     done.append(w.per_hour(tally["done"], tally["agv_us"]))
                 if tally["all_ns"]:
@@ -74,9 +76,10 @@ def grids(archive, agent):
     return sizes
 
 
-def worlds_needed(gate, parts):
+def worlds_needed(archive, gate, parts):
     """Without a failure, in each field, when the risk is shared by so many."""
-    risk, limit = round(1.0 - gate["confidence"], 12) / parts, gate["limit_rate"]
+    risk = round(1.0 - gate["confidence"], 12) / parts
+    limit = largest_share(gate, archive.run_hours(archive.cells_of_gate(gate)))
     if gate["method"] == "fixed":
         return ceil(log(risk) / log1p(-limit))
     worlds = 1
@@ -96,7 +99,7 @@ def envelope_fields(archive, agent, losses, delays, by_place):
     for r, loss in enumerate(losses):
         for d, delay in enumerate(delays):
             cells = by_place.get((loss, delay), [])
-            units, _, failing, _ = archive.units("violation", "world", cells)
+            units, _, failing, *_ = archive.units("violation", cells)
             if units == 0:
                 enough = False
             elif gate["method"] == "any-time":

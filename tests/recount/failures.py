@@ -86,7 +86,7 @@ def ordinal_of(archive, agent, run):
 
 class Failures:
     def __init__(self, archive):
-        self.gates = archive.gates
+        self.archive = archive
         self.groups = {}
         self.last_new = defaultdict(int)  # by agent: the number of its run in which a kind was seen first, the latest
         digests = defaultdict(set)
@@ -108,8 +108,7 @@ class Failures:
         self.distinct = {key: len(found) for key, found in digests.items()}
 
     def under_test(self, agent):
-        deciding = {gate["agent"] for gate in self.gates if gate["decides"]}
-        return not deciding or agent in deciding
+        return self.archive.is_under_test(agent)
 
     def rows(self):
         keys = sorted(self.groups, key=lambda key: (not self.under_test(key[0]), SERIOUS.index(key[1]),

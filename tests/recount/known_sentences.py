@@ -64,7 +64,7 @@ def is_audit(archive, found):
     return row["n"] == row["same"] == int(found[2])
 
 
-WEAK = {"have no run": "count(run_index) = 0",
+WEAK = {"always have the same run": "count(r.run_index) > 1 AND count(DISTINCT r.digest) = 1", "have no run": "count(run_index) = 0",
         "have stuck runs": "coalesce(sum(stuck), 0) > 0",
         "completed no transport": "count(run_index) > 0 AND coalesce(sum(transports_done), 0) = 0"}
 
@@ -97,7 +97,7 @@ def cell_name(cell):
     return f"{cell['agent']} on {cell['layout']}, fleet of {cell['fleet_size']}, " + ", ".join(values)
 
 
-EARLY_UNKNOWN = f"({END_POINTS['violation'][0]}) = 2"
+EARLY_UNKNOWN = f"({END_POINTS['violation']}) = 2"
 
 
 def probes_missing(archive, found):
@@ -122,13 +122,13 @@ def is_envelope(archive, found):
     rows_columns = {size for size in grids(archive, agent) if str(size[0] * size[1]) == fields}
     return ((limit, confidence) == (f"{100.0 * gate['limit_rate']:g}", w.percent(gate["confidence"]))
             and bool(any_time) == (gate["method"] == "any-time")
-            and any((shown, size) in counts and worlds_needed(gate, min(size)) == int(needed) for size in rows_columns))
+            and any((shown, size) in counts and worlds_needed(archive, gate, min(size)) == int(needed) for size in rows_columns))
 
 
 def foreign_body_runs(archive, found):
     return int(found[1]) == archive.one(
         f"SELECT count(*) AS n FROM runs r JOIN cells USING (cell) WHERE agent = ? AND r.loss <= 0.4 AND r.delay_s <= 2.0 "
-        f"AND run_index < ? AND (violation OR contact) AND ({END_POINTS['violation'][0]}) != 1", found[2],
+        f"AND run_index < ? AND (violation OR contact) AND ({END_POINTS['violation']}) != 1", found[2],
         archive.runs)["n"]
 
 
@@ -143,7 +143,7 @@ def seed(archive, found):
 def layouts(archive, found):
     """"Layouts as units: runs of A failed or stayed unknown on 2 of 4 layouts (design effect 3.10). ... 4 units"."""
     runs = [(row["failing"], row["n"]) for row in archive.all(
-        f"SELECT layout, count(*) AS n, sum(({END_POINTS['violation'][0]}) != 0) AS failing FROM (SELECT r.*, layout FROM "
+        f"SELECT layout, count(*) AS n, sum(({END_POINTS['violation']}) != 0) AS failing FROM (SELECT r.*, layout FROM "
         "runs r JOIN cells USING (cell) WHERE agent = ? AND loss_to <= 0.4 AND delay_to_s <= 2.0 AND replicate < ?) r "
         "GROUP BY layout", found[1], archive.replicates)]
     rate, units = sum(f for f, _ in runs) / sum(n for _, n in runs), sum(n for _, n in runs)
@@ -206,7 +206,7 @@ def short_gate(archive, found):
     gates = [gate for gate in archive.gates if gate["name"] == found[1]]
     return any((int(found[2]), found[3], found[4]) == (archive.replicates, f"{gate['limit_rate']:g}",
                                                        w.percent(gate["confidence"]))
-               and int(found[5]) == worlds_needed(gate, 1) for gate in gates)
+               and int(found[5]) == worlds_needed(archive, gate, 1) for gate in gates)
 
 
 def planned(archive, found):
@@ -216,6 +216,21 @@ def planned(archive, found):
 def uncounted(archive, found):
     stored = archive.one("SELECT count(*) AS n FROM runs")["n"]
     return (int(found[1]), int(found[2])) == (stored - archive.replicates * len(archive.cells), stored)
+
+
+def repeating(archive, found):
+    repeated = archive.one("SELECT count(*) AS n FROM temp.repeating WHERE run_index < ?", archive.runs)["n"]
+    return (int(found[1]), int(found[2])) == (repeated, archive.runs)
+
+
+def unjudged(archive, found):
+    """"A broke the safety distance in 3 cells in the contract region for which no gate asks"."""
+    judged = {cell for gate in archive.gates if gate["decides"] and
+              gate["end_point"] in ("violation", "contact", "hazardous-contact") for cell in archive.cells_of_gate(gate)}
+    of_agent = [cell for cell in archive.cells if cell["agent"] == found[1]]
+    due = [cell for cell in of_agent if archive.inside(cell)] or of_agent
+    count = sum(cell["cell"] not in judged and archive.tally([cell["cell"]])["violating"] > 0 for cell in due)
+    return found[2] == ("a cell" if count == 1 else f"{count} cells") and bool(found[3]) == archive.inside(due[0])
 
 
 def agent_runs(archive, found):
@@ -250,6 +265,9 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"A run takes up to ([0-9.]+) s\. stalled", longest_run),
     (r"^([0-9]+) of ([0-9]+) planned replicates? (?:is|are) complete", planned),
     (r"^([0-9]+) of ([0-9]+) stored runs are not counted", uncounted),
+    (r"^Not demonstrated in any case: (.+) broke the safety distance in (a cell|[0-9]+ cells)( in the contract region)? for "
+     r"which no gate asks\.$", unjudged),
+    (r"^([0-9]+) of ([0-9]+) runs have a trace that an earlier run of their cell had\.$", repeating),
     (r"\bin ([0-9]+) runs? of agent (.+) within the contract region, all that AGVs came too close to were fallen loads",
      foreign_body_runs),
     (r"^(.+) stalled in ([0-9]+) of ([0-9]+) worlds of the contract region: ", stalled),
@@ -268,7 +286,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     # In recount.py: the title, the claim, the gates, the headlines, the charts.
     (r"^fleetproof report: ", compared_elsewhere),
     (r"(the true (share|rate) is at (most|least)|in 0 of 0 (worlds|runs)|in [0-9]+ runs?)\b.*gates? ", compared_elsewhere),
-    (r"^\".*\": [0-9.]+ (of [0-9]+ (worlds|runs) failed|events? in|runs? failed)", compared_elsewhere),
+    (r"^\".*\": [0-9.]+ (of [0-9]+ (worlds|runs)( \([0-9.e+]+ AGV-hours\))?(, [0-9]+ distinct)? failed|runs? failed)", compared_elsewhere),
     (r"broke the safety distance in [0-9]+ runs? within the contract region", compared_elsewhere),
     (r"^Agent .*: [0-9]+ runs?, [0-9]+ never closer than 0.5 m(, [0-9]+ not measured)?$", compared_elsewhere),
     (r"^agent .*: ([0-9]+, the last new one in run [0-9]+ of [0-9]+|none)$", compared_elsewhere),

@@ -1,9 +1,9 @@
 """The numbers that may stand in the reason of a verdict."""
 import re
-from math import ceil, log
+from math import log
 
 import wording as w
-from bounds import bisected, bounds, fixed_share, log_gate, any_time_rate, poisson_at_most
+from bounds import bounds, fixed_share, largest_share, log_gate
 from known_sentences import ENDS
 
 
@@ -21,63 +21,55 @@ def smallest(is_enough):
     return high
 
 
-def needed(gate, failing, units, risk):
-    limit = gate["limit_rate"]
-    if gate["unit"] == "agv-hour":
-        if gate["method"] == "any-time":
-            return smallest(lambda us: any_time_rate(failing, us / 3.6e9, risk)[1] <= limit)
-        return 3.6e9 * bisected(lambda hours: poisson_at_most(failing, limit * hours) <= risk, 0.0, 1e6 / limit)
+def needed(gate, failing, units, risk, share):
     if gate["method"] == "any-time":
-        return smallest(lambda n: n >= failing and log_gate(failing, n, limit) >= -log(risk))
-    return max(smallest(lambda n: n > failing and fixed_share(failing, n, risk)[1] <= limit), units + 1)
+        return smallest(lambda n: n >= failing and log_gate(failing, n, share) >= -log(risk))
+    return max(smallest(lambda n: n > failing and fixed_share(failing, n, risk)[1] <= share), units + 1)
 
 
-def needed_at_this_rate(gate, failing, units, risk):
+def needed_at_this_rate(gate, failing, units, risk, share):
     """Units at which the gate passes although units go on to fail as they did."""
     for count in range(failing, 1000):
-        wanted = needed(gate, count, units, risk)
+        wanted = needed(gate, count, units, risk, share)
         if wanted is None:
             return None
-        wanted = ceil(wanted)
         if failing * (wanted / units) <= count:
             return max(wanted, units)
     return None
 
 
 def numbers_of_gate(archive, gate, counts):
-    units, known, failing, most, _ = counts
+    units, known, failing, every, distinct, _, run_hours = counts
     hourly, risk = gate["unit"] == "agv-hour", round(1.0 - gate["confidence"], 12)
     cells = archive.cells_of_gate(gate)
     share = (lambda rounded, value: rounded(value)) if hourly else (lambda rounded, value: rounded(100.0 * value))
     texts = {share("{:g}".format, gate["limit_rate"]), f"{gate['min_transports_per_agv_hour']:g}", str(len(cells)), "0",
              str(archive.replicates), str(archive.campaign["replicates"]), str(failing), str(known),
-             str(failing - known), str(failing_runs(archive, gate, cells))}
-    texts |= {share(w.up, bounds(gate["method"], gate["unit"], failing, units, risk)[1]),
-              share(w.down, bounds(gate["method"], gate["unit"], known, most, risk, len(cells))[0]),
-              share(w.up, bounds(gate["method"], gate["unit"], known, units, risk)[1])}
-    amount = (lambda n: f"{n / 3.6e9:.6g}") if hourly else str
-    texts.add(amount(units))
-    texts.add(str(known))
+             str(failing - known), str(failing_runs(archive, gate, cells)), str(units), str(every), str(distinct)}
+    bound = lambda k, n: bounds(gate["method"], gate["unit"], k, n, risk, len(cells), run_hours)
+    if cells:
+        texts |= {share(w.up, bound(failing, units)[1]), share(w.down, bound(known, every)[0]),
+                  share(w.up, bound(known, every)[1])}
     if units:
-        texts.add(share(w.rate, failing / (units / 3.6e9 if hourly else units)))
+        texts.add(share(w.rate, failing / (units * len(cells) * run_hours if hourly else units)))
     due = [cell for cell in cells if archive.inside(archive.cells[cell])] or cells
     texts.add(str(len(due)))
     tally = archive.tally(due)
     texts.add(w.per_hour(tally["done"], tally["agv_us"]))
     texts.add(str(sum(archive.tally([cell])["done"] == 0 for cell in due)))
-    want = needed(gate, failing, units, risk)
+    largest = largest_share(gate, run_hours)
+    want = needed(gate, failing, units, risk, largest) if cells else None
     if want is not None:
-        want = ceil(want) if hourly else want
-        texts |= {amount(want), amount(want - units)}
-        if failing and gate["method"] == "any-time":
-            at_this_rate = needed_at_this_rate(gate, failing, units, risk)
-            texts |= {amount(at_this_rate)} if at_this_rate else set()
+        texts |= {str(want), str(want - units)}
+        if failing and units and gate["method"] == "any-time":
+            at_this_rate = needed_at_this_rate(gate, failing, units, risk, largest)
+            texts |= {str(at_this_rate)} if at_this_rate else set()
     return texts
 
 
 def failing_runs(archive, gate, cells):
     if gate["end_point"] == "throughput":
-        return archive.units("throughput", "world", cells, gate["min_transports_per_agv_hour"])[1]
+        return archive.units("throughput", cells, gate["min_transports_per_agv_hour"])[1]
     complete, archive.replicates = archive.replicates, 10**12  # every run before the first gap
     found = sum(row["result"] == 1 for row in archive.results(gate["end_point"], cells)
                 if row["run_index"] < archive.runs)

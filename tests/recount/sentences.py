@@ -23,16 +23,21 @@ def title(archive):
             f"each, {w.count(judged, 'run')} judged")
 
 
+def counted(gate, counts):
+    _, _, _, every, distinct, cells, run_hours = counts
+    text = f" ({every * cells * run_hours:.6g} AGV-hours)" if gate["unit"] == "agv-hour" else ""
+    return text + (f", {distinct} distinct" if distinct < every else "")
+
+
 def gate_sentence(gate, counts):
     """What the remark about a gate must begin with."""
-    units, known, failing, _, cells = counts
+    units, known, failing, every, _, cells, run_hours = counts
     hourly, risk = gate["unit"] == "agv-hour", round(1.0 - gate["confidence"], 12)
-    exposure = units / 3.6e9 if hourly else units
-    upper = bounds(gate["method"], gate["unit"], failing, units, risk)[1]
-    pair = bounds(gate["method"], gate["unit"], failing, units, 0.025, cells)
-    text = (f"\"{gate['name']}\": " + (f"{w.count(failing, 'event')} in {exposure:.6g} AGV-hours" if hourly else
-                                       f"{known} of {units} UNIT failed"))
-    if failing > known and not hourly:
+    exposure = units * cells * run_hours if hourly else units
+    upper = bounds(gate["method"], gate["unit"], failing, units, risk, cells, run_hours)[1]
+    pair = bounds(gate["method"], gate["unit"], failing, units, 0.025, cells, run_hours)
+    text = f"\"{gate['name']}\": {known} of {every} UNIT{counted(gate, counts)} failed"
+    if failing > known:
         text += f" and {failing - known} stayed unknown, which counts as failing"
     if units:
         text += f": {w.of_gate(gate, w.rate, failing / exposure)}, " if failing else ": "
@@ -54,21 +59,20 @@ def subject(gate, distance):
 
 def finding(gate, counts, verdict, distance):
     """The claim about a gate in the head of the page, as a pattern."""
-    units, known, failing, most, cells = counts
+    units, known, failing, every, _, cells, run_hours = counts
     if gate["end_point"] not in FAILURES:
         return None
     hourly = gate["unit"] == "agv-hour"
     text = subject(gate, distance)
-    text += re.escape(f"{w.count(known, 'time')} in {units / 3.6e9:.6g} AGV-hours") if hourly else \
-        re.escape(f"in {known} of {units} ") + "(runs|worlds)"
+    text += re.escape(f"in {known} of {every} ") + "(runs|worlds)" + re.escape(counted(gate, counts))
     if failing > known:
         text += re.escape(f", and {failing - known} more ended unknown and count as failing")
     violated = verdict == "violated"
-    if (most if violated else units) == 0:
+    if (every if violated else units) == 0:
         return text
     risk = round(1.0 - gate["confidence"], 12)
-    lower = bounds(gate["method"], gate["unit"], known, most, risk, cells)[0]
-    upper = bounds(gate["method"], gate["unit"], failing, units, risk)[1]
+    lower = bounds(gate["method"], gate["unit"], known, every, risk, cells, run_hours)[0]
+    upper = bounds(gate["method"], gate["unit"], failing, units, risk, cells, run_hours)[1]
     if violated and lower <= 0.0:
         return text
     number = w.down(lower if hourly else 100.0 * lower) if violated else w.up(upper if hourly else 100.0 * upper)
@@ -91,9 +95,8 @@ def judged(archive):
 
 def violation_headlines(archive):
     """agent -> runs that broke the distance within the contract, of the agents under test."""
-    deciding = {gate["agent"] for gate in archive.gates if gate["decides"]}
     rows = archive.all(f"SELECT agent, count(*) AS runs FROM runs r JOIN cells USING (cell) WHERE "
-                       f"({END_POINTS['violation'][0]}) = 1 AND r.loss <= 0.4 AND r.delay_s <= 2.0 AND run_index < ? GROUP BY agent", archive.runs)
+                       f"({END_POINTS['violation']}) = 1 AND r.loss <= 0.4 AND r.delay_s <= 2.0 AND run_index < ? GROUP BY agent", archive.runs)
     return [f"agent {row['agent']} broke the safety distance in {w.count(row['runs'], 'run')} within the contract region"
-            for row in rows if not deciding or row["agent"] in deciding]
+            for row in rows if archive.is_under_test(row["agent"])]
 

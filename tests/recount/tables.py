@@ -1,5 +1,6 @@
 """The tables that the pages must show, row by row, from the counts of an archive."""
 from collections import defaultdict
+from math import inf
 
 import wording as w
 from bounds import bounds
@@ -17,10 +18,10 @@ def rule(archive, agent):
     return "any-time", 0.95
 
 
-def share(archive, agent, failing, units, unit="world"):
+def share(archive, agent, failing, units, unit="world", cells=1, run_hours=0.0):
     method, confidence = rule(archive, agent)
-    upper = bounds(method, unit, failing, units, round(1.0 - confidence, 12))[1]
-    return upper, bounds(method, unit, failing, units, 0.025)
+    upper = bounds(method, unit, failing, units, round(1.0 - confidence, 12), cells, run_hours)[1]
+    return upper, bounds(method, unit, failing, units, 0.025, cells, run_hours)
 
 
 def condition_tables(archive):
@@ -36,12 +37,14 @@ def condition_tables(archive):
     for agent, low, high, cells in archive.conditions():
         indices = [cell["cell"] for cell in cells]
         tally = archive.tally(indices)
-        units, known, failing, _ = archive.units("violation", "world", indices)
+        units, known, failing, every, distinct = archive.units("violation", indices)
         row = [agent] + ["none" if w.SHOWN[i][3] and high[i] == 0.0 else w.span(i, low[i], high[i]) for i in shown]
         row += [str(tally["runs"]), str(tally["violating"])]
         if not archive.search:
             upper, pair = share(archive, agent, failing, units)
-            row += [f"{w.failed(known, failing)}/{units}", w.rate(failing / units) if units else "-", w.interval(pair), w.up(upper)]
+            row.append(f"{w.failed(known, failing)}/{units}")
+            row += ["-"] * 3 if every > 1 >= distinct else [w.rate(failing / units) if units else "-", w.interval(pair),
+                                                            w.up(upper)]
         row += [str(tally[name]) for name in ("contact", "stuck", "ended")]
         row += [w.closest(tally), w.per_hour(tally["done"], tally["agv_us"])]
         for title, wanted in titles.items():
@@ -52,19 +55,20 @@ def condition_tables(archive):
 
 def group_row(archive, agent, name, inside, cells):
     tally = archive.tally(cells)
-    units, known, failing, _ = archive.units("violation", "world", cells)
+    units, known, failing, every, distinct = archive.units("violation", cells)
     row = [agent, name, "contract" if inside else "beyond", str(tally["runs"])]
     if archive.search:
         row.append(str(tally["violating"]))
     else:
-        row += [f"{w.failed(known, failing)}/{units}", w.up(share(archive, agent, failing, units)[0]) if units else "-"]
-        agv_us, _, events, _ = archive.units("violation", "agv-hour", cells)
-        if agv_us == 0:
+        says = units > 0 and not every > 1 >= distinct
+        row += [f"{w.failed(known, failing)}/{units}", w.up(share(archive, agent, failing, units)[0]) if says else "-"]
+        hours = archive.run_hours(cells)
+        if not says:
             row += ["-", "-"]
         else:
-            pair = share(archive, agent, events, agv_us, "agv-hour")[1]
-            row += [w.rate(events / (agv_us / 3.6e9)), w.interval(pair)]
-    return row + [f"{archive.stalled_worlds(cells)}/{units}", w.per_hour(tally["done"], tally["agv_us"])]
+            pair = share(archive, agent, failing, units, "agv-hour", len(cells), hours)[1]
+            row += [w.rate(failing / (units * len(cells) * hours)), w.interval(pair)]
+    return row + [f"{archive.stalled_worlds(cells)}/{every}", w.per_hour(tally["done"], tally["agv_us"])]
 
 
 def group_tables(archive):
@@ -84,12 +88,26 @@ def group_tables(archive):
     return tables
 
 
+def deciding_units(archive, gate, cells):
+    """Of the worlds; if each cell is judged for itself, of the cell that refutes the gate, else of the one with the
+    highest upper bound."""
+    if gate["unit"] != "run":
+        return archive.units(gate["end_point"], cells, gate["min_transports_per_agv_hour"])
+    counts = archive.by_cell(gate["end_point"], cells, gate["min_transports_per_agv_hour"])
+    risk = round(1.0 - gate["confidence"], 12)
+    most = max(counts, key=lambda count: count[1])
+    if most[3] and bounds(gate["method"], "run", most[1], most[3], risk, len(cells))[0] > gate["limit_rate"]:
+        return most
+    return max(counts, key=lambda count: (bounds(gate["method"], "run", count[2], count[0], risk)[1], count[2], -count[0],
+                                             count[1]))
+
+
 def gate_rows(archive):
     """[(row without its verdict, gate, counts)]"""
     rows = []
     for gate in archive.gates:
         cells = archive.cells_of_gate(gate)
-        counts = *archive.units(gate["end_point"], gate["unit"], cells, gate["min_transports_per_agv_hour"]), len(cells)
+        counts = *deciding_units(archive, gate, cells), len(cells), archive.run_hours(cells)
         units, known, failing = counts[:3]
         what = gate["end_point"] + (f" >= {gate['min_transports_per_agv_hour']:g}/AGV-h" if gate["end_point"] ==
                                     "throughput" else "") + (f" [{gate['requirement']}]" if gate["requirement"] else "")
@@ -102,12 +120,13 @@ def gate_rows(archive):
             row.append(None)
         else:
             hourly = gate["unit"] == "agv-hour"
-            upper = bounds(gate["method"], gate["unit"], failing, units, round(1.0 - gate["confidence"], 12))[1]
+            upper = bounds(gate["method"], gate["unit"], failing, units, round(1.0 - gate["confidence"], 12), len(cells),
+                           archive.run_hours(cells))[1] if cells or gate["unit"] != "agv-hour" else inf
             in_unit = (lambda text, number: text(number) + " per AGV-hour") if hourly else (
                 lambda text, number: text(100.0 * number) + " %")
             limit = in_unit(lambda number: f"{number:g}", gate["limit_rate"])
             failed = w.failed(known, failing)
-            row += [failed if hourly else f"{failed}/{units}", in_unit(w.up, upper),
+            row += [f"{failed}/{units}", in_unit(w.up, upper),
                     limit + (", none allowed" if gate["kind"] == "none" else "")]
         rows.append((row, gate, counts))
     return rows

@@ -41,20 +41,20 @@ struct Campaign {
 
 ReportInput report_with(const std::vector<std::pair<std::uint64_t, bool>>& audits) {
   const Campaign campaign;
-  ReportInput input = samples::report_of(campaign.record, campaign.cells, {});
-  for (const auto& [run_index, same] : audits) input.audits.add_audit(run_index, same);
-  return input;
+  std::vector<AuditedRun> audited;
+  for (const auto& [run_index, same] : audits) audited.push_back(samples::audit_of(run_index, same));
+  return samples::report_of(campaign.record, campaign.cells, {}, {}, 0, 0, audited);
 }
 
 TEST(AuditSection, CountsTheAuditsOfEachAgent) {
   const ReportInput input = report_with({{0, true}, {1, true}, {3, false}, {5, true}, {7, false}});
-  ASSERT_THAT(input.audits.agents(), SizeIs(2));
-  const AgentAudit& candidate = input.audits.agents()[1];
+  ASSERT_THAT(input.evidence.audits().agents(), SizeIs(2));
+  const AgentAudit& candidate = input.evidence.audits().agents()[1];
   EXPECT_EQ(candidate.agent, "candidate");
   EXPECT_EQ(candidate.audited, 4U);
   EXPECT_EQ(candidate.differing, 2U);
   EXPECT_EQ(candidate.first_differing, 3U);
-  EXPECT_FALSE(input.audits.engine_at_fault()) << "a plug-in may do something else each time";
+  EXPECT_FALSE(input.evidence.audits().engine_at_fault()) << "a plug-in may do something else each time";
   EXPECT_THAT(audit_headlines(input),
               ElementsAre(Field(&Headline::text, HasSubstr("agent candidate: this software is not deterministic in "
                                                            "50.0 % of the audited runs (2 of 4), first in run 3."))));
@@ -63,7 +63,7 @@ TEST(AuditSection, CountsTheAuditsOfEachAgent) {
 
 TEST(AuditSection, AReferenceAgentThatComesOutDifferentlyIsAnErrorOfTheEngine) {
   const ReportInput input = report_with({{0, true}, {2, false}});
-  EXPECT_TRUE(input.audits.engine_at_fault());
+  EXPECT_TRUE(input.evidence.audits().engine_at_fault());
   const auto headlines = audit_headlines(input);
   ASSERT_THAT(headlines, SizeIs(1));
   EXPECT_EQ(headlines[0].word, "engine error");

@@ -38,8 +38,8 @@ TEST(Evidence, a_gate_sees_its_own_agent_and_region_only) {
     if (cell.agent == "faulty" || cell.lowest[Factor::Delay] == 5.0) samples::violate(run);
   });
   EXPECT_EQ(input.gates[0].verdict, Verdict::NotDemonstrated);
-  EXPECT_EQ(input.gates[0].counts.cells, 4u);
-  EXPECT_EQ(input.gates[1].counts.cells, 1u);
+  EXPECT_EQ(input.gates[0].counts.cells.count, 4u);
+  EXPECT_EQ(input.gates[1].counts.cells.count, 1u);
   EXPECT_EQ(input.gates[1].unit, "runs");
   EXPECT_EQ(input.gates[1].claim->units, 2u);
   EXPECT_EQ(input.gates[2].verdict, Verdict::Violated);
@@ -158,10 +158,10 @@ TEST(Evidence, conditions_pool_layouts_by_replicate) {
   EXPECT_TRUE(conditions[0].is_worst_case);
   EXPECT_EQ(conditions[0].tally.runs, 10u);
   EXPECT_EQ(conditions[0].tally.violating_runs, 2u);
-  EXPECT_EQ(conditions[0].pool.units, 5u);
-  EXPECT_EQ(conditions[0].pool.failing, 1u);
+  EXPECT_EQ(conditions[0].pool.worlds.units, 5u);
+  EXPECT_EQ(conditions[0].pool.worlds.failing, 1u);
   EXPECT_FALSE(conditions[1].in_contract);
-  EXPECT_EQ(conditions[1].pool.failing, 0u);
+  EXPECT_EQ(conditions[1].pool.worlds.failing, 0u);
 }
 
 TEST(Evidence, worst_runs_are_sorted_by_what_happened_then_by_clearance) {

@@ -110,7 +110,7 @@ ReportInput two_agents(const std::vector<GateRecord>& gates) {
 
 std::vector<std::string> agents_of(const ReportInput& input) {
   std::vector<std::string> agents;
-  for (const FailureGroup& group : input.failures.list(input.evidence.gates())) agents.push_back(group.agent);
+  for (const FailureGroup& group : input.failures.list(input.evidence.plan())) agents.push_back(group.agent);
   return agents;
 }
 

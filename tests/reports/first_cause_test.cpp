@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/outcome/foreign_bodies.hpp"
+#include "core/outcome/run_result.hpp"
 #include "core/scenario/faults.hpp"
-#include "reports/evidence/foreign_bodies.hpp"
-#include "reports/evidence/run_result.hpp"
 #include "tests/support/at_seconds.hpp"
 
 namespace fleetproof::first_cause_test {

@@ -61,7 +61,7 @@ class FoldedReports : public testing::TestWithParam<Case> {
       if (i % 13 != 12) run.outcome.simulated_ns = 600'000'000'000;  // others cannot be folded with these
       runs_.push_back(run);
       writer.add(run);
-      if (i % 10 == 0) writer.add(AuditRecord{i, row_checksum(run) + (i == 20 ? 1 : 0)});
+      if (i % 10 == 0) writer.add(AuditRecord{i, row_checksum(run) + (i == 20 ? 1 : 0), audited_outcome(run)});
     }
     writer.publish(runs_.size(), may_fold);
   }
@@ -84,12 +84,10 @@ TEST_P(FoldedReports, AreThoseOfAllRows) {
 
 TEST_P(FoldedReports, ChecksOfEvidenceAndComparisonsSeeTheSame) {
   const ArchiveReader all(folder_ / "all.fp"), folded(folder_ / "folded.fp");
-  DuplicateCheck of_all, of_folded;
-  all.for_each_run([&](const RunRecord& run) { of_all.add(run); });
-  folded.for_each_run([&](const RunRecord& run) { of_folded.add(run); });
-  of_folded.know_repeated(folded.repeated_traces().value());
-  EXPECT_EQ(of_folded.runs(), of_all.runs());
-  EXPECT_EQ(of_folded.repeated(), of_all.repeated());
+  std::vector<bool> of_all, of_folded;
+  all.for_each_run([&](const RunRecord& run) { of_all.push_back(run.repeats); });
+  folded.for_each_run([&](const RunRecord& run) { of_folded.push_back(run.repeats); });
+  EXPECT_EQ(of_folded, of_all);
 
   const ReleaseRuns one = read_release(all, "x", "mine"), other = read_release(folded, "x", "mine");
   ASSERT_EQ(one.replicates.size(), other.replicates.size());

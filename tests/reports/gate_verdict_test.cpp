@@ -23,8 +23,8 @@ GateRecord gate(GateKind kind, double limit) {
 
 GateCounts counts(std::uint64_t units, std::uint64_t failing, std::uint64_t unknown = 0) {
   GateCounts c;
-  c.cells = c.due_cells = 12;
-  c.units = c.replicates = c.planned = units;
+  c.cells.count = c.due_cells = 12;
+  c.units = c.distinct = c.counted = c.replicates = c.planned = units;
   c.failing = failing;
   c.failing_or_unknown = failing + unknown;
   c.failing_runs = failing;
@@ -170,7 +170,7 @@ TEST(GateVerdict, a_campaign_stopped_early_is_refuted_by_a_forbidden_failure_but
 
 TEST(GateVerdict, a_gate_on_one_cell_counts_runs) {
   auto one = counts(100, 0);
-  one.cells = 1;
+  one.cells.count = 1;
   EXPECT_EQ(judge_gate(gate(GateKind::None, 1e-3), one).unit, "runs");
   EXPECT_EQ(judge_gate(gate(GateKind::None, 1e-3), counts(100, 0)).unit, "worlds");
 }

@@ -22,11 +22,11 @@ void stall(RunRecord& run, IncidentKind kind) {
 }
 
 // Two agents of which "ours" is under test, inside the contract and beyond it: cells 0 to 3.
-ReportInput stalling(EndPoint gated, const samples::Change& change) {
+ReportInput stalling(EndPoint gated, const samples::Change& change, const std::vector<AuditedRun>& audits = {}) {
   GateRecord gate = samples::gate_of("ours", GateKind::Rate, Region::Contract, 0.1);
   gate.end_point = gated;
   return samples::report_of(samples::campaign_of("claim", 20), samples::grid({"ours", "theirs"}, {0.4, 0.8}, {1.0}),
-                            {gate}, change);
+                            {gate}, change, 0, 0, audits);
 }
 
 std::string texts(const std::vector<Remark>& remarks) {
@@ -61,14 +61,12 @@ TEST(HeadNotes, WhatAContactExplainsIsNoStall) {
 }
 
 TEST(HeadNotes, SayThatTheSimulatorWasChecked) {
-  auto input = stalling(EndPoint::Violation, {});
-  EXPECT_THAT(texts(soundness_notes(input)), HasSubstr("No run was simulated once more"));
-  input.audits.add_audit(0, true);
-  input.audits.add_audit(3, true);
-  EXPECT_THAT(texts(soundness_notes(input)),
+  const auto with = [](const std::vector<AuditedRun>& audits) { return stalling(EndPoint::Violation, {}, audits); };
+  EXPECT_THAT(texts(soundness_notes(with({}))), HasSubstr("No run was simulated once more"));
+  const AuditedRun first = samples::audit_of(0, true), second = samples::audit_of(3, true);
+  EXPECT_THAT(texts(soundness_notes(with({first, second}))),
               HasSubstr("No run ended in an error of the simulator. 2 runs were simulated once more"));
-  input.audits.add_audit(5, false);
-  EXPECT_THAT(soundness_notes(input), IsEmpty()) << "a headline says more";
+  EXPECT_THAT(soundness_notes(with({first, second, samples::audit_of(5, false)})), IsEmpty()) << "a headline says more";
 }
 
 TEST(HeadNotes, AreSilentAboutSoundnessBesideAnEngineError) {

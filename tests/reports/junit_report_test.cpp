@@ -18,7 +18,7 @@ using samples::grid;
 using samples::report_of;
 using testing::HasSubstr;
 
-ReportInput four_gates(const std::string& name) {
+ReportInput four_gates(const std::string& name, const std::vector<AuditedRun>& audits = {}) {
   GateRecord passing = gate_of("sound", GateKind::Rate, Region::Contract, 0.1);
   passing.requirement = "SR-12";
   passing.name = name;
@@ -26,10 +26,12 @@ ReportInput four_gates(const std::string& name) {
   GateRecord open = gate_of("sound", GateKind::Rate, Region::Contract, 1e-3);
   GateRecord told = gate_of("sound", GateKind::Rate, Region::Contract, 1e-3);
   told.decides = false;
-  return report_of(campaign_of("claim", 60), grid({"sound"}, {0.4, 0.8}, {2.0}), {passing, refuted, open, told},
-                   [](RunRecord& run) {
-                     if (run.run_index == 7) samples::violate(run);  // outside the contract
-                   });
+  return report_of(
+      campaign_of("claim", 60), grid({"sound"}, {0.4, 0.8}, {2.0}), {passing, refuted, open, told},
+      [](RunRecord& run) {
+        if (run.run_index == 7) samples::violate(run);  // outside the contract
+      },
+      0, 0, audits);
 }
 
 pugi::xml_document parsed(const std::string& text) {
@@ -62,9 +64,7 @@ TEST(JUnitReport, HasOneTestCaseForEachGate) {
 
 // 60 worlds of 2 runs, each with 5 AGVs for 600 s: 100 AGV-hours, 50 of them within the contract.
 TEST(JUnitReport, HasWhatAPipelineAsksForAsProperties) {
-  auto input = four_gates("safe");
-  input.audits.add_audit(3, true);
-  input.audits.add_audit(4, false);
+  const auto input = four_gates("safe", {samples::audit_of(3, true), samples::audit_of(4, false)});
   const auto document = parsed(render_junit(input));
   const auto suite = document.child("testsuites").child("testsuite");
   std::map<std::string, std::string> properties;
@@ -147,8 +147,7 @@ TEST(JUnitReport, SaysHowManyOutcomesStayedUnknown) {
 }
 
 TEST(JUnitReport, AnErrorOfTheEngineIsNoFailure) {
-  auto input = four_gates("safe");
-  input.audits.add_audit(4, false);
+  const auto input = four_gates("safe", {samples::audit_of(4, false)});
   const auto document = parsed(render_junit(input));
   EXPECT_EQ(document.child("testsuites").attribute("errors").as_int(), 4);
 }

@@ -217,7 +217,7 @@ TEST(Report, unknown_outcomes_have_their_optimistic_line) {
 
 TEST(Report, json_has_full_digits_units_and_hexadecimal_digests) {
   const auto json = nlohmann::json::parse(render("json", failing_campaign()));
-  EXPECT_EQ(json["schema_version"], 1);
+  EXPECT_EQ(json["schema_version"], 2);
   EXPECT_EQ(json["exit_code"], samples::kExitCode);
   EXPECT_EQ(json["verdict"], "demonstrated");
   EXPECT_EQ(json["campaign"]["plan_hash"], "0000000000000abc");

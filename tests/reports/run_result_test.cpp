@@ -1,4 +1,4 @@
-#include "reports/evidence/run_result.hpp"
+#include "core/outcome/run_result.hpp"
 
 #include <gtest/gtest.h>
 

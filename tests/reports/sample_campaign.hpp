@@ -17,6 +17,7 @@ inline CampaignRecord campaign_of(std::string kind, std::uint64_t replicates) {
   record.seed = 42;
   record.replicates = replicates;
   record.plan_hash = 0xabcULL;
+  record.horizon_s = 600.0;
   record.engine = {"0.1.0", "f00d", "g++ 12.2.0", "-O2 -ffp-contract=off", "SQLite 3.40.1"};
   if (record.kind == "claim") record.required_probes = {"encounter", "negotiation?"};
   return record;
@@ -76,6 +77,16 @@ inline void violate(RunRecord& run, std::int64_t clearance_um = 70'000, bool con
   file_violations(run.outcome, {violation});
 }
 
+// A run that was simulated once more and came out the same, or in another way that was judged alike.
+inline AuditedRun audit_of(std::uint64_t run_index, bool same, JudgedOutcome judged = {}) {
+  AuditedOutcome outcome;
+  outcome.judged = judged;
+  outcome.simulated_ns = 600'000'000'000;
+  outcome.agv_count = 5;
+  outcome.transports_done = 10;
+  return {{run_index, same ? 1U : 2U, outcome}, same};
+}
+
 using Change = std::function<void(RunRecord&)>;
 
 inline constexpr int kExitCode = 17;  // of no verdict: reports repeat what the program says
@@ -83,17 +94,17 @@ inline constexpr int kExitCode = 17;  // of no verdict: reports repeat what the 
 // The judged evidence of all planned replicates, each run changed by `change`.
 inline ReportInput report_of(CampaignRecord campaign, const std::vector<CellRecord>& cells,
                              const std::vector<GateRecord>& gates, const Change& change = {},
-                             std::uint64_t extra_runs = 0, std::uint64_t missing_runs = 0) {
-  ReportInput input{
-      "night.fp", campaign, Evidence({campaign, cells, gates}), Breakdown(cells), AuditTally(campaign, cells), {},
-      {},         0};
+                             std::uint64_t extra_runs = 0, std::uint64_t missing_runs = 0,
+                             const std::vector<AuditedRun>& audits = {}) {
+  const StoredPlan plan{campaign, cells, gates};
+  ReportInput input{"night.fp", campaign, Evidence(plan), Breakdown(plan), {}, {}, 0};
+  for (const AuditedRun& audit : audits) input.evidence.know(audit);
   for (std::uint64_t i = 0; i < campaign.replicates * cells.size() + extra_runs - missing_runs; ++i) {
     auto run = clean_run(i, cells.size());
     run.factors = cells[run.cell].lowest;
     if (change) change(run);
     input.evidence.add(run);
     input.breakdown.add(run);
-    input.audits.add_run(run);
     input.failures.add(run, cells[run.cell].agent);
     ++input.stored_runs;
   }

@@ -63,7 +63,7 @@ std::uint64_t failing_of(const Worlds& worlds, std::uint64_t n) {
 }
 
 const Rule kAnyTime = [](std::uint64_t failing, std::uint64_t worlds) {
-  static const GateTable table = gate_table(gate(GateMethod::AnyTime), 1, kWorlds);
+  static const GateTable table = gate_table(gate(GateMethod::AnyTime), {1}, kWorlds);
   return passes(table, failing, worlds);
 };
 const Rule kClopperPearson = [](std::uint64_t failing, std::uint64_t worlds) {
@@ -98,7 +98,7 @@ TEST(SyntheticCampaigns, AnyTimeGatesPassGoodSoftware) {
 }
 
 TEST(SyntheticCampaigns, AnyTimeRefutationsKeepTheirRisk) {
-  const GateTable table = gate_table(gate(GateMethod::AnyTime), 1, kWorlds);
+  const GateTable table = gate_table(gate(GateMethod::AnyTime), {1}, kWorlds);
   const Rule refuted = [&](std::uint64_t failing, std::uint64_t worlds) { return refutes(table, failing, worlds); };
   EXPECT_LE(share_of([&](std::uint64_t c) { return ever_passes(Worlds(c, kLimit), refuted); }), most_by_chance());
   EXPECT_GT(share_of([&](std::uint64_t c) { return ever_passes(Worlds(c, 3.0 * kLimit), refuted); }), 0.99);

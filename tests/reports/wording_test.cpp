@@ -21,7 +21,11 @@ TEST(Wording, DistancesOfAPlanKeepAllTheirDigits) {
   EXPECT_EQ(distance_text(1.0), "1.00 m");
 }
 
-Tally tally_of(const Outcome& outcome) { return Tally::of(outcome, result_of(outcome, EndPoint::Violation)); }
+Tally tally_of(const Outcome& outcome) {
+  RunRecord run;
+  run.outcome = outcome;
+  return Tally::of(run, result_of(outcome, EndPoint::Violation));
+}
 
 TEST(Wording, AClearanceThatWasNotMeasuredIsNotCalledLarge) {
   Outcome far, engine_error, unexplained;

@@ -23,7 +23,7 @@ class ChunkFiles : public testing::Test {
     ChunkContent content;
     for (const RunRecord& run : runs_) content.run_bytes += encode(run).size();
     content.encoded = [&](std::uint64_t place) { return encode(runs_[place]); };
-    content.audits = {{2, 77}, {0, 0xffffffffffffffffULL}};
+    content.audits = {audits_[1], audits_[0]};
     write_chunk_file(path, label_, content);
   }
   // Everything that a merge reads of a chunk.
@@ -37,6 +37,8 @@ class ChunkFiles : public testing::Test {
   const samples::TemporaryFolder folder_;
   const std::string path_ = folder_ / "a.chunk";
   std::vector<RunRecord> runs_ = samples::runs(3);
+  const std::vector<AuditRecord> audits_{{0, 0xffffffffffffffffULL, audited_outcome(runs_[0])},
+                                         {2, 77, audited_outcome(runs_[1])}};
   const ChunkLabel label_{0xfedcba9876543210ULL, "nightly", "fleetproof 0.1.0 sha256 ab12", 0, 0, 3};
 };
 
@@ -56,7 +58,7 @@ TEST_F(ChunkFiles, GiveBackWhatWasWritten) {
     EXPECT_EQ(run.recording, expected.recording);
   });
   EXPECT_EQ(next, 3U);
-  EXPECT_EQ(file.audits(), (std::vector<AuditRecord>{{0, 0xffffffffffffffffULL}, {2, 77}}));
+  EXPECT_EQ(file.audits(), audits_);
   write(folder_ / "again.chunk");
   EXPECT_EQ(samples::bytes_of(folder_ / "again.chunk"), samples::bytes_of(path_));
 }

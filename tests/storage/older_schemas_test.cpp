@@ -1,4 +1,4 @@
-// Results files of earlier versions of this program: archives/schema4.fp to schema10.fp. The programs of
+// Results files of earlier versions of this program: archives/schema4.fp to schema11.fp. The programs of
 // their time wrote them, from one campaign file with a call cost of 10 ms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -97,7 +97,7 @@ TEST_P(OlderSchemas, AreCheckedByTheRulesOfTheirTime) {
   const std::string whole = samples::bytes_of(path_);
   for (const char* change :
        {"UPDATE runs SET transports_done = transports_done + 1 WHERE run_index = 3", "UPDATE cells SET loss = 0.1",
-        "UPDATE campaign SET run_count = 11", "UPDATE campaign SET run_count = NULL", "PRAGMA user_version = 11",
+        "UPDATE campaign SET run_count = 11", "UPDATE campaign SET run_count = NULL", "PRAGMA user_version = 12",
         "DELETE FROM runs WHERE run_index = 11; DELETE FROM violations WHERE run_index = 11; DELETE FROM incidents "
         "WHERE "
         "run_index = 11; DELETE FROM probes WHERE run_index = 11"}) {
@@ -172,6 +172,25 @@ TEST_P(OlderSchemas, GoOnFromALiveFileWithALog) {
   EXPECT_EQ(taken_over, kRuns);
   EXPECT_TRUE(samples::bytes_of(other) == wanted);
   EXPECT_FALSE(std::filesystem::exists(other + ".partial-wal"));
+}
+
+// A folded file that does not say which runs repeat others, with a gate in AGV-hours.
+TEST(FoldedFileOfSchema11, IsReadAndCannotGoOn) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.fp";
+  samples::write_bytes(
+      path, samples::bytes_of(std::string(FLEETPROOF_SOURCE_DIR) + "/tests/storage/archives/schema11-folded.fp"));
+  const ArchiveReader reader(path);
+  EXPECT_EQ(reader.schema(), 11);
+  EXPECT_TRUE(reader.is_folded());
+  EXPECT_EQ(reader.unplaced_repeats(), 22U) << "twelve runs of each of two cells, all alike";
+  EXPECT_EQ(runs_of(path).size(), 24U);
+  std::uint64_t quiet_runs = 0;
+  reader.for_each_run([](const RunRecord&) {},
+                      {.met = {}, .quiet = [&](const QuietReplicates& quiet) { quiet_runs += 2 * quiet.replicates; }});
+  EXPECT_EQ(quiet_runs, 22U);
+  std::uint64_t taken_over = 0;
+  EXPECT_THROW(go_on(path, taken_over), InputError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, OlderSchemas, testing::Range(4, kSchemaVersion));

@@ -27,8 +27,8 @@ class SealedFile : public testing::Test {
     for (RunRecord run : samples::runs(count)) {
       if (run.run_index % 5 == 0) run.recording = "what agents did in run " + std::to_string(run.run_index);
       writer.add(run);
-      if (steady || run.run_index == 3) writer.add(AuditRecord{run.run_index, row_checksum(run)});
-      if (!steady && run.run_index == 9) writer.add(AuditRecord{9, row_checksum(run) + 1});
+      if (steady || run.run_index == 3) writer.add(AuditRecord{run.run_index, row_checksum(run), audited_outcome(run)});
+      if (!steady && run.run_index == 9) writer.add(AuditRecord{9, row_checksum(run) + 1, audited_outcome(run)});
     }
     writer.publish(count);
   }
@@ -54,7 +54,11 @@ TEST_F(SealedFile, AuditsAndRecordingsComeBack) {
   make(path_, kRuns, false);
   const ArchiveReader reader(path_);
   std::vector<std::pair<std::uint64_t, bool>> audits;
-  reader.for_each_audit([&](const AuditRecord& audit, bool same) { audits.emplace_back(audit.run_index, same); });
+  const auto runs = samples::runs(kRuns);
+  reader.for_each_audit([&](const AuditRecord& audit, bool same) {
+    audits.emplace_back(audit.run_index, same);
+    EXPECT_EQ(audit.outcome, audited_outcome(runs[audit.run_index]));
+  });
   EXPECT_THAT(audits, ElementsAre(Pair(3, true), Pair(9, false)));
   EXPECT_EQ(reader.recording(5), "what agents did in run 5");
   EXPECT_EQ(reader.recording(6), std::nullopt);
@@ -69,7 +73,7 @@ TEST_F(SealedFile, RecordingsOfAnAgentThatIsTheSameInEveryAuditAreLeftOut) {
   ArchiveWriter writer(without, {campaign_, samples::cells(), {}});
   for (const RunRecord& run : samples::runs(kRuns)) {
     writer.add(run);
-    writer.add(AuditRecord{run.run_index, row_checksum(run)});
+    writer.add(AuditRecord{run.run_index, row_checksum(run), audited_outcome(run)});
   }
   writer.publish(kRuns);
   EXPECT_TRUE(samples::bytes_of(without) == samples::bytes_of(path_));
@@ -95,6 +99,8 @@ TEST_F(SealedFile, AChangeOfAnAuditARecordingOrAChunkIsNoticed) {
   for (const char* change :
        {"UPDATE audits SET checksum = checksum + 1 WHERE run_index = 3", "DELETE FROM audits WHERE run_index = 9",
         "UPDATE audits SET run_index = 4 WHERE run_index = 3",
+        "UPDATE audits SET failed = failed + 1 WHERE run_index = 3", "UPDATE audits SET transports_done = NULL",
+        "UPDATE audits SET failed = NULL", "UPDATE runs SET failed = 4095", "UPDATE runs SET unknown = failed",
         "UPDATE recordings SET calls = x'00' WHERE run_index = 5", "DELETE FROM recordings WHERE run_index = 10",
         "UPDATE chunks SET digest = digest + 1 WHERE chunk = 1", "DELETE FROM chunks WHERE chunk = 3",
         "UPDATE campaign SET chunk_runs = 16", "UPDATE campaign SET chunk_runs = 0"}) {

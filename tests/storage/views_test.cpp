@@ -139,7 +139,7 @@ TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
 
 TEST_F(Views, the_file_names_its_kind_and_version) {
   EXPECT_EQ(query(path_, "PRAGMA application_id"), std::to_string(0x464C5046));
-  EXPECT_EQ(query(path_, "PRAGMA user_version"), "11");
+  EXPECT_EQ(query(path_, "PRAGMA user_version"), "12");
   EXPECT_EQ(query(path_, "PRAGMA page_size"), "4096");
   EXPECT_EQ(query(path_, "PRAGMA journal_mode"), "delete");
   EXPECT_EQ(query(path_, "PRAGMA integrity_check"), "ok");

@@ -1,4 +1,4 @@
-#include "reports/evidence/foreign_bodies.hpp"
+#include "core/outcome/foreign_bodies.hpp"
 
 #include <algorithm>
 #include <map>

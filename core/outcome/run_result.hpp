@@ -2,7 +2,8 @@
 
 #include <cstdint>
 
-#include "storage/records.hpp"
+#include "core/outcome/end_point.hpp"
+#include "core/outcome/outcome.hpp"
 
 namespace fleetproof {
 
@@ -18,14 +19,9 @@ enum class RunResult : std::uint8_t { Passed, Failed, Unknown };
 // not Throughput, which takes more than one run.
 RunResult result_of(const Outcome& outcome, EndPoint end_point);
 
-// How long a run was at risk of failing an end point, in microseconds of one AGV: until its first event, else to its
-// end. Bounds, where an outcome does not hold the instant: a contact may come after the approach, nobody knows when an
-// agent crashed, and an unknown run may have failed at once.
-struct TimeAtRisk {
-  std::uint64_t least_us = 0, most_us = 0;
-};
-// Requires: `result` is result_of(outcome, end_point).
-TimeAtRisk time_at_risk(const Outcome& outcome, EndPoint end_point, RunResult result);
+// Of all end points but Throughput.
+JudgedOutcome judged(const Outcome& outcome);
+RunResult result_of(const JudgedOutcome& judged, EndPoint end_point);
 
 // An error of the simulator leaves the clearance unmeasured, and so does a crash after which nothing is known. In other
 // runs, an absent clearance was never below 0.5 m.
