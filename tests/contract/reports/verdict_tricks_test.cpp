@@ -1,0 +1,146 @@
+// Campaigns that look green and are not, through the command line: worlds that repeat one world, audits that differ,
+// the order of cells, software without a gate.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/contract/audits/audited_campaign.hpp"
+
+namespace fleetproof::verdict_tricks_test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class VerdictTricks : public test::AuditedCampaign {
+ protected:
+  // 60 worlds of "reckless", which breaks the distance in more than half of them. World 3 is clean.
+  static std::string reckless(const std::string& vary, const std::string& gate = "limit = 0.2",
+                              const std::string& losses = "0.0, 0.4") {
+    return fmt::format(
+        "replicates = 60\nhorizon_s = 120\n[factors]\nagents = [\"reckless\"]\nlayouts = [\"aisle-grid\"]\n"
+        "fleet_sizes = [3]\nloss = [{}]\ndelay_s = [2]\n[world]\ntransports_per_agv_hour = 60\n[coverage]\nprobes = "
+        "[]\n[vary]\n{}\n[[gate]]\nname = \"g\"\nagent = \"reckless\"\nmin_transports_per_agv_hour = 0.5\n{}\n",
+        losses, vary, gate);
+  }
+  static constexpr const char* kOneWorld =
+      "hold = [\"layout\", \"placement\", \"transports\", \"motion\", \"radio\", \"agent\"]\nheld_replicate = 3";
+
+  json gate_of(const std::string& archive) const {
+    return json::parse(run("report " + archive + " --format json --exit-zero").out).at("gates").at(0);
+  }
+};
+
+TEST_F(VerdictTricks, RecklessSoftwareBreaksTheDistance) {
+  write("c.toml", reckless("hold = []"));
+  EXPECT_EQ(run("run c.toml --db c.db").exit_code, 1);
+}
+
+TEST_F(VerdictTricks, OneCleanWorldSixtyTimesIsOneWorld) {
+  write("c.toml", reckless(kOneWorld));
+  const auto finished = run("run c.toml --db c.db");
+  EXPECT_EQ(finished.exit_code, 4);
+  EXPECT_THAT(finished.out, HasSubstr("in 0 of 60 worlds, 1 distinct"));
+  EXPECT_THAT(run("report c.db --exit-zero").out, HasSubstr("2 of 2 cells always have the same run"));
+  EXPECT_EQ(gate_of("c.db").at("distinct_worlds"), 1);
+}
+
+TEST_F(VerdictTricks, OneCleanWorldIsOneInEveryUnitAndWithEveryMethod) {
+  for (const char* gate : {"limit = 0.2\nunit = \"run\"", "limit = 0.2\nmethod = \"fixed\"",
+                           "limit = 5\nunit = \"agv-hour\"", "limit = 0.2\nend_point = \"contact\""}) {
+    write("c.toml", reckless(kOneWorld, gate));
+    EXPECT_EQ(run("run c.toml --db c.db --overwrite").exit_code, 4) << gate;
+  }
+}
+
+TEST_F(VerdictTricks, OneCleanWorldStaysOneInAFoldedFileAndWhenTheCampaignGoesOn) {
+  write("c.toml", reckless(kOneWorld));
+  EXPECT_EQ(run("run c.toml --db folded.db --keep failing").exit_code, 4);
+  EXPECT_EQ(gate_of("folded.db").at("distinct_worlds"), 1);
+  EXPECT_EQ(run("run c.toml --db c.db --until-verdict").exit_code, 4) << "60 equal worlds are no verdict";
+  EXPECT_EQ(run("run c.toml --db c.db --until-verdict --replicates 120").exit_code, 4) << "nor are 120";
+  EXPECT_EQ(gate_of("c.db").at("worlds"), 120);
+  EXPECT_EQ(gate_of("c.db").at("distinct_worlds"), 1);
+}
+
+// Without losses, the radio that is left to vary changes nothing: that cell has one run.
+TEST_F(VerdictTricks, ACellInWhichNothingVariesIsNamed) {
+  std::string text =
+      reckless("hold = [\"layout\", \"placement\", \"transports\", \"motion\", \"agent\"]\nheld_replicate = 3");
+  for (auto at = text.find("reckless"); at != std::string::npos; at = text.find("reckless"))
+    text.replace(at, 8, "hull-lock");
+  write("c.toml", text);
+  (void)run("run c.toml --db c.db");
+  const json report = json::parse(run("report c.db --format json --exit-zero").out);
+  EXPECT_THAT(
+      report.at("weak_points").dump(),
+      HasSubstr("1 of 2 cells always have the same run, so that there is no rate: hull-lock on aisle-grid, fleet "
+                "of 3, 0 %, 2 s"));
+  EXPECT_GT(report.at("gates").at(0).at("distinct_worlds"), 50);
+}
+
+TEST_F(VerdictTricks, TheOrderOfCellsChangesNoRatePerHour) {
+  const auto upper = [&](const std::string& losses) {
+    write("c.toml", reckless("hold = []", "limit = 100\nunit = \"agv-hour\"", losses));
+    (void)run("run c.toml --db c.db --overwrite");
+    return gate_of("c.db").at("claim").dump();
+  };
+  const std::string one = upper("0.0, 0.2, 0.4");
+  EXPECT_EQ(upper("0.4, 0.0, 0.2"), one);
+  EXPECT_EQ(upper("0.2, 0.4, 0.0"), one);
+}
+
+const std::string kPlain =
+    "replicates = 60\nhorizon_s = 60\n[factors]\nagents = [{}]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [3]\n"
+    "loss = [0.0]\ndelay_s = [0.1]\n[coverage]\nprobes = []\n[audit]\nshare = {}\n[[gate]]\nname = \"g\"\n"
+    "agent = \"{}\"\nlimit = {}\nmin_transports_per_agv_hour = 0\nend_point = \"{}\"\n";
+
+// What its thinking costs depends on addresses. Half of its worlds fail, and the gate bears that.
+TEST_F(VerdictTricks, SoftwareThatIsJudgedOtherwiseTheSecondTimeIsNeverDemonstrated) {
+  for (int time = 0; time < 3; ++time) {
+    write("c.toml", fmt::format(fmt::runtime(kPlain), test::unsteady("addresses"), 1.0, "addresses", 0.8, "violation"));
+    const auto finished = run("run c.toml --db c.db --overwrite");
+    const json report = json::parse(run("report c.db --format json --exit-zero").out);
+    const json& audit = report.at("audits").at(0);
+    ASSERT_EQ(audit.at("audited"), 60);
+    ASSERT_GT(audit.at("differing"), 0);
+    EXPECT_EQ(report.at("verdict") == "demonstrated", audit.at("judged_otherwise") == 0) << finished.out;
+  }
+}
+
+TEST_F(VerdictTricks, UntilVerdictWaitsForTheAuditsOfItsRuns) {
+  write("c.toml", fmt::format(fmt::runtime(kPlain), test::unsteady("steady"), 0.5, "steady", 0.8, "violation"));
+  const auto finished = run("run c.toml --db c.db --until-verdict");
+  EXPECT_EQ(finished.exit_code, 0) << finished.out << finished.err;
+  const json report = json::parse(run("report c.db --format json").out);
+  EXPECT_LT(report.at("campaign").at("complete_replicates"), 60) << "it ended before the end";
+  EXPECT_EQ(report.at("audits").at(0).at("audited"), report.at("campaign").at("complete_replicates"))
+      << "the first 20 runs are all audited";
+  EXPECT_EQ(report.at("audits").at(0).at("open"), 0);
+}
+
+TEST_F(VerdictTricks, SoftwareUnderTestWithoutAGateLeavesNothingDemonstrated) {
+  const std::string ours = "{ name = \"ours\", agent = \"hull-lock\", role = \"candidate\" }",
+                    theirs = "{ name = \"theirs\", agent = \"reckless\", role = \"candidate\" }";
+  write("c.toml", fmt::format(fmt::runtime(kPlain), ours, 0.01, "ours", 0.2, "violation"));
+  EXPECT_EQ(run("run c.toml --db c.db").exit_code, 0);
+  write("c.toml", fmt::format(fmt::runtime(kPlain), ours + ", " + theirs, 0.01, "ours", 0.2, "violation"));
+  const auto finished = run("run c.toml --db d.db");
+  EXPECT_EQ(run("report d.db").exit_code, 4) << finished.err;
+  EXPECT_THAT(
+      run("report d.db").out,
+      HasSubstr("theirs is under test, and no gate asks whether it breaks the safety distance in the contract"));
+  EXPECT_THAT(run("report d.db --format junit --exit-zero").out, HasSubstr("<failure type=\"not judged\""));
+  // Nor with a gate on something else.
+  write("c.toml", fmt::format(fmt::runtime(kPlain), ours + ", " + theirs, 0.01, "theirs", 0.2, "hang") +
+                      "[[gate]]\nname = \"h\"\nagent = \"ours\"\nlimit = 0.2\nmin_transports_per_agv_hour = 0\n");
+  EXPECT_EQ(run("run c.toml --db e.db").exit_code, 4);
+  // A reference agent needs none.
+  const std::string reference = "{ name = \"theirs\", agent = \"reckless\", role = \"reference\" }";
+  write("c.toml", fmt::format(fmt::runtime(kPlain), ours + ", " + reference, 0.01, "ours", 0.2, "violation"));
+  EXPECT_EQ(run("run c.toml --db f.db").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace fleetproof::verdict_tricks_test
