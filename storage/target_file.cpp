@@ -84,6 +84,8 @@ void require_free_name(const std::string& path, Existing existing) {
   if (!fs::is_regular_file(status) || !is_results_file(path)) throw_not_ours(path);
 }
 
+bool holds_results(const std::string& path) { return fs::is_regular_file(status_of(path)) && is_results_file(path); }
+
 bool is_empty_file(const std::string& path) {
   std::error_code error;
   return fs::is_regular_file(status_of(path)) && fs::file_size(path, error) == 0 && !error;

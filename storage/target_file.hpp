@@ -25,6 +25,9 @@ void require_free_live_name(const std::string& live_path, Existing existing);
 // another one.
 void require_own_rest(const std::string& path);
 
+// A regular file that calls itself a results file, sound or damaged.
+bool holds_results(const std::string& path);
+
 // A regular file without a byte.
 bool is_empty_file(const std::string& path);
 

@@ -1,5 +1,7 @@
 #include "campaign/batch/stop_rules.hpp"
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 
 namespace fleetproof {
@@ -38,8 +40,8 @@ void VerdictWatch::add(const AuditedRun& audit) {
   advance();
 }
 
-void VerdictWatch::audits_end() {
-  audits_come_ = false;
+void VerdictWatch::audits_end(std::uint64_t below) {
+  audits_end_ = std::max(audits_end_, below);
   advance();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -43,7 +44,8 @@ class VerdictWatch {
 
   void add(const RunRecord& run);
   void add(const AuditedRun& audit);
-  void audits_end();  // no audit is waited for; those that are due are missing then
+  // No other audit of a run below this index is waited for; those that are due are missing then.
+  void audits_end(std::uint64_t below = std::numeric_limits<std::uint64_t>::max());
   // The next run in order is here, and only its audit is missing.
   bool waits_for_audits() const;
   std::size_t waiting_runs() const { return ahead_.size(); }
@@ -52,11 +54,13 @@ class VerdictWatch {
 
  private:
   void advance();
-  bool is_open(const RunRecord& run) const { return audits_come_ && evidence_.audits().is_awaited(run); }
+  bool is_open(const RunRecord& run) const {
+    return run.run_index >= audits_end_ && evidence_.audits().is_awaited(run);
+  }
 
   Evidence evidence_;
   SeenTraces seen_;
-  bool audits_come_ = true;
+  std::uint64_t audits_end_ = 0;
   std::map<std::uint64_t, RunRecord> ahead_;  // of runs whose predecessors or audits are not finished
   std::optional<std::uint64_t> decided_length_;
 };

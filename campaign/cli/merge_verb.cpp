@@ -27,14 +27,19 @@ struct MergeWords {
   bool overwrite = false, until_verdict = false, exit_zero = false, json = false;
 };
 
-// What the shards noted goes on beside the results file.
+std::string text_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// What the shards noted goes on beside the results file, once.
 void copy_session_logs(const PublishedChunks& chunks, const std::string& archive) {
   for (const std::string& session : chunks.sessions()) {
-    std::ostringstream text;
-    text << std::ifstream(session_log_path(session), std::ios::binary).rdbuf();
-    std::string lines = text.str();
+    std::string lines = text_of(session_log_path(session));
     if (!lines.empty() && lines.back() != '\n') lines += '\n';
-    append_lines(session_log_path(archive), lines);
+    if (text_of(session_log_path(archive)).find(lines) == std::string::npos)
+      append_lines(session_log_path(archive), lines);
   }
 }
 
@@ -71,16 +76,20 @@ int merge(MergeWords words) {
   const SessionLog session(words.archive);
   CampaignResult result;
   result.progress.planned = chunks.grid().runs();
+  // Before the file gets its name: a merge that is killed behind that is an attempt, too.
+  const auto begin = [&] {
+    copy_session_logs(chunks, words.archive);
+    session.begin({}, AgentPrograms(), {.ledger = attempt.path(), .overrides = remembered_overrides(words.archive)});
+    attempt.begin();
+  };
   result.stored = result.progress.done = merge_chunks(chunks, words.archive,
                                                       {.overwrite = words.overwrite,
                                                        .until_verdict = words.until_verdict,
                                                        .fail_fast = words.fail_fast.value_or(0),
                                                        .keep = keep,
+                                                       .publishes = begin,
                                                        .tick = counter_talk(chunks.grid().count())});
-  copy_session_logs(chunks, words.archive);
-  session.begin({}, AgentPrograms(), {.ledger = attempt.path(), .overrides = remembered_overrides(words.archive)});
   session.end(result, 0);
-  attempt.begin();
   talk("{} of {} put together in {}\n", result.stored, count_text(result.progress.planned, "run"), words.archive);
   return tell_verdict(words.archive, attempt, {words.json, words.exit_zero});
 }

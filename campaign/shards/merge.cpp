@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -13,7 +14,9 @@
 #include "core/base/error.hpp"
 #include "reports/evidence/quiet_run.hpp"
 #include "storage/archive_writer.hpp"
+#include "storage/checksum.hpp"
 #include "storage/durable_file.hpp"
+#include "storage/target_file.hpp"
 
 namespace fleetproof {
 namespace {
@@ -137,6 +140,21 @@ std::vector<std::string> PublishedChunks::sessions() const {
   return names;
 }
 
+namespace {
+
+constexpr const char* kAgain = ".again";  // a merge that only compares
+
+// And takes the second file away.
+void require_same_file(const std::string& path, const std::string& again) {
+  std::error_code ignored;
+  const bool same = same_bytes(path, again);
+  std::filesystem::remove(again, ignored);
+  if (!same)
+    throw InputError(path, "this file exists already and holds something else; give another name, or --overwrite");
+}
+
+}  // namespace
+
 std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& path, const MergeOptions& options) {
   const EngineIdentity& engine = chunks.campaign().engine;
   if (engine.program_sha256 != engine_identity().program_sha256)
@@ -151,25 +169,43 @@ std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& pat
   VerdictWatch verdict(plan);
   RunLedger ledger;
   std::optional<std::uint64_t> stop;
-  ArchiveWriter archive(path, plan, options.overwrite ? Existing::Replace : Existing::Refuse, {}, LiveName::Merging);
+  // A program that was killed after it published has left the file that this one is about to write.
+  const bool is_there = !options.overwrite && holds_results(path) && !std::filesystem::exists(path + ".partial");
+  const std::string target = is_there ? path + kAgain : path;
+  ArchiveWriter archive(target, plan, options.overwrite || is_there ? Existing::Replace : Existing::Refuse, {},
+                        LiveName::Merging);
   try {
     for (std::uint64_t chunk = 0; chunk < chunks.grid().count() && !stop; ++chunk) {
       if (std::ranges::binary_search(missing, chunk)) throw_missing(chunks);
+      const std::uint64_t first_run = chunks.grid().first_run(chunk);
+      std::vector<std::uint64_t> checksums;  // of the rows of this chunk
       chunks.read(
           chunk,
           [&](const RunRecord& run) {
             archive.add(run);
             if (options.fail_fast > 0) ledger.add(run.run_index, run.outcome.is_failure());
-            if (options.until_verdict) verdict.add(run);
+            if (!options.until_verdict) return;
+            checksums.push_back(row_checksum(run));
+            verdict.add(run);
           },
-          [&](const AuditRecord& audit) { archive.add(audit); });
+          [&](const AuditRecord& audit) {
+            archive.add(audit);
+            if (options.until_verdict)
+              verdict.add(AuditedRun{audit, audit.checksum == checksums.at(audit.run_index - first_run)});
+          });
+      verdict.audits_end(first_run + chunks.grid().run_count(chunk));
       options.tick(chunk + 1);
       if (options.fail_fast > 0) stop = ledger.length_with_failures(options.fail_fast);
       if (const auto decided = verdict.decided_length(); decided) stop = std::min(stop.value_or(*decided), *decided);
     }
     const std::uint64_t stored = stop.value_or(chunks.grid().runs());
     const bool folds = plan.campaign.keep == Keep::Failing && stored == chunks.grid().runs();
+    if (!is_there) options.publishes();
     archive.publish(stored, folds ? MayFold(is_quiet) : MayFold());
+    if (is_there) {
+      require_same_file(path, target);
+      options.publishes();
+    }
     return stored;
   } catch (...) {
     archive.discard();

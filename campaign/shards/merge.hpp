@@ -48,16 +48,17 @@ class PublishedChunks {
 };
 
 struct MergeOptions {
-  bool overwrite = false;       // replace an existing results file
-  bool until_verdict = false;   // keep the runs up to the verdict, as `run` does
-  std::uint64_t fail_fast = 0;  // keep the runs up to so many failed ones; 0: all
-  std::optional<Keep> keep;     // instead of that of the shards
+  bool overwrite = false;                   // replace an existing results file
+  bool until_verdict = false;               // keep the runs up to the verdict, as `run` does
+  std::uint64_t fail_fast = 0;              // keep the runs up to so many failed ones; 0: all
+  std::optional<Keep> keep;                 // instead of that of the shards
+  std::function<void()> publishes = [] {};  // all is read: before the file gets its name, or it is there already
   std::function<void(std::uint64_t chunks)> tick = [](std::uint64_t) {};  // so many have been read
 };
 
 // Puts the chunks together to the results file that one machine would have written, byte for byte, and returns the
 // number of its runs. Throws InputError if a chunk is missing that is needed, or if another program made it, and what
-// `read` and ArchiveWriter throw; then `path` is as it was.
+// `read` and ArchiveWriter throw; then `path` is as it was. If the file is there already with these bytes, all is well.
 std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& path, const MergeOptions& options);
 
 // "3, 12-18": numbers in ascending order.

@@ -20,6 +20,12 @@ bool is_unreadable(const std::string& path) {
          !(std::filesystem::is_regular_file(path, ignored) && std::ifstream(path).is_open());
 }
 
+// Software that does not always do the same may be run until its verdict is the right one.
+bool had_other_luck(const Attempt& attempt, const Attempt& own) {
+  return attempt.id != own.id && !attempt.ended_utc.empty() && !own.ended_utc.empty() && attempt.runs == own.runs &&
+         attempt.verdict != own.verdict;
+}
+
 std::string told(const Attempt& attempt) {
   const std::string state = attempt.ended_utc.empty() ? "aborted or still under way" : attempt.verdict;
   return fmt::format("seed {}, plan digest {}: {}{}", attempt.seed, hex_text(attempt.plan_hash), printable(state, 40),
@@ -46,6 +52,7 @@ AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord
   history.own = *own;
   for (auto attempt = attempts.begin(); attempt != attempts.end(); ++attempt) {
     const bool same_release = attempt->release == own->release, same_worlds = attempt->worlds == own->worlds;
+    if (same_release && same_worlds && had_other_luck(*attempt, *own)) history.others.push_back(*attempt);
     if (same_worlds == same_release) continue;
     if (!same_release) {
       if (attempt < own.base() - 1) history.same_worlds.push_back(*attempt);

@@ -12,10 +12,12 @@ namespace fleetproof {
 // What a ledger tells about a results file: how often somebody tried before. A campaign that is run again with the
 // same plan has the same runs, so that attempts count by their worlds.
 struct AttemptHistory {
-  std::string ledger;                // empty: none was read
-  std::string since_utc;             // the begin of the oldest attempt in it
-  std::optional<Attempt> own;        // that of this results file
-  std::vector<Attempt> others;       // in other worlds, for the same release; the last of each plan
+  std::string ledger;          // empty: none was read
+  std::string since_utc;       // the begin of the oldest attempt in it
+  std::optional<Attempt> own;  // that of this results file
+  // For the same release: in other worlds, the last of each plan; and in the same worlds, those that ended after as
+  // many runs with another verdict.
+  std::vector<Attempt> others;
   std::vector<Attempt> same_worlds;  // of other releases, begun before
   std::uint64_t broken_lines = 0;
   // The session log beside the results file tells these; a caller adds them.

@@ -105,13 +105,27 @@ std::string default_ledger(const std::string& archive_path) {
   return (std::filesystem::path(archive_path).parent_path() / "attempts.jsonl").string();
 }
 
+namespace {
+
+// Its bounds hold for one number of replicates: the same worlds with another number are another attempt.
+bool has_fixed_gate(const nlohmann::json& plan) {
+  const auto gates = plan.find("gates");
+  if (gates == plan.end() || !gates->is_array()) return false;
+  return std::ranges::any_of(*gates, [](const auto& gate) {
+    return gate.is_object() && gate.value("method", "") == name_of(GateMethod::Fixed);
+  });
+}
+
+}  // namespace
+
 Attempt attempt_of(const CampaignRecord& campaign) {
   Attempt attempt;
   attempt.campaign = campaign.name;
   attempt.software = hex_text(name_hash(campaign.engine.program_sha256 + "\n" + campaign.engine.libraries));
   auto plan = read_json(campaign.plan_json);
   if (plan.is_object()) {
-    for (const char* key : {"name", "replicates"}) plan.erase(key);
+    plan.erase("name");
+    if (!has_fixed_gate(plan)) plan.erase("replicates");
   }
   attempt.worlds = hex_text(name_hash(plan.is_object() ? json_text(plan) : campaign.plan_json));
   attempt.seed = campaign.seed;

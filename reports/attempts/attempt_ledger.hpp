@@ -17,7 +17,8 @@ struct Attempt {
   std::string campaign, archive;     // the name, and the path of the results file
   std::string release;               // digest of the software under test
   std::string software;              // digest of everything that computed the runs
-  std::string worlds;                // digest of the plan without its name and its number of replicates
+  // Digest of the plan without its name and, unless a gate is of the method fixed, its number of replicates.
+  std::string worlds;
   std::uint64_t seed = 0, plan_hash = 0, runs = 0;
   std::uint64_t planned_runs = 0;  // when it began
   std::string verdict;

@@ -89,6 +89,29 @@ TEST_F(Attempts, WithTheSamePlanAreOne) {
   EXPECT_THAT(sentence(longer), HasSubstr("no other attempt")) << "more of the same worlds";
 }
 
+// Its bound holds for one number of replicates, so that each number is a try of its own.
+TEST_F(Attempts, WithAFixedGateAnotherNumberOfReplicatesIsAnotherAttempt) {
+  const auto digest = [](const std::string& replicates, const std::string& methods) {
+    CampaignRecord record;
+    record.plan_json = R"({"name":"n","seed":1,"replicates":)" + replicates + R"(,"gates":[)" + methods + "]}";
+    return attempt_of(record).worlds;
+  };
+  const std::string fixed = R"({"method":"fixed"})", any_time = R"({"method":"any-time"})";
+  EXPECT_NE(digest("60", any_time + "," + fixed), digest("30", any_time + "," + fixed));
+  EXPECT_EQ(digest("60", fixed), digest("60", fixed));
+  EXPECT_EQ(digest("60", any_time), digest("30", any_time));
+}
+
+TEST_F(Attempts, InTheSameWorldsWithAnotherVerdictAreOthers) {
+  tried(1, "violated");
+  tried(1, "violated");
+  tried(1, "demonstrated");
+  EXPECT_THAT(sentence(campaign(1)), HasSubstr("3 attempts for this release: this one and 2 others ("));
+  EXPECT_THAT(sentence(campaign(1)), HasSubstr("seed 1, plan digest 0000000000000001: violated"));
+  tried(1, "demonstrated");
+  EXPECT_THAT(sentence(campaign(1)), HasSubstr("this one and 2 others (")) << "the same verdict again is no other try";
+}
+
 TEST_F(Attempts, OfAnotherReleaseInTheSameWorldsAreTold) {
   tried(1, "violated", "r1", "aa");
   tried(1, "demonstrated", "r2", "bb");

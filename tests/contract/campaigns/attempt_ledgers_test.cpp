@@ -50,6 +50,26 @@ TEST_F(AttemptLedgers, CountACampaignThatGoesOnOnce) {
   EXPECT_THAT(run("report a.db --format markdown").out, HasSubstr("the number of replicates was changed since"));
 }
 
+// A number of replicates that was chosen after the results were seen.
+TEST_F(AttemptLedgers, TellAnotherNumberOfReplicatesOfAFixedGate) {
+  const auto with_method = [&](const std::string& method) {
+    write("c.toml",
+          "replicates = 4\nhorizon_s = 30\n[factors]\nagents = [\"hull-lock\"]\nlayouts = "
+          "[\"aisle-grid\"]\nfleet_sizes = [2]\n[[gate]]\nagent = \"hull-lock\"\nlimit = 0.5\nmethod = \"" +
+              method + "\"\n");
+  };
+  with_method("fixed");
+  run("run c.toml --db a.db --replicates 6");
+  run("run c.toml --db a.db --replicates 3 --overwrite");
+  EXPECT_EQ(attempts("a.db").at("others").size(), 1U);
+  EXPECT_THAT(run("report a.db --exit-zero").out, HasSubstr("The ledger names 2 attempts for this release"));
+  std::filesystem::remove(path("attempts.jsonl"));
+  with_method("any-time");
+  run("run c.toml --db b.db --replicates 6");
+  run("run c.toml --db b.db --replicates 3 --overwrite");
+  EXPECT_TRUE(attempts("b.db").at("others").empty()) << "it may be stopped at any number";
+}
+
 TEST_F(AttemptLedgers, RememberACampaignThatWasKilled) {
   campaign("1");
   shell(

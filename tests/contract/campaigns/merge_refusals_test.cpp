@@ -163,9 +163,26 @@ TEST_F(MergeRefusals, AnExistingFileStays) {
   EXPECT_EQ(run("merge out --db m.db --overwrite").exit_code, 2) << "no results file";
   EXPECT_EQ(read(path("m.db")), "mine");
   fs::remove(path("m.db"));
-  merge("out", "m.db");
-  EXPECT_EQ(run("merge out --db m.db").exit_code, 2);
+  merge("out", "m.db", "--fail-fast 1");
+  EXPECT_EQ(run("merge out --db m.db").exit_code, 2) << "another command made it";
   merge("out", "m.db", "--overwrite");
+}
+
+// As a kill leaves it: the file has its name, and the ledger has the begin of the attempt or not even that.
+TEST_F(MergeRefusals, AMergeThatWasKilledAfterItsEndCanBeRepeated) {
+  const int code = merge("out", "m.db");
+  const std::string merged = read(path("m.db")), ledger = read(path("attempts.jsonl"));
+  const auto attempts = [&] {
+    return nlohmann::json::parse(run("report m.db --format json --exit-zero").out).at("attempts");
+  };
+  for (const std::string& left : {ledger, ledger.substr(0, ledger.find('\n') + 1), std::string()}) {
+    write("attempts.jsonl", left);
+    EXPECT_EQ(merge("out", "m.db"), code);
+    EXPECT_TRUE(read(path("m.db")) == merged);
+    EXPECT_FALSE(fs::exists(path("m.db.again")));
+    EXPECT_FALSE(attempts().at("own").at("ended_utc").is_null());
+    EXPECT_TRUE(attempts().at("others").empty());
+  }
 }
 
 TEST_F(MergeRefusals, ADamagedPlan) {
