@@ -104,11 +104,15 @@ inline std::vector<GateRecord> gates_of_every_kind(const std::string& agent, con
   return gates;
 }
 
+// Of the plan, reports read no more than the length of a run.
+inline CampaignRecord with_length(CampaignRecord campaign) {
+  campaign.plan_json = R"({"horizon_s": 600.0})";
+  return campaign;
+}
+
 inline void write_archive(const std::string& path, const CampaignRecord& campaign, const std::vector<CellRecord>& cells,
                           const std::vector<GateRecord>& gates, std::uint64_t runs, double trouble) {
-  CampaignRecord with_length = campaign;
-  with_length.plan_json = R"({"horizon_s": 600.0})";
-  ArchiveWriter writer(path, {with_length, cells, gates});
+  ArchiveWriter writer(path, {with_length(campaign), cells, gates});
   DrawnRuns drawn(trouble);
   for (std::uint64_t i = 0; i < runs; ++i) writer.add(drawn(i, cells));
   writer.publish(runs);

@@ -105,7 +105,7 @@ TEST_F(EvidenceSet, HoldsTheLogsAndTheIdentityOfItsCampaign) {
   const auto identity = nlohmann::json::parse(read(path("set/identity.json")));
   EXPECT_EQ(identity.at("campaign_file_sha256"), sha256_of_file(path("a.db")));
   EXPECT_EQ(nlohmann::json::parse(read(path("set/plan.json"))).at("seed"), 5);
-  EXPECT_THAT(read(path("set/validity.txt")), HasSubstr(" of 24 runs have a trace that another run"));
+  EXPECT_THAT(read(path("set/validity.txt")), HasSubstr(" of 24 runs have a trace that an earlier run"));
 }
 
 // The oracle asks the exported table: contacts of agents under test, their other violations, then reference agents.

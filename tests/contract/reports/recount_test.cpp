@@ -90,7 +90,8 @@ TEST_F(Recount, EveryRunFailed) {
 TEST_F(Recount, OnlyCrashes) {
   const auto cells = grid({"sound"}, {0.4}, {1.0, 2.0});
   {
-    ArchiveWriter writer(path("a.db"), {campaign_of("claim", 30), cells, gates_of_every_kind("sound", "ring")});
+    ArchiveWriter writer(path("a.db"),
+                         {samples::with_length(campaign_of("claim", 30)), cells, gates_of_every_kind("sound", "ring")});
     for (std::uint64_t i = 0; i < 60; ++i) {
       auto run = samples::clean_run(i, cells.size());
       run.factors = cells[run.cell].lowest;
