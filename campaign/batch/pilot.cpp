@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "campaign/batch/stored_plan.hpp"
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/workers/run_host.hpp"
+#include "reports/evidence/audit_share.hpp"
 
 namespace fleetproof {
 namespace {
