@@ -11,6 +11,11 @@
 namespace fleetproof {
 namespace {
 
+std::uint32_t outcome_encoding(std::int32_t schema) {
+  if (schema < kFirstWithNormalSpeed) return kEncodingWithoutNormalSpeed;
+  return schema < kFirstJudged ? kEncodingWithoutProcessorChanges : kEncodingVersion;
+}
+
 // The length of every text comes before the text, so that no two different records have the same bytes.
 class Bytes {
  public:
@@ -67,7 +72,7 @@ std::uint64_t row_checksum(const RunRecord& run, std::int32_t schema) {
   bytes.clear();
   bytes << run.run_index << std::uint64_t{run.cell} << run.replicate << run.scenario_digest;
   bytes.factors(run.factors, schema);
-  bytes.outcome(run.outcome, schema < kFirstWithNormalSpeed ? kEncodingWithoutNormalSpeed : kEncodingVersion);
+  bytes.outcome(run.outcome, outcome_encoding(schema));
   return bytes.hash();
 }
 

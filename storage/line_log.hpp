@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +13,17 @@ std::string session_log_path(const std::string& archive_path);
 // Appends whole lines to a log beside the archive, in one piece, so that two programs may write to one file. A new file
 // is made if there is none. Throws MachineError if the file cannot be written, or is no regular file.
 void append_lines(const std::string& path, const std::string& lines);
+
+// A line of a log: its number, from 1, and its hash.
+struct LogLine {
+  std::uint64_t number = 0, hash = 0;
+  friend bool operator==(const LogLine&, const LogLine&) = default;
+};
+std::uint64_t line_hash(std::string_view line);  // without its end
+
+// Appends the line that `make` gives for the hash of the line before it (0: there is none). Nobody else appends
+// meanwhile. Throws as append_lines.
+LogLine append_after(const std::string& path, const std::function<std::string(std::uint64_t hash_before)>& make);
 
 // Only a file that this program began is appended to. Throws InputError with `sentence` if the file is there, and its
 // first line does not begin with these words.

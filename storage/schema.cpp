@@ -281,17 +281,27 @@ std::string counter_list(const std::string& prefix) {
   return list;
 }
 
+// The same, as a file of this schema has them.
+std::string counter_values(std::int32_t schema) {
+  std::string list;
+  const std::size_t known = schema < kFirstJudged ? kCountersBeforeProcessor : kCounters.size();
+  for (std::size_t i = 0; i < kCounters.size(); ++i)
+    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", i < known ? "" : "0 AS ", kCounters[i].name);
+  return list;
+}
+
 std::string end_list(const std::string& prefix) {
   std::string list;
   for (const RunEnd& end : kRunEnds) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", prefix, name_of(end.id));
   return list;
 }
 
-std::string run_list(const std::string& factors, const std::string& judged = "failed, unknown") {
+std::string run_list(const std::string& factors, const std::string& counters,
+                     const std::string& judged = "failed, unknown") {
   return listed({"run_index", "cell", "replicate", "scenario_digest"}) + factors + ", " + "outcome_class, " +
          end_list("") + ", " + judged + ", " +
          listed({"min_clearance_um", "simulated_ns", "agv_count", "digest", "running_digests", "message"}) + ", " +
-         counter_list("") + ", checksum";
+         counters + ", checksum";
 }
 
 std::string cell_list(const std::string& factors) {
@@ -366,10 +376,10 @@ std::string schema_ddl() { return ddl_with(", WITHOUT ROWID"); }
 
 std::string live_schema_ddl() { return without_constraints(ddl_with("")); }
 
-std::string run_columns() { return run_list(factor_names(&FactorInfo::key)); }
+std::string run_columns() { return run_list(factor_names(&FactorInfo::key), counter_list("")); }
 
 std::string run_values(std::int32_t schema) {
-  return run_list(factor_values(&FactorInfo::key, schema),
+  return run_list(factor_values(&FactorInfo::key, schema), counter_values(schema),
                   schema < kFirstJudged ? "0 AS failed, 0 AS unknown" : "failed, unknown");
 }
 

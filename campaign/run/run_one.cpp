@@ -41,15 +41,15 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const Run
   const AgentFactor& factor = plan_.agent_of_cell(record.cell);
   // A tape plays for every agent: any type will do.
   const bool played = !watch.play.empty();
-  const fp_agent_type* type =
-      played ? programs_.all().front().type : programs_.program(factor.program, "factors.agents").type;
-  ensure(type != nullptr, "a run is simulated in a process that has loaded its agent");
+  const AgentProgram& program = played ? programs_.all().front() : programs_.program(factor.program, "factors.agents");
+  ensure(program.type != nullptr, "a run is simulated in a process that has loaded its agent");
   auto laws = make_default_laws(scenario, plan_.laws_left_out);
   if (also) laws.push_back(std::move(also));
   record.scenario_digest = scenario_digest(scenario);
   RunWatch in_plant = watch;
   in_plant.plant = &world->plant;
-  record.outcome = simulate(scenario, *type, laws, sink, plan_.config_of(factor).c_str(), in_plant);
+  in_plant.foreign = program.handles.get();
+  record.outcome = simulate(scenario, *program.type, laws, sink, plan_.config_of(factor).c_str(), in_plant);
   return record;
 }
 

@@ -3,7 +3,7 @@
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/call_tape.hpp"
 #include "core/engine/controller_table.hpp"
-#include "core/engine/recording_table.hpp"
+#include "core/engine/foreign_table.hpp"
 
 namespace fleetproof {
 
@@ -11,10 +11,15 @@ AgentCaller::AgentCaller(const fp_agent_type& type, const RunWatch& watch)
     : type_(type),
       counter_(watch),
       tape_(watch.play.empty() ? watch.record : nullptr),
-      host_(tape_ != nullptr ? &kRecordingHost : &kHost),
-      is_plain_(watch.record == nullptr && watch.play.empty()),
+      host_(tape_ != nullptr || watch.foreign != nullptr ? &kForeignHost : &kHost),
+      is_plain_(watch.record == nullptr && watch.play.empty() && watch.foreign == nullptr),
       is_watched_(!is_plain_ || watch.note != nullptr || !watch.known_ends.empty()) {
-  if (!watch.play.empty()) player_.emplace(watch.play);
+  if (!watch.play.empty()) {
+    player_.emplace(watch.play);
+  } else if (host_ == &kForeignHost) {
+    if (watch.foreign == nullptr) own_handles_ = std::make_unique<ForeignHandles>();
+    foreign_.emplace(watch.foreign != nullptr ? *watch.foreign : *own_handles_);
+  }
 }
 
 const AgentFailure* AgentCaller::start(const AgentCall& call, void*& agent) {
@@ -37,14 +42,16 @@ const AgentFailure* AgentCaller::destroy(const AgentCall& call, void* agent) {
     return failure ? failed(failure->hang, failure->message) : nullptr;
   }
   if (tape_ != nullptr) return record(call, known, agent);
-  return known != nullptr ? failed(known->hang, known->message) : reach(call, agent);
+  return known != nullptr ? failed(known->hang, known->message) : make(call, agent);
 }
 
 const AgentFailure* AgentCaller::record(const AgentCall& call, const KnownEnd* known, void*& agent) {
+  const std::uint64_t changes_before = processor_changes();
   tape_->call_begins(call.agv, call.kind());
   if (call.controller != nullptr) call.controller->tape = tape_;
-  const AgentFailure* failure = known != nullptr ? failed(known->hang, known->message) : reach(call, agent);
+  const AgentFailure* failure = known != nullptr ? failed(known->hang, known->message) : make(call, agent);
   if (call.controller != nullptr) call.controller->tape = nullptr;
+  if (processor_changes() > changes_before) tape_->processor_changed();
   if (failure != nullptr) {
     tape_->call_failed(failure->hang, failure->message);
   } else {
@@ -53,8 +60,26 @@ const AgentFailure* AgentCaller::record(const AgentCall& call, const KnownEnd* k
   return failure;
 }
 
-const AgentFailure* AgentCaller::reach(const AgentCall& call, void*& agent) {
-  if (call.is_start()) return create_and_start(call, agent);
+std::uint64_t AgentCaller::processor_changes() const {
+  if (player_) return player_->processor_changes();
+  return foreign_ ? foreign_->processor_changes() : 0;
+}
+
+const AgentFailure* AgentCaller::make_foreign(const AgentCall& call, void*& agent) {
+  fp_controller* handle = call.is_start() ? foreign_->lend(call.agv, call.controller) : nullptr;
+  const AgentFailure* failure = nullptr;
+  {
+    const ForeignCalls::UnderWay under_way(*foreign_, call.agv);
+    failure = reach(call, handle, agent);
+  }
+  const bool is_gone = call.event == nullptr || (call.is_start() && agent == nullptr);
+  if (!is_gone) return failure;
+  const std::string fault = foreign_->take_back(call.agv);
+  return failure != nullptr || fault.empty() ? failure : failed(false, fault);
+}
+
+const AgentFailure* AgentCaller::reach(const AgentCall& call, fp_controller* handle, void*& agent) {
+  if (call.is_start()) return create_and_start(call, handle, agent);
   if (call.event != nullptr) return hear(*call.event, agent);
   try {
     type_.destroy(agent);
@@ -64,8 +89,8 @@ const AgentFailure* AgentCaller::reach(const AgentCall& call, void*& agent) {
   }
 }
 
-const AgentFailure* AgentCaller::create_and_start(const AgentCall& call, void*& agent) {
-  if (const AgentFailure* failure = guarded([&] { agent = type_.create(host_, call.controller, call.briefing); }))
+const AgentFailure* AgentCaller::create_and_start(const AgentCall& call, fp_controller* handle, void*& agent) {
+  if (const AgentFailure* failure = guarded([&] { agent = type_.create(host_, handle, call.briefing); }))
     return failure;
   if (agent == nullptr) return failed(false, "create() returned null");
   if (tape_ != nullptr) tape_->agent_created();

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <exception>
+#include <memory>
 #include <optional>
 #include <string_view>
 
 #include "core/base/error.hpp"
 #include "core/engine/agent_call.hpp"
+#include "core/engine/foreign_calls.hpp"
 #include "core/engine/run_watch.hpp"
 #include "core/engine/tape_player.hpp"
 
@@ -30,6 +32,8 @@ class AgentCaller {
   const AgentFailure* destroy(const AgentCall& call, void* agent);
   // At the end of the run. Throws EngineError if the tape holds more calls.
   void finish() const;
+  // How many calls have left another state of the processor behind.
+  std::uint64_t processor_changes() const;
 
  private:
   const AgentFailure* hear(const fp_event& event, void* agent) {
@@ -52,17 +56,23 @@ class AgentCaller {
   const AgentFailure* tell_watched(const AgentCall& call, void* agent);
   const AgentFailure* make_otherwise(const AgentCall& call, const KnownEnd* known, void*& agent);
   const AgentFailure* record(const AgentCall& call, const KnownEnd* known, void*& agent);
-  const AgentFailure* reach(const AgentCall& call, void*& agent);
-  const AgentFailure* create_and_start(const AgentCall& call, void*& agent);
+  const AgentFailure* make(const AgentCall& call, void*& agent) {
+    return foreign_ ? make_foreign(call, agent) : reach(call, call.controller, agent);
+  }
+  const AgentFailure* make_foreign(const AgentCall& call, void*& agent);
+  const AgentFailure* reach(const AgentCall& call, fp_controller* handle, void*& agent);
+  const AgentFailure* create_and_start(const AgentCall& call, fp_controller* handle, void*& agent);
   const AgentFailure* failed(bool hang, std::string_view message);
 
   const fp_agent_type& type_;
   CallCounter counter_;
   CallTape* tape_;
-  const fp_host* host_;  // what agents are given
+  const fp_host* host_;                          // what agents are given
+  std::unique_ptr<ForeignHandles> own_handles_;  // of a recorded run of agents that are part of this program
+  std::optional<ForeignCalls> foreign_;
   std::optional<TapePlayer> player_;
-  bool is_plain_;         // no tape
-  bool is_watched_;       // there is a tape, a note of the last call, or a call that must not be made
+  bool is_plain_;         // no tape, no foreign code
+  bool is_watched_;       // not plain, or there is a note of the last call or a call that must not be made
   AgentFailure failure_;  // the last one
 };
 

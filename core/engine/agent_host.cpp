@@ -147,6 +147,7 @@ void AgentHost::file_failures(Outcome& outcome) const {
   outcome.crash = crash_;
   outcome.hang = hang_;
   outcome.message = message_;
+  outcome.counters.processor_changes = caller_.processor_changes();
 }
 
 // ---- what the agent is told

@@ -51,6 +51,8 @@ enum class TapeItem : std::uint8_t {
   DeclareState,
   Believe,
   NotesLeftOut,  // count: so many notes beyond kNotesMax
+  // What else happened during the call.
+  ProcessorChanged,  // it left another state of the processor behind
 };
 
 inline constexpr std::uint8_t kTapeVersion = 1;
@@ -72,6 +74,7 @@ class CallTape {
   // `event`: FP_EVENT_..., or CallNote::kDestroy.
   void call_begins(AgvId agv, std::uint32_t event);
   void agent_created() { put(TapeItem::Created); }
+  void processor_changed() { put(TapeItem::ProcessorChanged); }
   void call_returned() { call_ends(TapeItem::Returned); }
   void call_failed(bool hang, std::string_view message);
 

@@ -13,6 +13,7 @@
 namespace fleetproof {
 
 class CallTape;
+class ForeignHandles;
 class ToldPlant;
 
 // The last call into an agent: create, on_event or destroy. It may lie in memory that another process reads, so that it
@@ -45,6 +46,9 @@ struct RunWatch {
   // of the tape, and needs no known ends. If the bytes are damaged or belong to another run, simulate() throws
   // EngineError.
   std::string_view play{};
+  // Of the plug-in to which the agent type belongs; they outlive all its threads. Null: its code is part of this
+  // program.
+  ForeignHandles* foreign = nullptr;
   // From which the agents learn what follows from map and fleet, and in which it is kept for later runs. Null, or if it
   // is another plant: the run makes its own.
   ToldPlant* plant = nullptr;

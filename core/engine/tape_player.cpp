@@ -33,6 +33,9 @@ std::optional<AgentFailure> TapePlayer::play(const AgentCall& call, void*& agent
         if (!needs_agent || agent != nullptr) fail("it creates an agent where there is one");
         agent = this;
         break;
+      case TapeItem::ProcessorChanged:
+        ++processor_changes_;
+        break;
       default:
         if (call.controller == nullptr) fail("an agent that is destroyed makes calls");
         play_controller_call(next, call.controller);

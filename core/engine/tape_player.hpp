@@ -21,6 +21,7 @@ class TapePlayer {
   std::optional<AgentFailure> play(const AgentCall& call, void*& agent);
   // At the end of the run: all calls of the tape have been played.
   void finish() const;
+  std::uint64_t processor_changes() const { return processor_changes_; }
 
  private:
   void play_controller_call(TapeItem item, fp_controller* controller);
@@ -37,6 +38,7 @@ class TapePlayer {
   [[noreturn]] static void fail(std::string_view why);
 
   std::string_view rest_;
+  std::uint64_t processor_changes_ = 0;
 };
 
 }  // namespace fleetproof

@@ -48,6 +48,7 @@ struct Counters {
   std::uint64_t lost_by_interference = 0;
   std::uint64_t duplicates = 0;
   std::uint64_t lost_to_sources = 0;
+  std::uint64_t processor_changes = 0;
 
   friend bool operator==(const Counters&, const Counters&) = default;
 };
@@ -108,7 +109,12 @@ inline constexpr auto kCounters = std::to_array<CounterInfo>({
     {"lost_by_interference", &Counters::lost_by_interference, "receptions", "lost to other transmissions of the fleet"},
     {"duplicates", &Counters::duplicates, "receptions", "of copies, on top of the other receptions"},
     {"lost_to_sources", &Counters::lost_to_sources, "receptions", "lost to external sources alone"},
+    {"processor_changes", &Counters::processor_changes, "calls",
+     "of agents that left another rounding, other exceptions or denormals behind: they were set back"},
 });
+
+// So many of them stand in encodings up to version 4 and in archives up to schema 11.
+inline constexpr std::size_t kCountersBeforeProcessor = kCounters.size() - 1;
 
 // A counter that stands in the list twice would hide that another one is missing.
 consteval bool every_counter_is_listed_once() {

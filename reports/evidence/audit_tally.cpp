@@ -71,6 +71,7 @@ std::optional<AuditRecord> AuditTally::add(const RunRecord& run) {
   auto differing = settle(run.cell, run.run_index, share_.contains(run));
   AgentAudit& agent = agents_[agent_of_cell_[run.cell]];
   agent.failed_runs += run.outcome.is_failure() ? 1 : 0;
+  agent.processor_changed_runs += run.outcome.counters.processor_changes > 0 ? 1 : 0;
   if (differing && (!differing->outcome || differing->outcome->judged != judged(run.outcome))) {
     ++agent.judged_otherwise;
     if (!agent.first_judged_otherwise) agent.first_judged_otherwise = run.run_index;

@@ -24,6 +24,7 @@ struct AgentAudit {
   std::optional<std::uint64_t> first_differing, first_judged_otherwise;  // run indices
   // Of its runs: those that failed, and those of them that can be replayed from what the agent did.
   std::uint64_t failed_runs = 0, recordings = 0;
+  std::uint64_t processor_changed_runs = 0;  // in which a call left another state of the processor behind
 
   // A reference agent always does the same: if a run comes out differently, the engine is at fault.
   bool engine_at_fault() const { return !is_plugin && differing > 0; }

@@ -13,7 +13,7 @@ bool is_quiet(const RunRecord& run) {
   const bool accused =
       std::ranges::any_of(outcome.incidents, [](const Incident& incident) { return accuses(incident.kind); });
   if (accused || outcome.outcome_class() != OutcomeClass::Clean || !outcome.violations.empty()) return false;
-  if (FailingRun::of(run) || met_foreign_bodies(outcome)) return false;
+  if (FailingRun::of(run) || met_foreign_bodies(outcome) || outcome.counters.processor_changes > 0) return false;
   return std::ranges::all_of(kValuesOf<EndPoint>, [&](EndPoint end_point) {
     return end_point == EndPoint::Throughput || result_of(outcome, end_point) == RunResult::Passed;
   });

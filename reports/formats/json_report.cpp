@@ -301,7 +301,8 @@ Json audit_json(const AgentAudit& audit) {
           {"open", audit.open},
           {"declares_deterministic", audit.promises_to_repeat},
           {"failed_runs", audit.failed_runs},
-          {"recordings", audit.recordings}};
+          {"recordings", audit.recordings},
+          {"processor_changed_runs", audit.processor_changed_runs}};
 }
 
 Json group_json(const ReportInput& input, const FailureGroup& group) {

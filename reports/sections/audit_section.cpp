@@ -65,6 +65,13 @@ std::vector<Headline> audit_headlines(const ReportInput& input) {
   std::vector<Headline> list;
   for (const AgentAudit& audit : input.evidence.audits().agents()) {
     if (audit.differing > 0) list.push_back(headline_of(input, audit));
+    if (audit.processor_changed_runs > 0)
+      list.push_back({"processor changed",
+                      fmt::format("agent {}: in {} it left another rounding, other floating-point exceptions or other "
+                                  "denormals behind. They were set back after each call, so no other software computed "
+                                  "with them, but on a vehicle this software may.",
+                                  printable(audit.agent, 40), count_text(audit.processor_changed_runs, "run")),
+                      {}});
     if (audit.open > 0 && is_under_test(input.evidence.plan(), audit.agent))
       list.push_back({"audits open",
                       fmt::format("agent {}: {} due and not done: nothing is demonstrated for it before they are. The "

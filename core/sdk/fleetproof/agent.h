@@ -19,7 +19,9 @@
  *
  * Rules for the agent. Keep all state in the instance that create() returned. Many instances live in one process, on
  * several threads, but no instance is called from two threads at once. Use no clock, random source or thread of your
- * own: a run can only be replayed if time and randomness come from now_ns and random. If an agent in C++ throws, it
+ * own: a run can only be replayed if time and randomness come from now_ns and random. A controller call from another
+ * thread, or after destroy(), is refused, and the agent is filed as crashed; one for another AGV is refused. Control
+ * bits of the processor (rounding, exceptions, denormals) are set back after each call. If an agent in C++ throws, it
  * is filed as crashed; an agent in another language must let no exception leave its functions.
  *
  * Versions. A struct that one side fills for the other begins with its size in bytes. Structs in arrays (AGVs,

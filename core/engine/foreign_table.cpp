@@ -1,8 +1,11 @@
-#include "core/engine/recording_table.hpp"
+#include "core/engine/foreign_table.hpp"
+
+#include <type_traits>
 
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/call_tape.hpp"
 #include "core/engine/controller_table.hpp"
+#include "core/engine/foreign_calls.hpp"
 #include "core/engine/notes.hpp"
 
 namespace fleetproof {
@@ -71,53 +74,66 @@ void record(CallTape& tape, TapeItem item, std::uint32_t about, const fp_pose* w
 
 // ---- the function of the table for a member of fp_host
 
+// What a call returns that is refused before it reaches the controller.
+template <class Result>
+Result refused() {
+  if constexpr (std::is_same_v<Result, std::int32_t>) return FP_SUSPENDED;
+  return Result();
+}
+
 template <auto kMember, TapeItem kItem>
-struct Recorded;
+struct Guarded;
 
 template <class Result, class... Arguments, Result (*fp_host::*kMember)(fp_controller*, Arguments...), TapeItem kItem>
-struct Recorded<kMember, kItem> {
-  static Result call(fp_controller* controller, Arguments... arguments) {
-    if (controller->tape != nullptr) record(*controller->tape, kItem, arguments...);
-    return (kHost.*kMember)(controller, arguments...);
+struct Guarded<kMember, kItem> {
+  static Result call(fp_controller* given, Arguments... arguments) {
+    ForeignHandle& handle = *reinterpret_cast<ForeignHandle*>(given);
+    if (!handle.admits()) return refused<Result>();
+    if constexpr (std::is_void_v<Result>) {  // a note; mostly, nobody hears it
+      if (!handle.controller->hears_notes && handle.controller->tape == nullptr) return;
+    }
+    const EngineProcessorState ours;
+    if (CallTape* tape = handle.controller->tape) record(*tape, kItem, arguments...);
+    return (kHost.*kMember)(handle.controller, arguments...);
   }
 };
 
 template <auto kMember, TapeItem kItem>
-constexpr auto* recorded = &Recorded<kMember, kItem>::call;
+constexpr auto* guarded = &Guarded<kMember, kItem>::call;
 
 }  // namespace
 
-const fp_host kRecordingHost = {
+const fp_host kForeignHost = {
     sizeof(fp_host),
     FP_ABI_MAJOR,
     FP_ABI_MINOR,
-    recorded<&fp_host::move, TapeItem::Move>,
-    recorded<&fp_host::pick, TapeItem::Pick>,
-    recorded<&fp_host::drop, TapeItem::Drop>,
-    recorded<&fp_host::park, TapeItem::Park>,
-    recorded<&fp_host::charge, TapeItem::Charge>,
-    recorded<&fp_host::send_broadcast, TapeItem::SendBroadcast>,
-    recorded<&fp_host::send_unicast, TapeItem::SendUnicast>,
-    recorded<&fp_host::get_position, TapeItem::GetPosition>,
-    recorded<&fp_host::get_battery_level, TapeItem::GetBatteryLevel>,
-    recorded<&fp_host::get_message, TapeItem::GetMessage>,
-    recorded<&fp_host::is_loaded, TapeItem::IsLoaded>,
-    recorded<&fp_host::get_action, TapeItem::GetAction>,
-    recorded<&fp_host::now_ns, TapeItem::Services>,
-    recorded<&fp_host::set_timer, TapeItem::SetTimer>,
-    recorded<&fp_host::random, TapeItem::Services>,
-    recorded<&fp_host::declare_cost_ns, TapeItem::DeclareCost>,
-    recorded<&fp_host::safe_mode, TapeItem::SafeMode>,
-    recorded<&fp_host::waiting_for, TapeItem::WaitingFor>,
-    recorded<&fp_host::sometimes, TapeItem::Sometimes>,
-    recorded<&fp_host::log, TapeItem::Log>,
-    recorded<&fp_host::pick_load, TapeItem::PickLoad>,
-    recorded<&fp_host::get_load, TapeItem::GetLoad>,
-    recorded<&fp_host::stop, TapeItem::Stop>,
-    recorded<&fp_host::go_on, TapeItem::GoOn>,
-    recorded<&fp_host::describe, TapeItem::Describe>,
-    recorded<&fp_host::declare_state, TapeItem::DeclareState>,
-    recorded<&fp_host::believe, TapeItem::Believe>,
+    guarded<&fp_host::move, TapeItem::Move>,
+    guarded<&fp_host::pick, TapeItem::Pick>,
+    guarded<&fp_host::drop, TapeItem::Drop>,
+    guarded<&fp_host::park, TapeItem::Park>,
+    guarded<&fp_host::charge, TapeItem::Charge>,
+    guarded<&fp_host::send_broadcast, TapeItem::SendBroadcast>,
+    guarded<&fp_host::send_unicast, TapeItem::SendUnicast>,
+    guarded<&fp_host::get_position, TapeItem::GetPosition>,
+    guarded<&fp_host::get_battery_level, TapeItem::GetBatteryLevel>,
+    guarded<&fp_host::get_message, TapeItem::GetMessage>,
+    guarded<&fp_host::is_loaded, TapeItem::IsLoaded>,
+    guarded<&fp_host::get_action, TapeItem::GetAction>,
+    guarded<&fp_host::now_ns, TapeItem::Services>,
+    guarded<&fp_host::set_timer, TapeItem::SetTimer>,
+    guarded<&fp_host::random, TapeItem::Services>,
+    guarded<&fp_host::declare_cost_ns, TapeItem::DeclareCost>,
+    guarded<&fp_host::safe_mode, TapeItem::SafeMode>,
+    guarded<&fp_host::waiting_for, TapeItem::WaitingFor>,
+    guarded<&fp_host::sometimes, TapeItem::Sometimes>,
+    guarded<&fp_host::log, TapeItem::Log>,
+    guarded<&fp_host::pick_load, TapeItem::PickLoad>,
+    guarded<&fp_host::get_load, TapeItem::GetLoad>,
+    guarded<&fp_host::stop, TapeItem::Stop>,
+    guarded<&fp_host::go_on, TapeItem::GoOn>,
+    guarded<&fp_host::describe, TapeItem::Describe>,
+    guarded<&fp_host::declare_state, TapeItem::DeclareState>,
+    guarded<&fp_host::believe, TapeItem::Believe>,
 };
 
 }  // namespace fleetproof
