@@ -25,12 +25,13 @@ endif()
 
 add_executable(sanitized_tests EXCLUDE_FROM_ALL ${sanitized_sources})
 target_link_libraries(sanitized_tests
-  PRIVATE fleetproof_campaign fleetproof_evidence exact_binomial rapidcheck GTest::gtest_main GTest::gmock
+  PRIVATE fleetproof_campaign fleetproof_evidence exact_binomial rapidcheck test_main
     nlohmann_json::nlohmann_json fmt::fmt SQLiteCpp SQLite::SQLite3 TBB::tbb)
 target_compile_definitions(sanitized_tests PRIVATE FLEETPROOF_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
   FLEETPROOF_PLUGIN="$<TARGET_FILE:fleetproof_agents_plugin>"
-  FLEETPROOF_RETOUCHED_AGENT="$<TARGET_FILE:retouched_agent>")
-add_dependencies(sanitized_tests fleetproof_agents_plugin retouched_agent)
+  FLEETPROOF_RETOUCHED_AGENT="$<TARGET_FILE:retouched_agent>" FLEETPROOF_UNTIDY_AGENT="$<TARGET_FILE:untidy_agent>"
+  FLEETPROOF_ECHO_WORKER="$<TARGET_FILE:echo_worker>")
+add_dependencies(sanitized_tests fleetproof_agents_plugin retouched_agent untidy_agent echo_worker)
 target_compile_options(sanitized_tests PRIVATE ${test_warnings})
 target_precompile_headers(sanitized_tests
   PRIVATE <gtest/gtest.h> <gmock/gmock.h> <Eigen/Core> <fmt/format.h> <map> <set> <string> <vector>)

@@ -46,8 +46,9 @@ TEST(SinglePlaces, OnlyStreamsWriteToStandardOutputAndError) {
   const std::vector<std::string> rooms = {"core", "laws", "generators", "storage", "reports", "campaign"};
   for (const auto& line : lines_with(rooms, pattern, "campaign/cli/streams.cpp")) {
     // The streams of a worker process are its log.
-    const bool of_worker =
-        line.starts_with("campaign/workers/worker.cpp") || line.starts_with("campaign/workers/fatal_signals.cpp");
+    const bool of_worker = line.starts_with("campaign/workers/forker.cpp") ||
+                           line.starts_with("campaign/workers/worker.cpp") ||
+                           line.starts_with("campaign/workers/fatal_signals.cpp");
     if (!of_worker && line.find("print every event on stderr") == std::string::npos) ADD_FAILURE() << line;
   }
   EXPECT_FALSE(lines_with({"campaign"}, std::regex("STDOUT_FILENO"), "nowhere").empty()) << "the pattern is alive";

@@ -14,7 +14,7 @@
 namespace fleetproof {
 namespace {
 
-// Runs that one process audits: its start costs as much as some short runs.
+// Runs that are audited one after the other.
 constexpr std::size_t kBatch = 16;
 constexpr std::size_t kFirstBatch = 4;  // the first findings are wanted soon: they may end the recording of runs
 constexpr std::uint64_t kMostOpen = 65'536;
@@ -27,15 +27,17 @@ int threads_for(double share, int workers) {
 
 }  // namespace
 
-AuditQueue::AuditQueue(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& program, int workers)
+AuditQueue::AuditQueue(const CampaignPlan& plan, const AgentPrograms& programs, bool audits, int workers)
     : share_(plan.seed, plan.audit.share, plan.cells(), plugin_agents(plan, programs)),
+      run_one_(plan, programs),
       threads_wanted_(threads_for(plan.audit.share, workers)),
-      wanted_(kFirstBatch) {
-  if (program.empty() || plan.audit.share <= 0.0) return;
+      wanted_(kFirstBatch),
+      begun_(plan.agents.size()) {
+  for (const AgentFactor& agent : plan.agents) is_plugin_.push_back(programs.is_plugin(agent.program));
+  if (!audits || plan.audit.share <= 0.0) return;
   Hosting hosting;
   hosting.workers = threads_wanted_;
-  hosting.program = program;
-  hosting.runs_per_worker = kBatch;
+  hosting.audits = true;
   runs_ = std::make_unique<IsolatedRuns>(plan, programs, hosting);
 }
 
@@ -135,13 +137,36 @@ void AuditQueue::work() {
   }
 }
 
+// What software takes from its process shows soon if each of the first audits has a process of its own.
+HostProcess AuditQueue::process_for(std::uint64_t run_index) {
+  const std::lock_guard lock(mutex_);
+  const bool is_early = ++begun_[agent_of_run(run_index, begun_.size())] <= kAuditsToPass;
+  return is_early ? HostProcess::Own : HostProcess::Shared;
+}
+
+AuditedRun AuditQueue::finding_of(const RunRecord& record, std::uint64_t checksum_before) const {
+  const auto found = [&](const RunRecord& run) {
+    const std::uint64_t checksum = row_checksum(run);
+    return AuditedRun{{run.run_index, checksum, audited_outcome(run)}, checksum == checksum_before};
+  };
+  if (record.recording.empty()) return found(record);
+  RunWatch watch;
+  watch.play = record.recording;
+  try {
+    return found(run_one_(record.run_index, nullptr, watch));
+  } catch (const EngineError&) {  // what it did is not known
+    return {{record.run_index, row_checksum(record) ^ 1, std::nullopt}, false};
+  }
+}
+
 void AuditQueue::audit(const Batch& batch) {
   for (const auto& [run_index, checksum] : batch) {
-    const RunRecord record = (*runs_)(run_index);
+    const bool record_calls = is_plugin_[agent_of_run(run_index, is_plugin_.size())];
+    const RunRecord record = (*runs_)(run_index, record_calls, process_for(run_index));
     runs_->take_losses();  // what ended a worker here stands in the record, and so in the finding
-    const std::uint64_t now = row_checksum(record);
+    AuditedRun finding = finding_of(record, checksum);
     const std::lock_guard lock(mutex_);
-    findings_.push_back({{run_index, now, audited_outcome(record)}, now == checksum});
+    findings_.push_back(std::move(finding));
     if (++found_ >= kAuditsToPass) wanted_ = kBatch;
     // Each costs eleven times the limit.
     if (record.outcome.hang && ++hung_ >= kMostHangs)

@@ -16,13 +16,13 @@
 namespace fleetproof {
 
 // Simulates a share of the finished runs once more: in processes that are started afresh, with other addresses, other
-// bytes in fresh memory, and in another order. Works beside the campaign, on threads of its own.
-// Threads: the caller's one.
+// bytes in fresh memory, and in another order. What a plug-in did there is then played in this process, in which no
+// plug-in has ever been: that is what the audit finds, so that damage to the engine of a worker shows. Works beside the
+// campaign, on threads of its own. Threads: the caller's one.
 class AuditQueue {
  public:
-  // `program` is started for the audits (fresh_program.hpp); empty: nothing is audited. Make the object before threads
-  // are started and files are opened. `plan` and `programs` outlive it.
-  AuditQueue(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& program, int workers);
+  // `audits`: no: nothing is audited. `plan` and `programs` outlive it.
+  AuditQueue(const CampaignPlan& plan, const AgentPrograms& programs, bool audits, int workers);
   ~AuditQueue();
   AuditQueue(const AuditQueue&) = delete;
   AuditQueue& operator=(const AuditQueue&) = delete;
@@ -51,8 +51,12 @@ class AuditQueue {
   void work();
   Batch next_batch();
   void audit(const Batch& batch);
+  HostProcess process_for(std::uint64_t run_index);
+  AuditedRun finding_of(const RunRecord& record, std::uint64_t checksum_before) const;
 
   AuditShare share_;
+  RunOne run_one_;               // plays tapes
+  std::vector<bool> is_plugin_;  // by position of the agent in the plan
   int threads_wanted_;
   std::unique_ptr<IsolatedRuns> runs_;  // null: nothing is audited
 
@@ -61,6 +65,7 @@ class AuditQueue {
   std::map<std::uint64_t, std::uint64_t> waiting_;  // run index -> checksum of its row
   std::size_t wanted_;                              // so many runs must wait before a batch is begun
   std::uint64_t found_ = 0;
+  std::vector<std::uint64_t> begun_;  // audits, by position of the agent in the plan
   int hung_ = 0;
   std::size_t under_way_ = 0;
   bool closing_ = false, abandoned_ = false;

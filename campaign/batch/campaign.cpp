@@ -32,7 +32,7 @@ class CampaignPolicy final : public SessionPolicy {
         verdict_(stored),
         archive_(path, stored, session.options().overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
     session_.progress().planned = plan.run_count();
-    if (session_.options().audit_program.empty()) verdict_.audits_end();
+    if (!session_.options().audits) verdict_.audits_end();
     for (std::size_t agent = 0; agent < audit_counts_.agent_count(); ++agent)
       session_.runs().record(agent, audit_counts_.needs_recordings(agent));
   }

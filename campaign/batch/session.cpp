@@ -29,7 +29,7 @@ Session::Session(const CampaignPlan& plan, const AgentPrograms& programs, const 
       listener_(listener),
       group_(plan.cells_per_world()),
       runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
-      audits_(plan, programs, options.audit_program, options.workers) {}
+      audits_(plan, programs, options.audits, options.workers) {}
 
 void Session::count(const RunRecord& run) {
   Progress& progress = result_.progress;

@@ -19,10 +19,10 @@ namespace fleetproof {
 
 struct RunOptions {
   int workers = 1;
-  std::string worker_logs;    // prefix of the files that take what plug-ins print; empty: it is dropped
-  std::string audit_program;  // is started for audits (campaign/workers/fresh_program.hpp); empty: no audits
-  bool overwrite = false;     // replace an existing results file, once the new one is complete; else it goes on
-  bool allow_drift = false;   // go on in a file that another engine wrote, and record it
+  std::string worker_logs;   // prefix of the files that take what plug-ins print; empty: it is dropped
+  bool audits = false;       // simulate a share of the runs once more
+  bool overwrite = false;    // replace an existing results file, once the new one is complete; else it goes on
+  bool allow_drift = false;  // go on in a file that another engine wrote, and record it
   // Stop cleanly then; the time before the first run counts, too.
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::uint64_t fail_fast = 0;                    // stop after so many failed runs, in order of run index; 0: never
@@ -94,8 +94,7 @@ class SessionPolicy {
 // the caller's thread.
 class Session {
  public:
-  // Starts the processes that fork workers: make the object before threads are started and files are opened. All that
-  // it is given outlives it.
+  // All that it is given outlives it.
   Session(const CampaignPlan& plan, const AgentPrograms& programs, const RunOptions& options,
           const CampaignListener& listener);
 

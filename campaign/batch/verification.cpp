@@ -53,7 +53,7 @@ std::vector<std::uint64_t> sample_of_runs(std::uint64_t key, std::uint64_t runs,
 
 Verification verify_runs(const std::string& path, const CampaignPlan& plan, const AgentPrograms& programs,
                          const std::vector<std::uint64_t>& sample, int workers) {
-  RunHost runs(plan, programs, {.workers = workers});  // before the file is opened: worker processes must not hold it
+  RunHost runs(plan, programs, {.workers = workers});
   const ArchiveReader archive(path);
   Verification verification;
   TaskPool<RunRecord> pool({.workers = workers, .end = sample.size()},

@@ -87,6 +87,7 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   CampaignFile file = read_campaign_file(path);
   std::vector<AgentFactor>& agents = file.plan.agents;
   const auto place_of = [&](std::size_t agent) { return file.places.of(fmt::format("factors.agents.{}", agent)); };
+  programs.limit_inspections(file.plan.limits);
   std::map<std::string, KnownObject> known;  // by file: one object may stand there under several names
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const std::string& path_of_object = file.agent_files[i];

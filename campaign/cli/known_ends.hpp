@@ -11,7 +11,7 @@ namespace fleetproof::cli {
 
 // The calls at which the agents of one run end the process or never return, found out in a worker process. Where these
 // are known, the run can be simulated, and watched, in this process (RunWatch::known_ends). None of a reference agent.
-// Call this before threads are started and files are opened. `known`: the agent is known, and not loaded. Throws
+// `known`: the agent is known, and not loaded. Throws
 // InputError if it does not end at the same call twice.
 std::vector<KnownEnd> known_ends(const Scenario& scenario, const CaseAgent& agent, const AgentPrograms& known);
 

@@ -2,7 +2,7 @@
 
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
-#include "campaign/workers/fresh_program.hpp"
+#include "campaign/workers/worker.hpp"
 
 int main(int argc, char** argv) {
   using namespace fleetproof::cli;

@@ -50,8 +50,6 @@ struct RunWords {
   bool overwrite = false, allow_drift = false, until_verdict = false, exit_zero = false, json = false;
 };
 
-constexpr const char* kOwnProgram = "/proc/self/exe";
-
 std::atomic<bool> status_wanted{false};
 
 void on_status_signal(int) { status_wanted = true; }
@@ -78,7 +76,7 @@ RunOptions run_options(const RunWords& words) {
   options.until_verdict = words.until_verdict;
   options.overwrite = words.overwrite;
   options.interrupted = &interrupted();
-  options.audit_program = kOwnProgram;
+  options.audits = true;
   return options;
 }
 
@@ -205,8 +203,12 @@ int run(RunWords words) {
     const SessionLog session(words.archive);
     CampaignListener listener = talk.listener();
     listener.started = [&, tell = listener.started] {
-      session.begin(options, programs, {.ledger = attempt.path(), .overrides = overrides(words)});
       attempt.begin();
+      session.begin(options, programs,
+                    {.ledger = attempt.path(),
+                     .overrides = overrides(words),
+                     .attempt = attempt.id(),
+                     .ledger_line = attempt.line()});
       tell();
     };
     listener.wants_status = [] { return status_wanted.exchange(false); };

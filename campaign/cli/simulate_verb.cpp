@@ -273,6 +273,7 @@ int simulate_scenario(SimulateWords words) {
   RunWatch watch;
   watch.known_ends = ends;
   const fp_agent_type& agent = programs.find(words.agent, words.agent_place);
+  watch.foreign = programs.program(words.agent, words.agent_place).handles.get();
   const Observers observers = observers_of(words.law, scenario);
   std::optional<RunObservers> observed;
   if (words.observed.wanted())

@@ -29,7 +29,7 @@ struct SurveyedRuns {
 // Of each agent, at most `most` of the runs that failed, spread evenly over the campaign.
 SurveyedRuns failing_runs(const ArchiveReader& archive, const CampaignPlan& plan, std::size_t most);
 
-// One host for each agent of a campaign that has failing runs. Make it before threads are started.
+// One host for each agent of a campaign that has failing runs.
 class AgentHosts {
  public:
   AgentHosts(const CampaignPlan& plan, const AgentPrograms& programs, std::span<const SurveyedRun> runs, int workers);

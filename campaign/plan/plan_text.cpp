@@ -260,13 +260,13 @@ std::string plan_text(const CampaignPlan& plan) {
   return json_text(json, 1);
 }
 
-CampaignPlan parse_plan(const std::string& text) {
+CampaignPlan parse_plan(const std::string& text, PlanCells cells) {
   try {
     const Json json = read_json(text);
     if (json.is_discarded()) throw EngineError("the plan in the archive cannot be read: it is no JSON");
     CampaignPlan plan;
     PlanReader().read(json, plan);
-    if (plan.agents.empty() || plan.cell_count() == 0)
+    if (plan.agents.empty() || (plan.cell_count() == 0 && cells == PlanCells::Required))
       throw EngineError("the plan in the archive cannot be read: it has no agent or no cell");
     return plan;
   } catch (const Json::exception& error) {

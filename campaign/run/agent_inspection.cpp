@@ -8,18 +8,21 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
+#include <new>
 
+#include "campaign/run/memory_limit.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr rlim_t kPatience_cpu_s = 10;
 constexpr int kInspectionPatience_ms = 60'000;  // of waiting without using CPU time
 constexpr int kKillsOfInspection = 3;           // more, and the object is the reason
 
@@ -41,19 +44,23 @@ void write_all(int fd, std::string_view bytes) {
   }
 }
 
-[[noreturn]] void load_and_tell(const std::string& path, bool global_symbols, int answer) {
+[[noreturn]] void load_and_tell(const std::string& path, bool global_symbols, const LimitSetup& limits, int answer) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {0, 1, 2})
     ::dup2(nothing, stream);  // what the object prints while it is inspected is dropped
-  const rlimit cpu{kPatience_cpu_s, kPatience_cpu_s + 1}, core{0, 0};
+  const auto cpu_s = static_cast<rlim_t>(std::max(1.0, std::ceil(limits.cpu_s)));
+  const rlimit cpu{cpu_s, cpu_s + 1}, core{0, 0};
   ::setrlimit(RLIMIT_CPU, &cpu);
   ::setrlimit(RLIMIT_CORE, &core);
+  limit_memory(limits.memory_mb, mapped_bytes());
   try {
     AgentPrograms programs;
     const std::string name = programs.load(path, global_symbols);
     write_all(answer, text_of(programs.program(name, path)));
+  } catch (const std::bad_alloc&) {
+    ::_exit(kOutOfMemoryExit);
   } catch (const std::exception& error) {
     write_all(answer, std::string("n") + error.what());
   } catch (...) {
@@ -88,6 +95,7 @@ Inspection read_until_end(int fd) {
 std::string end_of(const Inspection& inspection) {
   const int status = inspection.status;
   if (!inspection.came_back || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) return "it does not come back";
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemoryExit) return "it needs more memory than limits.memory_mb";
   if (!WIFSIGNALED(status)) return "it ends the process that loads it";
   return fmt::format("the process that loads it ends with signal {} ({})", WTERMSIG(status),
                      ::strsignal(WTERMSIG(status)));
@@ -110,14 +118,14 @@ AgentProgram program_of(std::string_view fields) {
   return program;
 }
 
-Inspection inspect_once(const std::string& path, bool global_symbols) {
+Inspection inspect_once(const std::string& path, bool global_symbols, const LimitSetup& limits) {
   std::array<int, 2> answer{};
   if (::pipe2(answer.data(), O_CLOEXEC) != 0)
     throw MachineError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(answer[0]);
-    load_and_tell(path, global_symbols, answer[1]);
+    load_and_tell(path, global_symbols, limits, answer[1]);
   }
   const int error = errno;
   ::close(answer[1]);
@@ -136,10 +144,10 @@ bool was_killed_from_outside(const Inspection& inspection) {
 
 }  // namespace
 
-AgentProgram inspect_agent(const std::string& path, bool global_symbols) {
-  Inspection inspection = inspect_once(path, global_symbols);
+AgentProgram inspect_agent(const std::string& path, bool global_symbols, const LimitSetup& limits) {
+  Inspection inspection = inspect_once(path, global_symbols, limits);
   for (int again = 0; again < kKillsOfInspection && was_killed_from_outside(inspection); ++again)
-    inspection = inspect_once(path, global_symbols);
+    inspection = inspect_once(path, global_symbols, limits);
   const std::string_view text = inspection.text;
   if (text.starts_with('y')) {
     AgentProgram program = program_of(text.substr(1));

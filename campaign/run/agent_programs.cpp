@@ -12,6 +12,7 @@
 #include "core/agents/agents.h"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/engine/processor_state.hpp"
 #include "core/engine/simulation.hpp"
 #include "generators/text/text_file.hpp"
 
@@ -67,20 +68,23 @@ std::string AgentPrograms::load(const std::string& path, bool global_symbols) {
   void* object = dlopen(file.c_str(), RTLD_NOW | (global_symbols ? RTLD_GLOBAL : RTLD_LOCAL));
   if (object == nullptr) throw InputError(path, fmt::format("cannot be loaded as a shared object: {}", dlerror()));
   objects_.push_back(object);
+  set_engine_processor_state();  // an object may be built so that it changes it
   const auto query = reinterpret_cast<fp_agent_query_function>(dlsym(object, FP_AGENT_QUERY_SYMBOL));
   if (query == nullptr) throw InputError(path, "exports no " FP_AGENT_QUERY_SYMBOL "; see core/sdk/fleetproof/agent.h");
   const fp_agent_type* type = query(FP_ABI_MAJOR);
+  set_engine_processor_state();
   if (type == nullptr) throw InputError(path, fmt::format("refuses version {} of fleetproof/agent.h", FP_ABI_MAJOR));
   check_type(path, *type);
   AgentProgram program = program_of(*type);
   program.file = file;
   program.sha256 = sha256_of_file(path);
   program.global_symbols = global_symbols;
+  program.handles = std::make_shared<ForeignHandles>();
   return add(std::move(program), path).name;
 }
 
 std::string AgentPrograms::know(const std::string& path, bool global_symbols) {
-  return add(inspect_agent(path, global_symbols), path).name;
+  return add(inspect_agent(path, global_symbols, limits_), path).name;
 }
 
 void AgentPrograms::load_unchanged(const AgentProgram& known) {

@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "campaign/plan/plan.hpp"
+#include "core/engine/foreign_calls.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
 namespace fleetproof {
@@ -13,10 +16,11 @@ namespace fleetproof {
 // Control software that a campaign may test.
 struct AgentProgram {
   std::string name, description;
-  std::uint32_t flags = 0;              // FP_DETERMINISTIC, ...
-  std::string file, sha256;             // of the shared object; both empty: a reference agent
-  bool global_symbols = false;          // it is loaded with RTLD_GLOBAL: embedded Python needs it
-  const fp_agent_type* type = nullptr;  // null: the shared object is not loaded into this process
+  std::uint32_t flags = 0;                    // FP_DETERMINISTIC, ...
+  std::string file, sha256;                   // of the shared object; both empty: a reference agent
+  bool global_symbols = false;                // it is loaded with RTLD_GLOBAL: embedded Python needs it
+  const fp_agent_type* type = nullptr;        // null: the shared object is not loaded into this process
+  std::shared_ptr<ForeignHandles> handles{};  // of a shared object that is loaded into this process
 
   bool is_plugin() const { return !file.empty(); }
 };
@@ -36,6 +40,8 @@ class AgentPrograms {
   // The same, but a process of its own loads the object and tells what it is (agent_inspection.hpp). No code of the
   // object runs in this process.
   std::string know(const std::string& path, bool global_symbols = false);
+  // What that process may use, from now on.
+  void limit_inspections(const LimitSetup& limits) { limits_ = limits; }
   // Loads a plug-in that another AgentPrograms knows. Throws EngineError if its file has changed since.
   void load_unchanged(const AgentProgram& known);
 
@@ -51,6 +57,7 @@ class AgentPrograms {
  private:
   const AgentProgram& add(AgentProgram program, const std::string& path);
 
+  LimitSetup limits_;
   std::deque<AgentProgram> programs_;
   std::vector<void*> objects_;
 };

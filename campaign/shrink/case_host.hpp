@@ -36,7 +36,7 @@ class GivenUp : public std::runtime_error {
 // one case. Threads: as many as there are workers.
 class CaseHost {
  public:
-  // Make the object before threads are started, as IsolatedRuns asks. `programs` outlive it. Throws InputError if the
+  // `programs` outlive it. Throws InputError if the
   // agent is not known.
   CaseHost(const CaseAgent& agent, const AgentPrograms& programs, int workers);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <csignal>
 
+#include "campaign/run/memory_limit.hpp"
 #include "campaign/workers/worker.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
@@ -35,6 +36,7 @@ std::string end_words(WorkerState state, const WorkerDeath& death, const WorkerS
   if (state == WorkerState::BeyondCpuLimit) return "uses CPU time without end";
   if (state == WorkerState::Asleep) return "waits without end";
   if (state == WorkerState::Garbled) return "spoiled the answer of its process";
+  if (death.with_forker) return "killed the process that starts the workers";
   if (slot.stack_overflow.load() != 0) return "stack overflow (SIGSEGV)";
   const bool could_not_answer = WIFEXITED(death.status) && WEXITSTATUS(death.status) == kChannelClosedExit;
   if (death.had_to_be_killed || could_not_answer) return "closed the descriptors of its process";
@@ -58,8 +60,9 @@ std::string call_words(const CallNote& call) {
 CauseOfDeath cause_of_death(WorkerState state, const WorkerDeath& death, const WorkerSlot& slot) {
   CauseOfDeath cause;
   cause.hang = state == WorkerState::BeyondCpuLimit || state == WorkerState::Asleep;
-  cause.from_outside = state == WorkerState::Closed && !death.had_to_be_killed && WIFSIGNALED(death.status) &&
-                       WTERMSIG(death.status) == SIGKILL;
+  cause.with_forker = death.with_forker;
+  cause.from_outside = state == WorkerState::Closed && !death.with_forker && !death.had_to_be_killed &&
+                       WIFSIGNALED(death.status) && WTERMSIG(death.status) == SIGKILL;
   cause.call = slot.call.number.load();
   cause.message = fmt::format("{} {}", end_words(state, death, slot), call_words(slot.call));
   return cause;

@@ -11,12 +11,15 @@ namespace fleetproof {
 // Threads: one, the one that calls the agents.
 class Disturbance {
  public:
-  // Call this before each run. Another key gives another order of the addresses that `malloc` hands out next, other
-  // bytes in fresh and freed memory, and other bytes below the stack.
-  void renew(std::uint64_t key);
+  // Which memory is filled: what `malloc` hands out next, which costs nothing later, or all that it ever hands out.
+  enum class Fill : bool { Next, All };
+
+  // Call this before a run. Another key gives another order of the addresses that `malloc` hands out next, other bytes
+  // in this memory, and other bytes below the stack.
+  void renew(std::uint64_t key, Fill fill = Fill::All);
 
  private:
-  void scatter_heap(std::uint64_t key);
+  void scatter_heap(std::uint64_t key, int byte);
 
   std::vector<std::unique_ptr<char[]>> between_;  // what keeps freed blocks from growing together
 };

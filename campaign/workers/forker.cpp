@@ -1,7 +1,10 @@
 #include "campaign/workers/forker.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <poll.h>
+#include <sys/personality.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -10,27 +13,40 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <set>
+#include <string_view>
 
+#include "campaign/workers/worker_watch.hpp"
 #include "core/base/error.hpp"
 
 namespace fleetproof {
-namespace {
 
-constexpr int kGrace_ms = 200;  // for a worker that has closed its channel to be dead
-
-struct Request {
+struct ForkRequest {
   enum class Kind : std::int32_t { Start, Collect } kind = Kind::Start;
   std::int32_t slot = 0;
   pid_t pid = 0;
 };
-struct Reply {
+struct ForkReply {
   pid_t pid = 0;  // negative: an errno
   WorkerDeath death;
 };
+
+namespace {
+
+constexpr int kGrace_ms = 200;  // for a worker that has closed its channel to be dead
+constexpr int kLookEvery_ms = 100;
+constexpr int kMostLooks = 600;  // at a forker that does not answer; then it is killed
+constexpr int kPatienceAtEnd_ms = 10'000;
+constexpr unsigned long kAskPersonality = 0xffffffff;
+// What an agent may write to one file, its log included: an agent that prints without end must not fill the disk.
+constexpr rlim_t kLargestFile = rlim_t{64} << 20;
+
+constexpr std::string_view kForkerWord = "fork-workers";  // then control, logs, descriptors, file, words
+constexpr int kForkerWords = 6;
+constexpr std::string_view kProgramName = "fleetproof";  // as other programs list the process
 
 // A request may carry a descriptor: the worker's end of its channel.
 union DescriptorSpace {
@@ -38,7 +54,7 @@ union DescriptorSpace {
   std::array<char, CMSG_SPACE(sizeof(int))> bytes;
 };
 
-bool send_request(int control, Request request, int descriptor) {
+bool send_request(int control, ForkRequest request, int descriptor) {
   iovec content{&request, sizeof request};
   DescriptorSpace space{};
   msghdr message{};
@@ -61,7 +77,7 @@ bool send_request(int control, Request request, int descriptor) {
 }
 
 // -1 if the other end is gone, else the descriptor that came along, or 0.
-int receive_request(int control, Request& request) {
+int receive_request(int control, ForkRequest& request) {
   iovec content{&request, sizeof request};
   DescriptorSpace space{};
   msghdr message{};
@@ -80,15 +96,63 @@ int receive_request(int control, Request& request) {
   return descriptor;
 }
 
-// The loop of the forker's own process.
+void set_close_on_exec(int descriptor, bool on) {
+  const int flags = ::fcntl(descriptor, F_GETFD);
+  if (flags >= 0) ::fcntl(descriptor, F_SETFD, on ? flags | FD_CLOEXEC : flags & ~FD_CLOEXEC);
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+std::string text_of(const std::vector<int>& numbers) { return fmt::format("{}", fmt::join(numbers, ",")); }
+
+std::vector<int> numbers_in(std::string_view text) {
+  std::vector<int> numbers;
+  while (!text.empty()) {
+    const auto comma = std::min(text.find(','), text.size());
+    int& number = numbers.emplace_back(-1);
+    std::from_chars(text.data(), text.data() + comma, number);
+    text.remove_prefix(std::min(comma + 1, text.size()));
+  }
+  return numbers;
+}
+
+// ---- the forker's own process
+
+[[noreturn]] void become_worker(const WorkerProgram& program, int slot, int channel) {
+  const auto place = static_cast<std::size_t>(slot);
+  const int log = place < program.logs.size() ? program.logs[place] : -1;
+  const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  ::dup2(nothing, STDIN_FILENO);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(log >= 0 ? log : nothing, stream);
+  const rlimit core{0, 0}, file{kLargestFile, kLargestFile};
+  ::setrlimit(RLIMIT_CORE, &core);
+  ::setrlimit(RLIMIT_FSIZE, &file);
+  const int persona = ::personality(kAskPersonality);
+  if (persona >= 0) ::personality(static_cast<unsigned long>(persona) & ~static_cast<unsigned long>(ADDR_NO_RANDOMIZE));
+  set_close_on_exec(channel, false);
+  for (const int descriptor : program.descriptors) set_close_on_exec(descriptor, false);
+  std::vector<std::string> words{std::string(kProgramName)};
+  words.insert(words.end(), program.words.begin(), program.words.end());
+  words.push_back(std::to_string(channel));
+  words.push_back(std::to_string(slot));
+  ::execv(program.file.c_str(), pointers_to(words).data());
+  ::_exit(kCannotStartExit);
+}
+
 class ForkerProcess {
  public:
-  ForkerProcess(int control, const Forker::Work& work) : control_(control), work_(work) {}
+  ForkerProcess(int control, const WorkerProgram& program) : control_(control), program_(program) {}
 
   [[noreturn]] void run() {
-    Request request;
+    ForkRequest request;
     for (int descriptor = 0; (descriptor = receive_request(control_, request)) >= 0;) {
-      const Reply reply = request.kind == Request::Kind::Start ? start(request.slot, descriptor) : collect(request.pid);
+      const ForkReply reply =
+          request.kind == ForkRequest::Kind::Start ? start(request.slot, descriptor) : collect(request.pid);
       if (::send(control_, &reply, sizeof reply, MSG_NOSIGNAL) != static_cast<ssize_t>(sizeof reply)) break;
     }
     for (const pid_t worker : alive_) ::kill(-worker, SIGKILL);
@@ -97,27 +161,25 @@ class ForkerProcess {
   }
 
  private:
-  Reply start(int slot, int descriptor) {
+  ForkReply start(int slot, int channel) {
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
     if (child == 0) {
       ::setpgid(0, 0);  // so that what the agent starts can be killed with it
       ::prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (::getppid() != parent) ::_exit(0);
-      ::close(control_);
-      work_(slot, Channel(descriptor));
-      ::_exit(0);
+      become_worker(program_, slot, channel);
     }
     const int error = errno;
-    ::close(descriptor);
+    ::close(channel);
     if (child < 0) return {-error, {}};
     ::setpgid(child, child);  // the child does the same; one of both comes first
     alive_.insert(child);
     return {child, {}};
   }
 
-  Reply collect(pid_t worker) {
-    Reply reply{worker, {}};
+  ForkReply collect(pid_t worker) {
+    ForkReply reply{worker, {}};
     rusage use{};
     pid_t ended = 0;
     for (int waited_ms = 0; ended == 0 && waited_ms < kGrace_ms; ++waited_ms) {
@@ -140,66 +202,124 @@ class ForkerProcess {
   }
 
   int control_;
-  const Forker::Work& work_;
+  const WorkerProgram& program_;
   std::set<pid_t> alive_;
 };
 
-[[noreturn]] void throw_gone() {
-  throw MachineError(
-      "the process that starts the workers is gone: somebody killed it, or memory ran out; what was finished is kept, "
-      "and "
-      "the same command goes on");
+// ---- the process that made it
+
+[[noreturn]] void throw_not_started(int error) {
+  throw MachineError(fmt::format("no worker process can be started: {}", std::strerror(error)));
 }
 
 }  // namespace
 
-Forker::Forker(const Work& work) {
+Forker::Forker(WorkerProgram program) : program_(std::move(program)) { start_process(); }
+
+// After the fork only what a process with other threads may still do.
+void Forker::start_process() {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw MachineError(fmt::format("no channel to a worker process can be made: {}", std::strerror(errno)));
-  std::fflush(nullptr);  // or the workers would print once more what waits in buffers here
-  forker_ = ::fork();
-  if (forker_ == 0) {
-    // It ends when its socket closes, not with a signal: then it can kill what the workers have started.
+  std::vector<std::string> words{std::string(kProgramName), std::string(kForkerWord),      std::to_string(ends[1]),
+                                 text_of(program_.logs),    text_of(program_.descriptors), program_.file};
+  words.insert(words.end(), program_.words.begin(), program_.words.end());
+  const std::vector<char*> arguments = pointers_to(words);
+  const pid_t forker = ::fork();
+  if (forker == 0) {
     ::setpgid(0, 0);  // Ctrl-C in the terminal is for the main process, which ends the others in order
-    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(number, SIG_IGN);
-    ::close(ends[0]);
-    ForkerProcess(ends[1], work).run();
+    ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);  // whatever the main process has open
+    set_close_on_exec(ends[1], false);
+    for (const auto* list : {&program_.logs, &program_.descriptors}) {
+      for (const int descriptor : *list) set_close_on_exec(descriptor, false);
+    }
+    ::execv(program_.file.c_str(), arguments.data());
+    ::_exit(kCannotStartExit);
   }
   const int error = errno;
   ::close(ends[1]);
+  if (forker < 0) {
+    ::close(ends[0]);
+    throw_not_started(error);
+  }
   control_ = ends[0];
-  if (forker_ < 0) {
-    ::close(control_);
-    throw MachineError(fmt::format("no worker process can be started: {}", std::strerror(error)));
+  forker_ = forker;
+  ++number_;
+}
+
+Forker::~Forker() { end_process(); }
+
+// It ends by itself, and with it the workers, unless somebody has stopped it.
+void Forker::end_process() {
+  if (control_ < 0) return;
+  ::shutdown(control_, SHUT_RDWR);  // forkers that were made later hold copies of this end
+  ::close(control_);
+  control_ = -1;
+  for (int waited_ms = 0; ::waitpid(forker_, nullptr, WNOHANG) == 0; ++waited_ms) {
+    ::kill(forker_, waited_ms < kPatienceAtEnd_ms ? SIGCONT : SIGKILL);
+    ::poll(nullptr, 0, 1);
   }
 }
 
-Forker::~Forker() {
-  ::shutdown(control_, SHUT_RDWR);  // forkers that were made later hold copies of this end
-  ::close(control_);
-  while (::waitpid(forker_, nullptr, 0) < 0 && errno == EINTR) {
+// False: it is dead.
+bool Forker::ask(const ForkRequest& request, int descriptor, ForkReply& reply) {
+  if (!send_request(control_, request, descriptor)) return false;
+  pollfd answer{control_, POLLIN, 0};
+  for (int looks = 0; ::poll(&answer, 1, kLookEvery_ms) <= 0;) {
+    const char state = process_state(forker_);
+    if (state == 'T' || state == 't') ::kill(forker_, SIGCONT);
+    if (state != 'R' && ++looks == kMostLooks) ::kill(forker_, SIGKILL);
   }
+  return ::recv(control_, &reply, sizeof reply, 0) == static_cast<ssize_t>(sizeof reply);
 }
 
 Forker::Worker Forker::start(int slot) {
   Channel::Pair ends = Channel::make_pair();
   const std::lock_guard lock(mutex_);
-  Reply reply;
-  if (!send_request(control_, {Request::Kind::Start, slot, 0}, ends.there.fd()) ||
-      ::recv(control_, &reply, sizeof reply, 0) != static_cast<ssize_t>(sizeof reply))
-    throw_gone();
-  if (reply.pid < 0) throw MachineError(fmt::format("no worker process can be started: {}", std::strerror(-reply.pid)));
-  return {reply.pid, std::move(ends.here)};
+  ForkReply reply;
+  const ForkRequest request{ForkRequest::Kind::Start, slot, 0};
+  if (!ask(request, ends.there.fd(), reply)) {
+    end_process();
+    start_process();
+    if (!ask(request, ends.there.fd(), reply))
+      throw MachineError(fmt::format("the process that starts the workers cannot be started: {}", program_.file));
+  }
+  if (reply.pid < 0) throw_not_started(-reply.pid);
+  return {reply.pid, std::move(ends.here), number_};
 }
 
-WorkerDeath Forker::collect(pid_t pid) {
+WorkerDeath Forker::collect(const Worker& worker) {
   const std::lock_guard lock(mutex_);
-  Reply reply;
-  if (!send_request(control_, {Request::Kind::Collect, 0, pid}, -1) ||
-      ::recv(control_, &reply, sizeof reply, 0) != static_cast<ssize_t>(sizeof reply))
-    throw_gone();
+  ForkReply reply;
+  if (worker.forker == number_ && ask({ForkRequest::Kind::Collect, 0, worker.pid}, -1, reply)) return reply.death;
+  ::kill(-worker.pid, SIGKILL);
+  reply.death.with_forker = true;
   return reply.death;
+}
+
+namespace {
+
+[[noreturn]] void serve_forker(int control, const std::vector<std::string>& words) {
+  // It ends when its socket closes, not with a signal: then it can kill what the workers have started.
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(number, SIG_IGN);
+  WorkerProgram program;
+  program.logs = numbers_in(words[3]);
+  program.descriptors = numbers_in(words[4]);
+  program.file = words[5];
+  program.words.assign(words.begin() + kForkerWords, words.end());
+  set_close_on_exec(control, true);
+  for (const auto* list : {&program.logs, &program.descriptors}) {
+    for (const int descriptor : *list) set_close_on_exec(descriptor, true);
+  }
+  ForkerProcess(control, program).run();
+}
+
+}  // namespace
+
+void serve_forker_if_called(int argc, const char* const* argv) {
+  if (argc < kForkerWords || argv[1] != kForkerWord) return;
+  const std::vector<int> control = numbers_in(argv[2]);
+  if (control.size() == 1 && ::fcntl(control.front(), F_GETFD) >= 0) serve_forker(control.front(), {argv, argv + argc});
 }
 
 }  // namespace fleetproof

@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "campaign/workers/fresh_program.hpp"
 #include "campaign/workers/worker.hpp"
 #include "campaign/workers/worker_watch.hpp"
 #include "core/base/error.hpp"
@@ -23,26 +22,50 @@ constexpr int kKillsFromOutside = 3;    // of one run; then the run itself is th
 
 }  // namespace
 
+class IsolatedRuns::Turn {
+ public:
+  Turn(IsolatedRuns& runs, bool alone) : runs_(runs), alone_(alone) {
+    std::unique_lock lock(runs_.mutex_);
+    if (alone_) {
+      ++runs_.wait_to_be_alone_;
+      runs_.turn_over_.wait(lock, [&] { return runs_.turns_ == 0; });
+    } else {
+      runs_.turn_over_.wait(lock, [&] { return runs_.wait_to_be_alone_ == 0; });
+    }
+    ++runs_.turns_;
+  }
+  ~Turn() {
+    const std::lock_guard lock(runs_.mutex_);
+    --runs_.turns_;
+    if (alone_) --runs_.wait_to_be_alone_;
+    runs_.turn_over_.notify_all();
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  IsolatedRuns& runs_;
+  bool alone_;
+};
+
 IsolatedRuns::IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting)
     : plan_(plan),
       programs_(programs),
       hosting_(hosting),
-      setup_(hosting.program.empty() ? "" : encode_setup(plan, programs)),
+      setup_(encode_setup(plan, programs)),
       run_one_(plan, programs),
       slots_(hosting.workers),
       logs_(hosting.log_prefix, hosting.workers),
-      forker_([&plan, &programs, this](int slot, Channel channel) {
-        work({plan, programs, slots_, logs_.descriptors(), hosting_.program}, slot, std::move(channel));
-      }) {
+      forker_(worker_program(slots_, logs_)) {
   for (int slot = hosting.workers - 1; slot >= 0; --slot) {
     idle_.emplace_back().slot = slot;
   }
 }
 
-RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
+RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls, HostProcess process) {
   RunRecord record = run_one_.empty_record(run_index);
-  RunOrder order{run_index, {}, record_calls, {}, false};
-  RunAnswer answer = answer_of(order);
+  RunOrder order{run_index, {}, record_calls, {}, false, hosting_.audits};
+  RunAnswer answer = answer_of(order, process);
   record.scenario_digest = answer.scenario_digest;
   record.outcome = std::move(answer.run.outcome);
   record.recording = std::move(answer.recording);
@@ -50,21 +73,22 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls) {
 }
 
 CaseRun IsolatedRuns::of_case(const Scenario& scenario, Deliveries deliveries) {
-  RunOrder order{0, {}, false, cases_.write(scenario), deliveries == Deliveries::Kept};
+  RunOrder order{0, {}, false, cases_.write(scenario), deliveries == Deliveries::Kept, false};
   return answer_of(order).run;
 }
 
 std::optional<std::vector<KnownEnd>> IsolatedRuns::ends_in(const Scenario& scenario) {
-  RunOrder order{0, {}, false, cases_.write(scenario), false};
+  RunOrder order{0, {}, false, cases_.write(scenario), false, false};
   if (!answer_of(order).explained) return std::nullopt;
   return std::move(order.known_ends);
 }
 
-RunAnswer IsolatedRuns::answer_of(RunOrder& order) {
+RunAnswer IsolatedRuns::answer_of(RunOrder& order, HostProcess process) {
   Member member = take_member();
   try {
+    if (process == HostProcess::Own && !member.fresh) retire(member);
     RunAnswer answer = answer_of(member, order);
-    if (member.runs_left == 0) retire(member);
+    if (process == HostProcess::Own) retire(member);
     give_back(std::move(member));
     return answer;
   } catch (...) {
@@ -75,16 +99,18 @@ RunAnswer IsolatedRuns::answer_of(RunOrder& order) {
 
 RunAnswer IsolatedRuns::answer_of(Member& member, RunOrder& order) {
   Attempt first = attempt(member, order, cpu_limit_s(order.run_index));
-  return first.answer ? std::move(*first.answer) : repeat(member, order);
+  return first.answer ? std::move(*first.answer) : repeat(member, order, first.cause.with_forker);
 }
 
 // Each attempt happens in a worker that has hosted nothing before, and learns at which calls agents ended the attempts
 // before it. Every such call is later than the one before, or the software does not do the same thing twice.
-RunAnswer IsolatedRuns::repeat(Member& member, RunOrder& order) {
+// If the forker died in an attempt, any run that was under way may have killed it: from then on the run is alone.
+RunAnswer IsolatedRuns::repeat(Member& member, RunOrder& order, bool alone) {
   const double limit_s = kRepeatFactor * cpu_limit_s(order.run_index);
   for (int killed = 0;;) {
-    Attempt again = attempt(member, order, limit_s);
+    Attempt again = attempt(member, order, limit_s, alone);
     if (again.answer) return std::move(*again.answer);
+    if (again.cause.with_forker && !std::exchange(alone, true)) continue;
     if (again.cause.from_outside && ++killed < kKillsFromOutside) continue;
     const std::uint64_t last = order.known_ends.empty() ? 0 : order.known_ends.back().call;
     if (again.cause.call > last) {
@@ -108,24 +134,30 @@ RunAnswer IsolatedRuns::unexplained(const RunOrder& order, const CauseOfDeath& c
   return answer;
 }
 
-IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& order, double cpu_limit_s) {
-  if (abandoned_) throw RunAbandoned();
-  slots_[member.slot].call.number = 0;  // before the start: the worker may die while it loads
-  if (!start(member) || !member.worker.channel.send(encode(order)))
-    return lost(member, order.run_index, WorkerState::Closed);
-  std::string bytes;
-  if (const auto state = wait_for_answer(member, cpu_limit_s, bytes)) return lost(member, order.run_index, *state);
-  RunAnswer answer;
-  try {
-    answer = decode_answer(bytes);
-  } catch (const EngineError&) {
-    return lost(member, order.run_index, WorkerState::Garbled);
+IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& order, double cpu_limit_s, bool alone) {
+  const Turn turn(*this, alone);
+  for (;;) {
+    if (abandoned_) throw RunAbandoned();
+    slots_[member.slot].call.number = 0;  // before the start: the worker may die while it loads
+    if (!start(member) || !member.worker.channel.send(encode(order)))
+      return lost(member, order.run_index, WorkerState::Closed);
+    std::string bytes;
+    if (const auto state = wait_for_answer(member, cpu_limit_s, bytes)) return lost(member, order.run_index, *state);
+    RunAnswer answer;
+    try {
+      answer = decode_answer(bytes);
+    } catch (const EngineError&) {
+      return lost(member, order.run_index, WorkerState::Garbled);
+    }
+    if (answer.failed) throw EngineError(answer.message);
+    if (answer.declined && !member.fresh) {
+      retire(member);
+      continue;
+    }
+    member.fresh = false;
+    expect_cpu_ns(answer.cpu_ns);
+    return {std::move(answer), {}};
   }
-  if (answer.failed) throw EngineError(answer.message);
-  member.fresh = false;
-  --member.runs_left;
-  expect_cpu_ns(answer.cpu_ns);
-  return {std::move(answer), {}};
 }
 
 void IsolatedRuns::expect_cpu_ns(std::uint64_t cpu_ns) {
@@ -138,16 +170,15 @@ void IsolatedRuns::expect_cpu_ns(std::uint64_t cpu_ns) {
 bool IsolatedRuns::start(Member& member) {
   if (member.worker.pid != 0) return true;
   member.worker = forker_.start(member.slot);
-  member.fresh = true;
-  member.runs_left = hosting_.runs_per_worker;
-  return setup_.empty() || member.worker.channel.send(setup_);
+  return member.worker.channel.send(setup_);
 }
 
 void IsolatedRuns::retire(Member& member) {
   if (member.worker.pid == 0) return;
   member.worker.channel.close();
-  forker_.collect(member.worker.pid);
+  forker_.collect(member.worker);
   member.worker = {};
+  member.fresh = true;
 }
 
 // Empty: `bytes` are there.
@@ -172,7 +203,9 @@ IsolatedRuns::Attempt IsolatedRuns::lost(Member& member, std::uint64_t run_index
   if (state != WorkerState::Closed) ::kill(member.worker.pid, SIGKILL);
   WorkerLoss loss;
   loss.run_index = run_index;
-  loss.death = forker_.collect(member.worker.pid);
+  loss.death = forker_.collect(member.worker);
+  if (WIFEXITED(loss.death.status) && WEXITSTATUS(loss.death.status) == kCannotStartExit)
+    throw EngineError("the program of a worker cannot be started");
   const CauseOfDeath cause = cause_of_death(state, loss.death, slots_[member.slot]);
   loss.message = cause.message;
   loss.log = logs_.path(member.slot);
@@ -180,6 +213,7 @@ IsolatedRuns::Attempt IsolatedRuns::lost(Member& member, std::uint64_t run_index
     loss.stack = logs_.last_stack(member.slot);
   loss.in_fresh_worker = member.fresh;
   member.worker = {};
+  member.fresh = true;
   const std::lock_guard lock(mutex_);
   losses_.push_back(std::move(loss));
   return {std::nullopt, cause};

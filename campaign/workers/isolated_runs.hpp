@@ -33,24 +33,25 @@ struct WorkerLoss {
 struct Hosting {
   int workers = 1;
   std::string log_prefix{};  // "x" makes x.worker-0.log and so on; empty: what agents print is dropped
-  // Not empty: each worker is this program, started afresh by exec, with a disturbed memory (fresh_program.hpp).
-  std::string program{};
-  std::uint64_t runs_per_worker = ~std::uint64_t{0};  // then a new one is started
+  bool audits = false;       // the runs have been simulated before: their memory is disturbed in another way
 };
 
+// Which process hosts a run: one that hosts others, too, or one that hosts no other.
+enum class HostProcess : bool { Shared, Own };
+
 // Simulates runs of plug-ins in worker processes: software that crashes or hangs there costs its run, and no more. A
-// worker hosts many runs, one after the other. Each run gives the record that RunOne would give, if the software allows
-// it. A run that ends its worker is repeated in a fresh worker; what ends it there is filed in the record, as a crash
-// or hang at that call of an agent, and the run goes on without that agent. Threads: as many as there are workers.
+// worker hosts many runs, one after the other, until it has used 20 times the CPU time of its start and first run. Each
+// run gives the record that RunOne would give, if the software allows it. A run that ends its worker is repeated in a
+// fresh worker; what ends it there is filed in the record, as a crash or hang at that call of an agent, and the run
+// goes on without that agent. Threads: as many as there are workers.
 class IsolatedRuns {
  public:
-  // Starts the process that forks workers: make the object before threads are started and files are opened. `plan` and
-  // `programs` outlive it.
+  // `plan` and `programs` outlive it.
   IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting);
 
   // Throws RunAbandoned after abandon(), MachineError if no worker can be started, EngineError if a plug-in's file has
-  // changed. `record`: the record of a failed run has a recording of what its agents did.
-  RunRecord operator()(std::uint64_t run_index, bool record = false);
+  // changed. `record`: the record of a failed run, and that of every audit, has a recording of what its agents did.
+  RunRecord operator()(std::uint64_t run_index, bool record = false, HostProcess process = HostProcess::Shared);
   // The same for one scenario and the first agent of the plan.
   CaseRun of_case(const Scenario& scenario, Deliveries deliveries);
   // The calls at which the agents' software crashes or hangs in it, in their order: where these are known, the scenario
@@ -69,30 +70,33 @@ class IsolatedRuns {
     int slot = 0;
     Forker::Worker worker;  // pid 0: not started
     bool fresh = true;      // it has finished no run yet
-    std::uint64_t runs_left = 0;
   };
   struct Attempt {
     std::optional<RunAnswer> answer;
     CauseOfDeath cause;
   };
 
+  // Attempts happen beside each other. One that must tell whether it kills the forker happens alone.
+  class Turn;
+
   Member take_member();
   void give_back(Member member);
-  Attempt attempt(Member& member, const RunOrder& order, double cpu_limit_s);
+  Attempt attempt(Member& member, const RunOrder& order, double cpu_limit_s, bool alone = false);
   std::optional<WorkerState> wait_for_answer(Member& member, double cpu_limit_s, std::string& bytes);
   bool start(Member& member);
   void retire(Member& member);
   Attempt lost(Member& member, std::uint64_t run_index, WorkerState state);
-  RunAnswer repeat(Member& member, RunOrder& order);
+  RunAnswer repeat(Member& member, RunOrder& order, bool alone);
   RunAnswer answer_of(Member& member, RunOrder& order);
-  RunAnswer answer_of(RunOrder& order);  // leaves in it the ends that were found
+  // Leaves in it the ends that were found.
+  RunAnswer answer_of(RunOrder& order, HostProcess process = HostProcess::Shared);
   RunAnswer unexplained(const RunOrder& order, const CauseOfDeath& cause) const;
   double cpu_limit_s(std::uint64_t run_index) const;
 
   const CampaignPlan& plan_;
   const AgentPrograms& programs_;
   Hosting hosting_;
-  std::string setup_;  // of a worker that is a program of its own
+  std::string setup_;  // of each worker
   RunOne run_one_;
   SharedSlots slots_;
   WorkerLogs logs_;
@@ -102,7 +106,8 @@ class IsolatedRuns {
   std::atomic<std::uint64_t> slowest_ns_ = 0;
 
   std::mutex mutex_;
-  std::condition_variable member_back_;
+  std::condition_variable member_back_, turn_over_;
+  int turns_ = 0, wait_to_be_alone_ = 0;
   std::vector<Member> idle_;
   std::vector<WorkerLoss> losses_;
 };

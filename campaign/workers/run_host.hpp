@@ -17,8 +17,8 @@ namespace fleetproof {
 // process. Threads: as many as there are workers.
 class RunHost {
  public:
-  // Make the object before threads are started and files are opened, as IsolatedRuns asks. `plan` and `programs`
-  // outlive it. An agent of the plan may be missing among the programs until one of its runs is simulated.
+  // `plan` and `programs` outlive it. An agent of the plan may be missing among the programs until one of its runs is
+  // simulated.
   RunHost(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting);
 
   // None after abandon(). Throws what RunOne and IsolatedRuns throw.

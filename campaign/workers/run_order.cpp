@@ -55,6 +55,7 @@ std::string encode(const RunOrder& order) {
   sink.text(order.scenario.layout);
   sink.text(order.scenario.scenario);
   sink.u8(order.deliveries ? 1 : 0);
+  sink.u8(order.is_audit ? 1 : 0);
   return sink.take();
 }
 
@@ -73,6 +74,7 @@ RunOrder decode_order(std::string_view bytes) {
   order.scenario.layout = source.text();
   order.scenario.scenario = source.text();
   order.deliveries = source.flag();
+  order.is_audit = source.flag();
   source.end();
   return order;
 }
@@ -80,6 +82,7 @@ RunOrder decode_order(std::string_view bytes) {
 std::string encode(const RunAnswer& answer) {
   ByteSink sink;
   sink.u8(answer.failed ? 1 : 0);
+  sink.u8(answer.declined ? 1 : 0);
   sink.text(answer.message);
   sink.u64(answer.cpu_ns);
   sink.u64(answer.scenario_digest);
@@ -101,6 +104,7 @@ RunAnswer decode_answer(std::string_view bytes) {
   ByteSource source(bytes, "an answer of a worker");
   RunAnswer answer;
   answer.failed = source.flag();
+  answer.declined = source.flag();
   answer.message = source.text();
   answer.cpu_ns = source.u64();
   answer.scenario_digest = source.u64();

@@ -15,9 +15,10 @@ namespace fleetproof {
 struct RunOrder {
   std::uint64_t run_index = 0;
   std::vector<KnownEnd> known_ends;
-  bool record = false;      // what the agents do, in case the run fails
+  bool record = false;      // what the agents do, in case the run fails; of an audit in any case
   CaseText scenario{};      // empty: the run of the plan
   bool deliveries = false;  // of a scenario: of its messages
+  bool is_audit = false;    // of the run, which has been simulated before
 };
 std::string encode(const RunOrder& order);
 RunOrder decode_order(std::string_view bytes);  // throws EngineError on bytes that `encode` did not write
@@ -25,11 +26,12 @@ RunOrder decode_order(std::string_view bytes);  // throws EngineError on bytes t
 // What a worker answers. Failed: `message` says why no run can be simulated in a worker.
 struct RunAnswer {
   bool failed = false;
+  bool declined = false;  // this worker hosts no more runs; another one has to take the order
   bool explained = true;  // not sent: false if no worker brought the run to its end, and nobody knows why
   std::string message;
   std::uint64_t cpu_ns = 0;  // used by the worker process for this run
   std::uint64_t scenario_digest = 0;
-  std::string recording;  // of a failed run, if the order asks for it; empty: there is none, or it is too long
+  std::string recording;  // if the order asks for it; empty: there is none, or it is too long
   CaseRun run;            // of a run of the plan: the outcome alone
 };
 std::string encode(const RunAnswer& answer);

@@ -1,34 +1,43 @@
 #include "campaign/workers/worker.hpp"
 
 #include <fcntl.h>
-#include <sys/resource.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
-#include <fstream>
 #include <new>
+#include <optional>
+#include <string_view>
+#include <utility>
 
+#include "campaign/plan/plan_text.hpp"
 #include "campaign/run/case_run.hpp"
+#include "campaign/run/memory_limit.hpp"
 #include "campaign/run/run_one.hpp"
+#include "campaign/workers/disturbance.hpp"
 #include "campaign/workers/fatal_signals.hpp"
-#include "campaign/workers/fresh_program.hpp"
+#include "campaign/workers/left_behind.hpp"
 #include "campaign/workers/run_order.hpp"
+#include "core/base/byte_text.hpp"
 #include "core/base/error.hpp"
 #include "core/engine/call_tape.hpp"
 
 namespace fleetproof {
 namespace {
 
-// What an agent may write to one file, its log included: an agent that prints without end must not fill the disk.
-constexpr rlim_t kLargestFile = rlim_t{64} << 20;
+constexpr std::string_view kWorkerWord = "take-orders";  // then slots, number of slots, channel, slot
+constexpr int kWorkerWords = 6;
+constexpr std::size_t kShortestPlugin = 4 + 4 + 1;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // shadow memory takes terabytes of addresses
-#else
-constexpr bool kSanitized = false;
-#endif
+// A worker hosts runs for so many times the CPU time of its start, its first run included. What software takes from its
+// process (addresses, a process number) then varies within a campaign, and shows as a rate.
+constexpr std::uint64_t kTimesOwnStart = 20;
+// The memory is disturbed before each run of the campaign if that takes at most this share of a run.
+constexpr std::uint64_t kRunsPerDisturbance = 20;
 
 std::uint64_t cpu_ns() {
   timespec time{};
@@ -36,84 +45,139 @@ std::uint64_t cpu_ns() {
   return static_cast<std::uint64_t>(time.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(time.tv_nsec);
 }
 
-void redirect_streams(int log) {
-  const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-  ::dup2(nothing, STDIN_FILENO);
-  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(log >= 0 ? log : nothing, stream);
-  ::close(nothing);
-  std::setvbuf(stdout, nullptr, _IONBF, 0);  // a crash loses nothing
-}
-
-void set_limits(std::uint64_t memory_mb) {
-  const rlimit core{0, 0}, file{kLargestFile, kLargestFile};
-  ::setrlimit(RLIMIT_CORE, &core);
-  ::setrlimit(RLIMIT_FSIZE, &file);
-  limit_memory(memory_mb, mapped_bytes());
-}
-
-// What a worker needs to simulate.
-struct Stage {
-  const CampaignPlan& plan;
-  const AgentPrograms& programs;
-  CaseReader& cases;
-  RunOne run_one{plan, programs};
+struct Setup {
+  CampaignPlan plan;
+  std::vector<AgentProgram> plugins;
 };
 
-RunAnswer answer_to(const RunOrder& order, const Stage& stage, WorkerSlot& slot) {
-  RunAnswer answer;
-  const std::uint64_t begin_ns = cpu_ns();
-  RunWatch watch;
-  watch.note = &slot.call;
-  watch.known_ends = order.known_ends;
-  CallTape tape;
-  if (order.record) watch.record = &tape;
-  if (order.scenario.is_empty()) {
-    RunRecord record = stage.run_one(order.run_index, nullptr, watch);
-    answer.scenario_digest = record.scenario_digest;
-    answer.run.outcome = std::move(record.outcome);
-  } else {
-    const AgentFactor& agent = stage.plan.agents.front();
-    answer.run = run_case(stage.cases.read(order.scenario), stage.programs.find(agent.program, "agent"),
-                          stage.plan.config_of(agent), stage.plan.laws_left_out,
-                          order.deliveries ? Deliveries::Kept : Deliveries::Ignored, watch);
+Setup decode_setup(std::string_view bytes) {
+  ByteSource source(bytes, "the setup of a worker");
+  Setup setup;
+  setup.plan = parse_plan(source.text(), PlanCells::MayBeNone);
+  setup.plugins.resize(source.count(kShortestPlugin));
+  for (AgentProgram& plugin : setup.plugins) {
+    plugin.file = source.text();
+    plugin.sha256 = source.text();
+    plugin.global_symbols = source.flag();
   }
-  if (order.record && answer.run.outcome.is_failure()) answer.recording = tape.take();
-  answer.cpu_ns = cpu_ns() - begin_ns;
-  return answer;
+  source.end();
+  return setup;
 }
 
-}  // namespace
+// Empty: the other end is gone.
+std::optional<std::string> next_frame(Channel& channel) {
+  Channel::Wait state = Channel::Wait::NotYet;
+  while (state == Channel::Wait::NotYet) state = channel.wait(std::chrono::hours(1));
+  if (state == Channel::Wait::Gone) return std::nullopt;
+  return channel.received();
+}
 
-void take_orders(const CampaignPlan& plan, const AgentPrograms& programs, WorkerSlot& slot, Channel& channel,
-                 const std::function<void(const RunOrder& order)>& before_each) {
-  CaseReader cases;
-  const Stage stage{plan, programs, cases};
-  for (;;) {
-    Channel::Wait state = Channel::Wait::NotYet;
-    while (state == Channel::Wait::NotYet) state = channel.wait(std::chrono::hours(1));
-    if (state == Channel::Wait::Gone) return;
-    const RunOrder order = decode_order(channel.received());
-    before_each(order);
-    if (!channel.send(encode(answer_to(order, stage, slot)))) ::_exit(kChannelClosedExit);
+void send_answer(Channel& channel, const RunAnswer& answer) {
+  if (!channel.send(encode(answer))) ::_exit(kChannelClosedExit);
+}
+
+// A worker that has loaded the plug-ins and takes orders.
+class Worker {
+ public:
+  Worker(Setup setup, WorkerSlot& slot, Channel& channel)
+      : plan_(std::move(setup.plan)), slot_(slot), channel_(channel) {
+    disturbance_.renew(0, Disturbance::Fill::Next);
+    own_bytes_ = mapped_bytes();
+    limit_memory(plan_.limits.memory_mb, own_bytes_);  // a plug-in may use as much while it is loaded
+    for (const AgentProgram& plugin : setup.plugins) programs_.load_unchanged(plugin);
+    left_behind_.emplace();
   }
-}
 
-std::uint64_t mapped_bytes() {
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
+  void take_orders() {
+    while (const auto bytes = next_frame(channel_)) {
+      const RunOrder order = decode_order(*bytes);
+      if (is_worn_) {
+        RunAnswer declined;
+        declined.declined = true;
+        send_answer(channel_, declined);
+        return;
+      }
+      prepare(order);
+      send_answer(channel_, answer_to(order));
+      // While the answer is on its way. The first run belongs to the start: it makes what later ones find.
+      const bool is_clean = left_behind_->set_back();
+      if (runs_ == 1) start_cpu_ns_ = cpu_ns();
+      is_worn_ = !is_clean || cpu_ns() >= (1 + kTimesOwnStart) * start_cpu_ns_;
+    }
+  }
 
-void limit_memory(std::uint64_t memory_mb, std::uint64_t own_bytes) {
-  rlimit memory{};
-  if (kSanitized || ::getrlimit(RLIMIT_AS, &memory) != 0) return;
-  memory.rlim_cur = memory_mb > 0 ? std::min<rlim_t>(own_bytes + (memory_mb << 20), memory.rlim_max) : memory.rlim_max;
-  ::setrlimit(RLIMIT_AS, &memory);
-}
+ private:
+  void prepare(const RunOrder& order) {
+    // What a reference agent leaves mapped does not count against the plug-ins of the runs that follow.
+    if (before_unlimited_) own_bytes_ += std::max(mapped_bytes(), *before_unlimited_) - *before_unlimited_;
+    disturb(order);
+    // Reference agents have no limit in a campaign either: there they run in the main process.
+    const bool limited = programs_.is_plugin(plan_.agent_of_cell(order.run_index).program);
+    before_unlimited_ = limited ? std::nullopt : std::optional(mapped_bytes());
+    limit_memory(limited ? plan_.limits.memory_mb : 0, own_bytes_);
+  }
 
-void answer_failures(Channel& channel, const std::function<void()>& life) {
+  void disturb(const RunOrder& order) {
+    const bool is_cheap = kRunsPerDisturbance * disturbance_ns_ <= runs_ns_ / std::max<std::uint64_t>(1, runs_);
+    if (runs_ > 0 && !order.is_audit && !is_cheap) return;
+    const std::uint64_t begin_ns = cpu_ns();
+    if (order.is_audit) {
+      disturbance_.renew(kAuditKeys + order.run_index);
+    } else {
+      disturbance_.renew(order.run_index, Disturbance::Fill::Next);
+    }
+    disturbance_ns_ = cpu_ns() - begin_ns;
+  }
+
+  RunAnswer answer_to(const RunOrder& order) {
+    RunAnswer answer;
+    const std::uint64_t begin_ns = cpu_ns();
+    RunWatch watch;
+    watch.note = &slot_.call;
+    watch.known_ends = order.known_ends;
+    CallTape tape;
+    if (order.record) watch.record = &tape;
+    if (order.scenario.is_empty()) {
+      RunRecord record = run_one_(order.run_index, nullptr, watch);
+      answer.scenario_digest = record.scenario_digest;
+      answer.run.outcome = std::move(record.outcome);
+    } else {
+      const AgentFactor& agent = plan_.agents.front();
+      const AgentProgram& program = programs_.program(agent.program, "agent");
+      watch.foreign = program.handles.get();
+      answer.run = run_case(cases_.read(order.scenario), programs_.find(agent.program, "agent"), plan_.config_of(agent),
+                            plan_.laws_left_out, order.deliveries ? Deliveries::Kept : Deliveries::Ignored, watch);
+    }
+    if (order.record && (order.is_audit || answer.run.outcome.is_failure())) answer.recording = tape.take();
+    answer.cpu_ns = cpu_ns() - begin_ns;
+    ++runs_;
+    runs_ns_ += answer.cpu_ns;
+    return answer;
+  }
+
+  static constexpr std::uint64_t kAuditKeys = std::uint64_t{1} << 63;  // keys of audits are beyond all others
+
+  CampaignPlan plan_;
+  WorkerSlot& slot_;
+  Channel& channel_;
+  Disturbance disturbance_;
+  AgentPrograms programs_;
+  RunOne run_one_{plan_, programs_};
+  CaseReader cases_;
+  std::optional<LeftBehind> left_behind_;
+  std::uint64_t own_bytes_ = 0, start_cpu_ns_ = 0;
+  std::optional<std::uint64_t> before_unlimited_;  // what was mapped before the last run, if that had no limit
+  std::uint64_t runs_ = 0, runs_ns_ = 0, disturbance_ns_ = 0;
+  bool is_worn_ = false;
+};
+
+// Ends the process. If something goes wrong, the channel or the exit code says what.
+[[noreturn]] void serve(Channel channel, int slots_fd, int count, int slot) {
   try {
-    life();
+    std::setvbuf(stdout, nullptr, _IONBF, 0);  // a crash loses nothing
+    const SharedSlots slots(count, slots_fd);
+    note_fatal_signals(slots[slot]);
+    if (const auto setup = next_frame(channel)) Worker(decode_setup(*setup), slots[slot], channel).take_orders();
   } catch (const std::bad_alloc&) {
     ::_exit(kOutOfMemoryExit);
   } catch (const std::exception& error) {
@@ -125,19 +189,45 @@ void answer_failures(Channel& channel, const std::function<void()>& life) {
   ::_exit(0);
 }
 
-void work(const WorkerSetup& setup, int slot, Channel channel) {
-  redirect_streams(setup.logs[static_cast<std::size_t>(slot)]);
-  // A program of its own begins with more than this process had mapped, and limits itself later.
-  set_limits(setup.program.empty() ? setup.plan.limits.memory_mb : 0);
-  if (!setup.program.empty()) become_fresh_program(setup.program, setup.slots, slot, std::move(channel));
-  note_fatal_signals(setup.slots[slot]);
-  answer_failures(channel, [&] {
-    AgentPrograms programs;
-    for (const AgentProgram& known : setup.programs.all()) {
-      if (known.is_plugin()) programs.load_unchanged(known);
-    }
-    take_orders(setup.plan, programs, setup.slots[slot], channel);
-  });
+int number_in(const char* word) {
+  int value = -1;
+  const char* end = word + std::strlen(word);
+  const auto [stop, error] = std::from_chars(word, end, value);
+  return error == std::errc{} && stop == end ? value : -1;
+}
+
+}  // namespace
+
+WorkerProgram worker_program(const SharedSlots& slots, const WorkerLogs& logs) {
+  return {kThisProgram,
+          {std::string(kWorkerWord), std::to_string(slots.fd()), std::to_string(slots.count())},
+          {slots.fd()},
+          logs.descriptors()};
+}
+
+std::string encode_setup(const CampaignPlan& plan, const AgentPrograms& programs) {
+  ByteSink sink;
+  sink.text(plan_text(plan));
+  std::uint32_t count = 0;
+  for (const AgentProgram& program : programs.all()) count += program.is_plugin() ? 1 : 0;
+  sink.u32(count);
+  for (const AgentProgram& program : programs.all()) {
+    if (!program.is_plugin()) continue;
+    sink.text(program.file);
+    sink.text(program.sha256);
+    sink.u8(program.global_symbols ? 1 : 0);
+  }
+  return sink.take();
+}
+
+void serve_if_called(int argc, const char* const* argv) {
+  serve_forker_if_called(argc, argv);
+  if (argc != kWorkerWords || argv[1] != kWorkerWord) return;
+  const int slots_fd = number_in(argv[2]), count = number_in(argv[3]), channel = number_in(argv[4]),
+            slot = number_in(argv[5]);
+  if (channel < 0 || slots_fd < 0 || slot < 0 || slot >= count || ::fcntl(channel, F_GETFD) < 0) return;
+  ::fcntl(channel, F_SETFD, FD_CLOEXEC);
+  serve(Channel(channel), slots_fd, count, slot);
 }
 
 }  // namespace fleetproof

@@ -1,49 +1,29 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <string>
-#include <vector>
 
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
-#include "campaign/workers/channel.hpp"
-#include "campaign/workers/run_order.hpp"
+#include "campaign/workers/forker.hpp"
 #include "campaign/workers/shared_slots.hpp"
+#include "campaign/workers/worker_logs.hpp"
 
 namespace fleetproof {
 
-// With this exit code a worker says that a run needed more than the memory limit.
-inline constexpr int kOutOfMemoryExit = 96;
-// And with this one that it could not answer.
+// With this exit code a worker says that it could not answer.
 inline constexpr int kChannelClosedExit = 97;
 
-// What every worker process has from the process that it was forked from.
-struct WorkerSetup {
-  const CampaignPlan& plan;
-  const AgentPrograms& programs;  // known here, loaded in the worker
-  const SharedSlots& slots;
-  std::vector<int> logs;  // by slot: the descriptor that takes what agents print; -1: nothing does
-  std::string program;    // not empty: the worker becomes this program (fresh_program.hpp)
-};
+// This program, of which main() begins with serve_if_called.
+inline constexpr const char* kThisProgram = "/proc/self/exe";
 
-// The life of a worker: loads the plug-ins, then takes one order after the other until the channel is closed. Call this
-// in a process of its own.
-[[noreturn]] void work(const WorkerSetup& setup, int slot, Channel channel);
+// What a worker is started with.
+WorkerProgram worker_program(const SharedSlots& slots, const WorkerLogs& logs);
 
-// Takes one order after the other until the channel is closed. `programs` are loaded here.
-void take_orders(
-    const CampaignPlan& plan, const AgentPrograms& programs, WorkerSlot& slot, Channel& channel,
-    const std::function<void(const RunOrder& order)>& before_each = [](const RunOrder&) {});
+// What it must be told then, the first frame on its channel: the plan and the plug-ins, which it loads.
+std::string encode_setup(const CampaignPlan& plan, const AgentPrograms& programs);
 
-// The addresses that this process has mapped, in bytes.
-std::uint64_t mapped_bytes();
-
-// From now on this process may map so many megabytes beyond `own_bytes`; 0: no limit. A lower limit can be lifted
-// again.
-void limit_memory(std::uint64_t memory_mb, std::uint64_t own_bytes);
-
-// Calls `life` and ends the process. If it throws, the channel or the exit code says why.
-[[noreturn]] void answer_failures(Channel& channel, const std::function<void()>& life);
+// Call this first in main(). If a Forker, or a process that one has made, has started this process, it serves and never
+// returns: as a forker or as a worker, which takes one order after the other until its channel is closed.
+void serve_if_called(int argc, const char* const* argv);
 
 }  // namespace fleetproof

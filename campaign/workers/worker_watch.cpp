@@ -13,6 +13,15 @@ constexpr double kAnyWork_s = 0.001;  // a worker that uses less CPU time in a p
 
 }  // namespace
 
+// The state stands behind the name of the program, which is in brackets and may hold anything.
+char process_state(pid_t process) {
+  std::ifstream file(fmt::format("/proc/{}/stat", process));
+  std::string line;
+  std::getline(file, line);
+  const auto end_of_name = line.rfind(')');
+  return end_of_name != std::string::npos && end_of_name + 2 < line.size() ? line[end_of_name + 2] : 'X';
+}
+
 WorkerWatch::WorkerWatch(pid_t worker, double limit_s)
     : worker_(worker), limit_s_(limit_s), begin_s_(cpu_s().value_or(0.0)), last_s_(begin_s_) {}
 
@@ -23,22 +32,13 @@ std::optional<double> WorkerWatch::cpu_s() const {
   return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
-// The state stands behind the name of the program, which is in brackets and may hold anything.
-char WorkerWatch::state() const {
-  std::ifstream file(fmt::format("/proc/{}/stat", worker_));
-  std::string line;
-  std::getline(file, line);
-  const auto end_of_name = line.rfind(')');
-  return end_of_name != std::string::npos && end_of_name + 2 < line.size() ? line[end_of_name + 2] : 'X';
-}
-
 std::optional<WorkerState> WorkerWatch::look(double period_s) {
   const auto now_s = cpu_s();
-  const char state_now = state();
+  const char state_now = process_state(worker_);
   // A process that it has started may keep the channel open.
   if (!now_s || state_now == 'Z' || state_now == 'X') return WorkerState::Closed;
   if (*now_s - begin_s_ > limit_s_) return WorkerState::BeyondCpuLimit;
-  const bool idle = *now_s - last_s_ < kAnyWork_s && state_now == 'S';
+  const bool idle = *now_s - last_s_ < kAnyWork_s && state_now != 'R';
   asleep_s_ = idle ? asleep_s_ + period_s : 0.0;
   last_s_ = *now_s;
   if (asleep_s_ > limit_s_) return WorkerState::Asleep;

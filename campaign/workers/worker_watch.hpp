@@ -8,8 +8,11 @@
 
 namespace fleetproof {
 
+// R, S, T, Z, ... as /proc tells it; X: there is no such process.
+char process_state(pid_t process);
+
 // Watches a worker from outside while it has a run under way. CPU time decides: a worker that gets no CPU is not slow.
-// Only a worker that sleeps is measured by the clock on the wall.
+// Only a worker that sleeps, waits or is stopped is measured by the clock on the wall.
 class WorkerWatch {
  public:
   // The run may use `limit_s` of CPU time, and may sleep for as long in a row.
@@ -20,7 +23,6 @@ class WorkerWatch {
 
  private:
   std::optional<double> cpu_s() const;  // of the worker so far; empty: it is dead
-  char state() const;                   // R, S, Z, ... as /proc tells it
 
   pid_t worker_;
   double limit_s_, begin_s_, last_s_;

@@ -1,12 +1,14 @@
 #include "campaign/workers/forker.hpp"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <set>
@@ -18,25 +20,8 @@ namespace {
 
 using Wait = Channel::Wait;
 
-// A worker that answers every frame with its slot, and ends as the frame says.
-void echo(int slot, Channel channel) {
-  while (channel.wait(std::chrono::hours(1)) == Wait::Arrived) {
-    const std::string words = channel.received();
-    if (words == "exit") ::_exit(7);
-    if (words == "crash") {
-      ::signal(SIGSEGV, SIG_DFL);  // the address sanitizer has a handler of its own
-      ::raise(SIGSEGV);
-    }
-    if (words == "close") {
-      channel.close();
-      for (;;) ::pause();
-    }
-    if (words == "child" && ::fork() == 0) {
-      for (;;) ::pause();
-    }
-    channel.send(std::to_string(slot) + words);
-  }
-}
+// tests/support/echo_worker.cpp
+WorkerProgram echo() { return {FLEETPROOF_ECHO_WORKER, {"echo"}}; }
 
 std::string ask(Forker::Worker& worker, const std::string& words) {
   EXPECT_TRUE(worker.channel.send(words));
@@ -71,13 +56,13 @@ void expect_group_ends(pid_t group) {
 }
 
 TEST(Forker, StartsWorkersAndTellsHowEachEnds) {
-  Forker forker(echo);
+  Forker forker(echo());
   for (const auto& [words, signal, code] : {std::tuple{"exit", 0, 7}, {"crash", SIGSEGV, 0}}) {
     auto worker = forker.start(3);
     EXPECT_EQ(ask(worker, "hello"), "3hello");
     worker.channel.send(words);
     EXPECT_EQ(worker.channel.wait(std::chrono::seconds(20)), Wait::Gone);
-    const WorkerDeath death = forker.collect(worker.pid);
+    const WorkerDeath death = forker.collect(worker);
     EXPECT_FALSE(death.had_to_be_killed);
     EXPECT_EQ(WIFSIGNALED(death.status) ? WTERMSIG(death.status) : 0, signal);
     EXPECT_EQ(WIFEXITED(death.status) ? WEXITSTATUS(death.status) : 0, code);
@@ -87,28 +72,28 @@ TEST(Forker, StartsWorkersAndTellsHowEachEnds) {
 }
 
 TEST(Forker, KillsAWorkerThatClosedItsChannelAndLives) {
-  Forker forker(echo);
+  Forker forker(echo());
   auto worker = forker.start(0);
   worker.channel.send("close");
   EXPECT_EQ(worker.channel.wait(std::chrono::seconds(20)), Wait::Gone);
-  EXPECT_TRUE(forker.collect(worker.pid).had_to_be_killed);
+  EXPECT_TRUE(forker.collect(worker).had_to_be_killed);
   EXPECT_FALSE(is_alive(worker.pid));
 }
 
 TEST(Forker, KillsWhatAWorkerHasStarted) {
-  Forker forker(echo);
+  Forker forker(echo());
   auto worker = forker.start(0);
   EXPECT_EQ(ask(worker, "child"), "0child");
   EXPECT_EQ(processes_of_group(worker.pid).size(), 2U);
   worker.channel.send("exit");
-  forker.collect(worker.pid);
+  forker.collect(worker);
   expect_group_ends(worker.pid);
 }
 
 TEST(Forker, LeavesNoProcessBehind) {
   pid_t one = 0, other = 0;
   {
-    Forker forker(echo);
+    Forker forker(echo());
     auto first = forker.start(0), second = forker.start(1);
     one = first.pid;
     other = second.pid;
@@ -121,8 +106,8 @@ TEST(Forker, LeavesNoProcessBehind) {
 }
 
 TEST(Forker, EndsWhileALaterOneLives) {
-  std::optional<Forker> first(std::in_place, echo);
-  Forker second(echo);
+  std::optional<Forker> first(std::in_place, echo());
+  Forker second(echo());
   auto of_first = first->start(0), of_second = second.start(1);
   EXPECT_EQ(ask(of_first, "hello"), "0hello");
   first.reset();
@@ -136,7 +121,7 @@ TEST(Forker, DiesWithTheProcessThatMadeIt) {
   const pid_t main_process = ::fork();
   if (main_process == 0) {
     here.close();
-    Forker forker(echo);
+    Forker forker(echo());
     auto worker = forker.start(0);
     if (ask(worker, "child") == "0child") there.send(std::to_string(worker.pid));
     for (;;) ::pause();
@@ -148,19 +133,45 @@ TEST(Forker, DiesWithTheProcessThatMadeIt) {
   expect_group_ends(worker);
 }
 
-TEST(Forker, SaysThatItIsGone) {
-  Forker forker(echo);
+TEST(Forker, StartsAgainAfterItWasKilled) {
+  Forker forker(echo());
   auto worker = forker.start(0);
-  const auto parent_of = [](pid_t pid) {
-    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-    std::string number, name, state;
-    pid_t parent = 0;
-    file >> number >> name >> state >> parent;
-    return parent;
-  };
-  ::kill(parent_of(worker.pid), SIGKILL);
-  EXPECT_EQ(worker.channel.wait(std::chrono::seconds(20)), Wait::Gone) << "its workers end with it";
-  EXPECT_THROW(forker.start(1), EngineError);
+  worker.channel.send("kill forker");
+  while (worker.channel.wait(std::chrono::seconds(20)) == Wait::Arrived) (void)worker.channel.received();
+  EXPECT_TRUE(forker.collect(worker).with_forker) << "its workers end with it";
+  expect_group_ends(worker.pid);
+  auto next = forker.start(1);
+  EXPECT_EQ(ask(next, "hello"), "1hello");
+  next.channel.send("exit");
+  EXPECT_EQ(WEXITSTATUS(forker.collect(next).status), 7);
+  EXPECT_TRUE(forker.collect(worker).with_forker) << "it was started by another process";
+}
+
+TEST(Forker, GoesOnAfterItWasStopped) {
+  std::optional<Forker> forker(std::in_place, echo());
+  auto worker = forker->start(0);
+  EXPECT_EQ(ask(worker, "stop forker"), "0stop forker");
+  auto next = forker->start(1);
+  EXPECT_EQ(ask(next, "stop forker"), "1stop forker");
+  forker.reset();
+  EXPECT_FALSE(is_alive(worker.pid) || is_alive(next.pid));
+}
+
+TEST(Forker, TellsThatAProgramCannotBeStarted) {
+  Forker forker({"/nowhere", {}});
+  EXPECT_THROW(forker.start(0), MachineError);
+}
+
+// Its owner has not said that programs which it starts must not have it.
+TEST(Forker, LeavesFilesToTheProcessThatMadeIt) {
+  const int file = ::fcntl(STDIN_FILENO, F_DUPFD, 200);
+  Forker forker(echo());
+  auto worker = forker.start(0);
+  EXPECT_EQ(ask(worker, "hello"), "0hello");
+  const std::string open_file = "/fd/" + std::to_string(file);
+  EXPECT_TRUE(std::filesystem::is_symlink("/proc/self" + open_file)) << "the test is about something";
+  EXPECT_FALSE(std::filesystem::is_symlink("/proc/" + std::to_string(worker.pid) + open_file));
+  ::close(file);
 }
 
 }  // namespace

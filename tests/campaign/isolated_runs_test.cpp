@@ -5,12 +5,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <thread>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "tests/contract/campaigns/small_campaign.hpp"
@@ -91,7 +94,10 @@ INSTANTIATE_TEST_SUITE_P(Agents, EveryKindOfEnd,
                                          Case{"close", "closed the descriptors of its process"},
                                          Case{"loop", "agent of AGV 0: uses CPU time without end in event", true},
                                          Case{"loop-calls", "agent of AGV 0: uses CPU time without end in event", true},
-                                         Case{"sleep", "agent of AGV 0: waits without end in event", true}),
+                                         Case{"sleep", "agent of AGV 0: waits without end in event", true},
+                                         Case{"stop", "agent of AGV 0: waits without end in event", true},
+                                         Case{"background", "agent of AGV 0: waits without end in event", true},
+                                         Case{"vfork", "agent of AGV 0: waits without end in event", true}),
                          [](const auto& one) {
                            std::string name = one.param.kind;
                            std::erase(name, '-');
@@ -178,8 +184,8 @@ TEST(IsolatedRuns, WorkersThatAreKilledAgainAndAgainAreTheFaultOfTheRun) {
   EXPECT_EQ(runs.take_losses().size(), 4U) << "the run and three repeats";
 }
 
-// Whether a process lives whose parent's parent is this one.
-bool has_living_worker() {
+// The processes that live whose parent's parent is this one: their numbers.
+std::set<std::string> living_workers() {
   struct Process {
     pid_t parent = 0;
     std::string state;
@@ -192,10 +198,81 @@ bool has_living_worker() {
     Process process;
     if (file >> pid >> name >> process.state >> process.parent) processes[pid] = process;
   }
-  return std::ranges::any_of(processes, [&](const auto& entry) {
-    const auto parent = processes.find(entry.second.parent);
-    return entry.second.state != "Z" && parent != processes.end() && parent->second.parent == ::getpid();
-  });
+  std::set<std::string> living;
+  for (const auto& [pid, process] : processes) {
+    const auto parent = processes.find(process.parent);
+    if (process.state != "Z" && parent != processes.end() && parent->second.parent == ::getpid())
+      living.insert(std::to_string(pid));
+  }
+  return living;
+}
+bool has_living_worker() { return !living_workers().empty(); }
+
+// A campaign goes on, and names the run.
+TEST(IsolatedRuns, ARunThatKillsTheForkerIsNamedAndTheOthersGoOn) {
+  const CampaignPlan plan = failing_plan("kill-forker 5");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, {.workers = 3});
+  std::array<Outcome, 20> outcomes;
+  std::vector<std::thread> threads;
+  for (std::size_t first = 0; first < 3; ++first) {
+    threads.emplace_back([&, first] {
+      for (std::size_t index = first; index < outcomes.size(); index += 3) outcomes[index] = runs(index).outcome;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  int killers = 0;
+  for (std::size_t index = 0; index < outcomes.size(); ++index) {
+    const bool kills = is_planted(plan, index, 5);
+    killers += kills ? 1 : 0;
+    EXPECT_EQ(outcomes[index].crash, kills) << index << ": " << outcomes[index].message;
+    if (kills) {
+      EXPECT_THAT(outcomes[index].message,
+                  HasSubstr("agent of AGV 0: killed the process that starts the workers in event"));
+    } else {
+      EXPECT_EQ(outcomes[index].digest, record_of_reckless(plan, index).outcome.digest);
+    }
+  }
+  EXPECT_GE(killers, 2) << "the test is about something";
+}
+
+TEST(IsolatedRuns, AForkerThatWasStoppedGoesOn) {
+  const CampaignPlan plan = failing_plan("stop-forker 1");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, {.workers = 2});
+  std::thread other([&] { EXPECT_EQ(runs(1).outcome.digest, record_of_reckless(plan, 1).outcome.digest); });
+  EXPECT_EQ(runs(0).outcome.digest, record_of_reckless(plan, 0).outcome.digest);
+  other.join();
+}
+
+// What software takes from its process varies, so that it shows as a rate.
+TEST(IsolatedRuns, AWorkerIsReplacedBetweenTwoRuns) {
+  const CampaignPlan plan = failing_plan("none 1");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, Hosting{});
+  std::set<std::string> workers;
+  std::uint64_t done = 0;
+  for (; done < 200'000 && workers.size() < 3; ++done) {
+    EXPECT_EQ(runs(done % 20).outcome.message, "");
+    if (done % 20 == 0) workers.merge(living_workers());
+  }
+  EXPECT_EQ(workers.size(), 3U);
+  EXPECT_GT(done, 40U) << "a start costs as much as some runs";
+  EXPECT_TRUE(runs.take_losses().empty());
+}
+
+TEST(IsolatedRuns, AProcessOfItsOwnHostsOneRun) {
+  const CampaignPlan plan = failing_plan("none 1");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, Hosting{});
+  const Outcome shared = runs(0).outcome;
+  EXPECT_TRUE(has_living_worker());
+  EXPECT_EQ(runs(0, false, HostProcess::Own).outcome, shared);
+  EXPECT_FALSE(has_living_worker());
 }
 
 TEST(IsolatedRuns, AnAbandonedRunTakesItsWorkerWithIt) {
@@ -210,6 +287,19 @@ TEST(IsolatedRuns, AnAbandonedRunTakesItsWorkerWithIt) {
   caller.join();
   for (int i = 0; i < 1000 && has_living_worker(); ++i) ::usleep(1000);
   EXPECT_FALSE(has_living_worker());
+}
+
+TEST(AgentInspection, HasTheMemoryOfARun) {
+  ::setenv("FLEETPROOF_TEST_LOADING", "memory", 1);
+  AgentPrograms programs;
+  programs.limit_inspections({200, 10.0});
+  try {
+    programs.know(FLEETPROOF_FAILING_AGENT);
+    ADD_FAILURE() << "loaded";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("cannot be loaded: "));
+  }
+  ::unsetenv("FLEETPROOF_TEST_LOADING");
 }
 
 TEST(AgentInspection, SurvivesAnObjectThatCrashesOrExitsWhileItIsLoaded) {
@@ -279,7 +369,7 @@ TEST(IsolatedRuns, ReferenceAgentsInAFreshProgramHaveNoLimits) {
   plan.gates.clear();
   plan.limits = {1, 0.1};
   const AgentPrograms programs;
-  IsolatedRuns runs(plan, programs, {.program = FLEETPROOF_PROGRAM});
+  IsolatedRuns runs(plan, programs, Hosting{});
   const RunRecord record = runs(0), undisturbed = RunOne(plan, programs)(0);
   EXPECT_EQ(record.outcome, undisturbed.outcome);
   EXPECT_TRUE(runs.take_losses().empty());
@@ -295,7 +385,7 @@ TEST(IsolatedRuns, WhatAReferenceAgentLeavesMappedDoesNotCountAgainstAPlugin) {
   plan.limits = {4, 20.0};
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
-  IsolatedRuns runs(plan, programs, {.program = FLEETPROOF_PROGRAM});
+  IsolatedRuns runs(plan, programs, Hosting{});
   runs(0);
   EXPECT_EQ(runs(1).outcome, IsolatedRuns(plan, programs, Hosting{})(1).outcome);
   EXPECT_EQ(runs(1).outcome.message, "");

@@ -1,11 +1,13 @@
 // An agent that drives like `reckless` and, in some runs, ends its process or never returns. Its parameters say how and
 // how often: "segfault 100" is a segmentation fault in one of 100 runs, at the third event of the first AGV. The kind
 // "mixed" takes each kind in turn but the endless ones. "audit-loop 1" is the kind "loop" in audits only.
-// FLEETPROOF_TEST_LOADING=crash: crashes while it is loaded; the name of a file: while there is such a file.
+// FLEETPROOF_TEST_LOADING=crash, exit, memory: does so while it is loaded; the name of a file: crashes while there is
+// such a file.
 // FLEETPROOF_TEST_GATE: a run of the kind "burn" uses CPU time until this file exists.
 // FLEETPROOF_TEST_REBUILT: every run has a segmentation fault.
 #include <dlfcn.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -14,8 +16,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
-#include <fstream>
-#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -106,6 +106,16 @@ void fail(Failing& agent) {
   if (kind == "sleep") {
     for (;;) ::pause();
   }
+  if (kind == "stop") ::raise(SIGSTOP);
+  if (kind == "background") ::raise(SIGTTIN);
+  if (kind == "vfork" && ::vfork() == 0) {
+    for (;;) ::pause();
+  }
+  if (kind == "kill-forker") {
+    ::kill(::getppid(), SIGKILL);
+    for (;;) ::pause();  // its own end follows
+  }
+  if (kind == "stop-forker") ::kill(::getppid(), SIGSTOP);
   if (kind == "burn") burn_until_gate_opens();
   if (kind == "slow") use_cpu_time();
   if (kind == "print") std::printf("failing: hello from the agent\n");
@@ -114,11 +124,12 @@ void fail(Failing& agent) {
 constexpr std::string_view kOnlyInAudits = "audit-";
 constexpr std::array kMixed{"segfault", "abort", "stack", "heap", "throw", "thread", "exit", "division", "close"};
 
-// An audit happens in a program that is started with words of its own (campaign/workers/fresh_program.cpp).
+// What agents print in an audit is dropped.
 bool is_in_audit() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  const std::string words{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return words.find("take-orders") != std::string::npos;
+  struct stat stream {
+  }, nothing{};
+  return ::fstat(STDOUT_FILENO, &stream) == 0 && ::stat("/dev/null", &nothing) == 0 &&
+         stream.st_rdev == nothing.st_rdev;
 }
 
 std::string kind_in_this_run(const fp_host& host, fp_controller* controller, const fp_briefing& briefing) {
@@ -156,6 +167,9 @@ struct Loading {
     const char* how = std::getenv("FLEETPROOF_TEST_LOADING");
     if (how != nullptr && std::strcmp(how, "crash") == 0) std::abort();
     if (how != nullptr && std::strcmp(how, "exit") == 0) std::exit(0);
+    if (how != nullptr && std::strcmp(how, "memory") == 0) {  // 1 GB
+      for (int i = 0; i < 64; ++i) std::memset(new char[std::size_t{1} << 24], 1, std::size_t{1} << 24);
+    }
     if (how != nullptr && ::access(how, F_OK) == 0) std::abort();
   }
 } loading;

@@ -1,6 +1,8 @@
 // An agent that drives like `reckless` but does not always do the same: what its thinking costs depends on something
-// that no run should depend on. Its parameters say on what, see cost_ns. Otherwise it always does the same.
+// that no run should depend on. Its parameters say on what, see cost_ns. Otherwise it always does the same. With
+// "coin-", what it is depends on that: `reckless`, or `hull-lock`.
 #include <sys/auxv.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdint>
@@ -13,6 +15,7 @@
 
 namespace {
 
+using fleetproof::agents::kHullLock;
 using fleetproof::agents::kReckless;
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
@@ -26,6 +29,8 @@ int shared_by_all = 0;
 std::uint64_t drawn_in_this_run = 0, drawn_in_run_before = 0;
 
 struct Unsteady {
+  fp_briefing briefing{};  // hull-lock knows no coins
+  const fp_agent_type* type = &kReckless;
   void* inner = nullptr;
   const fp_host* host = nullptr;
   fp_controller* controller = nullptr;
@@ -62,9 +67,21 @@ std::int64_t cost_ns(const Unsteady& agent) {
   return kMillisecond_ns;
 }
 
+bool falls_on_its_head(const std::string& kind) {
+  if (kind == "coin-place") return ((::getauxval(AT_ENTRY) >> 12) & 1U) != 0;
+  if (kind == "coin-process") return (::getpid() & 1) != 0;
+  if (kind == "coin-heap") return (unwritten_heap() & 1U) != 0;
+  return true;
+}
+
 void* create(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
   auto* agent = new Unsteady;
-  agent->inner = kReckless.create(host, controller, briefing);
+  // The whole fleet in one process is the same, or a collision could be that of another AGV.
+  static const bool is_reckless = falls_on_its_head(briefing->config);
+  agent->type = is_reckless ? &kReckless : &kHullLock;
+  agent->briefing = *briefing;
+  agent->briefing.config = "";
+  agent->inner = agent->type->create(host, controller, &agent->briefing);
   agent->host = host;
   agent->controller = controller;
   agent->kind = briefing->config;
@@ -81,14 +98,16 @@ void* create(const fp_host* host, fp_controller* controller, const fp_briefing* 
 
 void on_event(void* instance, const fp_event* event) {
   auto& agent = *static_cast<Unsteady*>(instance);
-  agent.host->declare_cost_ns(agent.controller, cost_ns(agent));
-  agent.host->declare_state(agent.controller, event->kind == FP_EVENT_START ? "fresh" : "unsteady");
-  kReckless.on_event(agent.inner, event);
+  if (!agent.kind.starts_with("coin-")) {
+    agent.host->declare_cost_ns(agent.controller, cost_ns(agent));
+    agent.host->declare_state(agent.controller, event->kind == FP_EVENT_START ? "fresh" : "unsteady");
+  }
+  agent.type->on_event(agent.inner, event);
 }
 
 void destroy(void* instance) {
   auto* agent = static_cast<Unsteady*>(instance);
-  kReckless.destroy(agent->inner);
+  agent->type->destroy(agent->inner);
   delete agent;
 }
 

@@ -1,0 +1,259 @@
+#include "campaign/workers/left_behind.hpp"
+
+#include <fcntl.h>
+#include <locale.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <climits>
+#include <clocale>
+#include <csignal>
+#include <cstdlib>
+#include <locale>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fleetproof {
+namespace {
+
+// Each of these looks at one kind of thing. `set_back` is cheap if nothing has changed, and false if what has changed
+// cannot be set back.
+
+class Locale {
+ public:
+  bool set_back() const {
+    if (::uselocale(nullptr) != of_thread_) ::uselocale(of_thread_);
+    if (std::locale() != global_) std::locale::global(global_);
+    if (name_ == std::setlocale(LC_ALL, nullptr)) return true;
+    return std::setlocale(LC_ALL, name_.c_str()) != nullptr;
+  }
+
+ private:
+  std::string name_ = std::setlocale(LC_ALL, nullptr);
+  std::locale global_;
+  locale_t of_thread_ = ::uselocale(nullptr);
+};
+
+// The words of the system about this process: one look instead of one for each signal.
+class Status {
+ public:
+  Status() { (void)look(); }
+  ~Status() { ::close(file_); }
+  Status(const Status&) = delete;
+  Status& operator=(const Status&) = delete;
+
+  // False: somebody has closed the file.
+  bool look() {
+    std::array<char, 4096> text;
+    const ssize_t size = ::pread(file_, text.data(), text.size(), 0);
+    const std::string_view lines(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+    const auto threads = lines.find("\nThreads:\t"), signals = lines.find("\nSigBlk:"), end = lines.find("\nCapInh:");
+    if (threads == lines.npos || signals == lines.npos || end == lines.npos || signals > end) return false;
+    threads_ = 0;
+    std::from_chars(lines.data() + threads + 10, lines.data() + lines.size(), threads_);
+    signals_.assign(lines.substr(signals, end - signals));
+    return true;
+  }
+  int threads() const { return threads_; }
+  const std::string& signals() const { return signals_; }  // blocked, ignored, caught
+
+ private:
+  int file_ = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+  int threads_ = 0;
+  std::string signals_;
+};
+
+class Signals {
+ public:
+  explicit Signals(const Status& status) : signals_(status.signals()) {
+    ::pthread_sigmask(SIG_BLOCK, nullptr, &mask_);
+    ::sigaltstack(nullptr, &stack_);
+    for (int number = 1; number < kSignals; ++number) {
+      ::sigaction(number, nullptr, &handlers_[static_cast<std::size_t>(number)]);
+      if (handler_of(number) != SIG_DFL && handler_of(number) != SIG_IGN) caught_.push_back(number);
+    }
+  }
+  bool set_back(const Status& status) const {
+    stack_t stack{};
+    ::sigaltstack(nullptr, &stack);
+    if (stack.ss_sp != stack_.ss_sp || stack.ss_size != stack_.ss_size || stack.ss_flags != stack_.ss_flags)
+      ::sigaltstack(&stack_, nullptr);
+    const bool same = status.signals() == signals_ && std::ranges::all_of(caught_, [&](int number) {
+                        struct sigaction now {};
+                        ::sigaction(number, nullptr, &now);
+                        return now.sa_handler == handler_of(number);
+                      });
+    if (same) return true;
+    ::pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
+    for (int number = 1; number < kSignals; ++number)
+      ::sigaction(number, &handlers_[static_cast<std::size_t>(number)], nullptr);
+    return true;
+  }
+
+ private:
+  static constexpr int kSignals = 65;
+  sighandler_t handler_of(int number) const { return handlers_[static_cast<std::size_t>(number)].sa_handler; }
+
+  std::string signals_;
+  sigset_t mask_{};
+  stack_t stack_{};
+  std::array<struct sigaction, kSignals> handlers_{};
+  std::vector<int> caught_;
+};
+
+class Folder {
+ public:
+  bool set_back() const {
+    if (umask_now() != umask_) ::umask(umask_);
+    const std::string now = path();
+    return now == path_ || (!path_.empty() && ::chdir(path_.c_str()) == 0);
+  }
+
+ private:
+  static std::string path() {
+    std::array<char, PATH_MAX> text;
+    return ::getcwd(text.data(), text.size()) == nullptr ? "" : text.data();
+  }
+  static mode_t umask_now() {
+    const mode_t now = ::umask(0);
+    ::umask(now);
+    return now;
+  }
+  std::string path_ = path();
+  mode_t umask_ = umask_now();
+};
+
+// The soft limit of addresses is set before each run.
+class Limits {
+ public:
+  Limits() : limits_(now()) {}
+  bool set_back() const {
+    bool all = true;
+    const auto limits = now();
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      const bool is_soft_same = i == RLIMIT_AS || limits[i].rlim_cur == limits_[i].rlim_cur;
+      if (limits[i].rlim_max != limits_[i].rlim_max || !is_soft_same)
+        all = ::setrlimit(static_cast<__rlimit_resource>(i), &limits_[i]) == 0 && all;
+    }
+    return all;
+  }
+
+ private:
+  static std::array<rlimit, RLIM_NLIMITS> now() {
+    std::array<rlimit, RLIM_NLIMITS> limits{};
+    for (std::size_t i = 0; i < limits.size(); ++i) ::getrlimit(static_cast<__rlimit_resource>(i), &limits[i]);
+    return limits;
+  }
+  std::array<rlimit, RLIM_NLIMITS> limits_;
+};
+
+class Timers {
+ public:
+  Timers() : others_(count_of_others()) {}
+  ~Timers() { ::close(file_); }
+  Timers(const Timers&) = delete;
+  Timers& operator=(const Timers&) = delete;
+
+  bool set_back() const {
+    for (const auto which : {ITIMER_REAL, ITIMER_VIRTUAL, ITIMER_PROF}) {
+      itimerval now{};
+      ::getitimer(which, &now);
+      const itimerval none{};
+      if (now.it_value.tv_sec != 0 || now.it_value.tv_usec != 0) ::setitimer(which, &none, nullptr);
+    }
+    return count_of_others() == others_;
+  }
+
+ private:
+  ssize_t count_of_others() const {  // of timer_create; their bytes in the list stand for them
+    std::array<char, 512> text;
+    return ::pread(file_, text.data(), text.size(), 0);
+  }
+  int file_ = ::open("/proc/self/timers", O_RDONLY | O_CLOEXEC);
+  ssize_t others_;
+};
+
+class Environment {
+ public:
+  Environment() : entries_(now()) {}
+  bool set_back() const {
+    std::size_t same = 0;
+    if (environ != nullptr) {
+      while (same < entries_.size() && environ[same] != nullptr && entries_[same] == environ[same]) ++same;
+    }
+    const bool has_more = environ != nullptr && same == entries_.size() && environ[same] != nullptr;
+    if (same == entries_.size() && !has_more) return true;
+    ::clearenv();
+    for (const std::string& entry : entries_) {
+      const auto mark = entry.find('=');
+      if (mark != entry.npos) ::setenv(entry.substr(0, mark).c_str(), entry.c_str() + mark + 1, 1);
+    }
+    return true;
+  }
+
+ private:
+  static std::vector<std::string> now() {
+    std::vector<std::string> entries;
+    for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) entries.emplace_back(*entry);
+    return entries;
+  }
+  std::vector<std::string> entries_;
+};
+
+// Descriptors and threads cannot be taken away from the software that may still use them.
+struct Holdings {
+  int threads = 0, first_free = 0;
+  off_t descriptors = 0;  // not every kernel tells their number; the first that is free moves in any case
+
+  static Holdings now(const Status& status) {
+    Holdings holdings;
+    holdings.threads = status.threads();
+    holdings.first_free = ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (holdings.first_free >= 0) ::close(holdings.first_free);
+    struct stat folder {};
+    if (::stat("/proc/self/fd", &folder) == 0) holdings.descriptors = folder.st_size;
+    return holdings;
+  }
+  bool fit_into(const Holdings& first) const {
+    return threads <= first.threads && first_free == first.first_free && descriptors == first.descriptors;
+  }
+};
+
+}  // namespace
+
+struct LeftBehind::State {
+  Status status;
+  Locale locale;
+  Signals signals{status};
+  Folder folder;
+  Limits limits;
+  Timers timers;
+  Environment environment;
+  std::optional<Holdings> after_first_run;
+};
+
+LeftBehind::LeftBehind() : state_(std::make_unique<State>()) {}
+LeftBehind::~LeftBehind() = default;
+
+bool LeftBehind::set_back() {
+  State& was = *state_;
+  if (!was.status.look()) return false;
+  bool all = was.locale.set_back();
+  all = was.signals.set_back(was.status) && all;
+  all = was.folder.set_back() && all;
+  all = was.limits.set_back() && all;
+  all = was.timers.set_back() && all;
+  all = was.environment.set_back() && all;
+  const Holdings now = Holdings::now(was.status);
+  if (!was.after_first_run) was.after_first_run = now;
+  return all && now.fit_into(*was.after_first_run);
+}
+
+}  // namespace fleetproof
