@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reports/comparison/comparison_page.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/page/wording.hpp"
 
@@ -26,17 +27,18 @@ std::string upper_text(double share) {
   return share < 0.0 ? "-" + rounded_down(-100.0 * share) : "+" + rounded_up(100.0 * share);
 }
 
+std::string both_counts(const FailingWorlds& worlds) {
+  return worlds.unknown == 0 ? std::to_string(worlds.failed) : fmt::format("{} + {}", worlds.failed, worlds.unknown);
+}
+
 std::vector<std::string> row(const std::string& agent, const EndPointChange& change) {
-  const auto only = [&](std::uint64_t PairedCounts::*side) {
-    return change.pairs ? std::to_string((*change.pairs).*side) : std::string("-");
-  };
   return {printable(agent, 40),
           name_of(change.end_point),
           name_of(change.change),
-          fmt::format("{}/{}", change.old_failing, change.old_worlds),
-          fmt::format("{}/{}", change.new_failing, change.new_worlds),
-          only(&PairedCounts::only_old),
-          only(&PairedCounts::only_new),
+          both_counts(change.before),
+          both_counts(change.now),
+          std::to_string(change.only_old),
+          std::to_string(change.only_new),
           fmt::format("[{}, {}]", lower_text(change.lower), upper_text(change.upper)),
           change.worlds_needed ? std::to_string(*change.worlds_needed) : "-"};
 }
@@ -59,15 +61,11 @@ void add_comparison(Section& section, const std::string& archive_path, const Bas
     section.table.rows.push_back(row(comparison.new_agent, change));
   std::string text = fmt::format("{}, compared with {} in {}: ", printable(comparison.new_agent, 40),
                                  printable(comparison.old_agent, 40), printable(baseline.baseline_path, 200));
-  text += comparison.paired
-              ? fmt::format("paired, because both ran in the same {}.", count_text(comparison.worlds, "world"))
-              : fmt::format("not paired: {}; this takes more worlds.", comparison.why_unpaired);
-  text += fmt::format(" Transports (orders) per AGV-hour: {:.2f} before, {:.2f} now",
+  text += fmt::format("{}. Transports (orders) per AGV-hour: {:.2f} before, {:.2f} now", worlds_text(comparison),
                       comparison.old_transports_per_agv_hour, comparison.new_transports_per_agv_hour);
-  if (comparison.paired)
-    text += fmt::format(" (slower in {}, faster in {} worlds)", comparison.slower_worlds, comparison.faster_worlds);
+  for (const std::string& doubt : comparison.doubts) text += fmt::format(". Doubt: {}", doubt);
   section.remarks.emplace_back().text = text + ". All cells count here, those beyond the contract region, too.";
-  if (comparison.paired) add_newly_failing(section, archive_path, comparison);
+  if (comparison.same_worlds) add_newly_failing(section, archive_path, comparison);
 }
 
 }  // namespace
@@ -89,8 +87,8 @@ std::vector<BaselineComparison> compare_with_baseline(const ArchiveReader& archi
 
 Section comparison_section(const std::vector<BaselineComparison>& baseline, const std::string& archive_path) {
   Section section{"Compared with the baseline", {}, {}};
-  section.table.columns = {{"agent", false}, {"end point", false}, {"change", false},   {"before"},       {"now"},
-                           {"only before"},  {"only now"},         {"difference in %"}, {"worlds needed"}};
+  section.table.columns = {{"agent", false}, {"end point", false}, {"change", false}, {"before"},       {"now"},
+                           {"only before"},  {"only now"},         {"growth in %"},   {"worlds needed"}};
   const ComparisonRule rule = baseline.front().rule;
   for (const BaselineComparison& each : baseline) {
     if (each.comparison) {
@@ -102,10 +100,13 @@ Section comparison_section(const std::vector<BaselineComparison>& baseline, cons
     }
   }
   section.remarks.emplace_back().text = fmt::format(
-      "before, now = worlds that failed or stayed unknown. only before, only now = worlds in which only one of the two "
-      "did; they decide a paired comparison. difference = interval of the change of the share ({} confidence), not "
-      "adjusted for the number of end points. not worse = the change is below the margin of {}. worlds needed = with "
-      "so many worlds the change could be told, if the shares stay as they are.",
+      "before, now = worlds that failed, + those of which it is not known. only before, only now = worlds in which one "
+      "release failed and the other did not. growth = interval of the growth of the share ({} confidence on either "
+      "side, at any time), not adjusted for the number of end points; what is unknown counts against what is claimed. "
+      "throughput: a release fails in a world in which it delivers less than 90 % of what the other one does. not "
+      "worse "
+      "= the growth is below the margin of {}. worlds needed = with so many the change could be told, if the shares "
+      "stay as they are.",
       percent(rule.confidence), percent(rule.margin));
   return section;
 }

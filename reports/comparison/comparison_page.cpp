@@ -19,19 +19,16 @@ std::string signed_percent(double share) {
   return share < 0.0 ? "-" + rounded_down(-100.0 * share) + " %" : "+" + rounded_up(100.0 * share) + " %";
 }
 
-std::string counts_text(const EndPointChange& change) {
-  std::string text =
-      fmt::format("{}/{} -> {}/{}", change.old_failing, change.old_worlds, change.new_failing, change.new_worlds);
-  if (change.pairs) text += fmt::format(" (only old {}, only new {})", change.pairs->only_old, change.pairs->only_new);
-  return text;
+std::string failing_text(const FailingWorlds& worlds) {
+  return worlds.unknown == 0 ? std::to_string(worlds.failed)
+                             : fmt::format("{} (and {} unknown)", worlds.failed, worlds.unknown);
 }
 
 std::string line_of(const EndPointChange& change, const ComparisonRule& rule) {
-  std::string text =
-      fmt::format("  {:<11} {}: {}; difference {} at most ({})", name_of(change.end_point), name_of(change.change),
-                  counts_text(change), signed_percent(change.one_sided_upper), percent(rule.confidence));
-  if (change.change == Change::Worse) text += fmt::format(", p = {}", rounded_up(change.worse_p));
-  if (change.change == Change::Improved) text += fmt::format(", p = {}", rounded_up(change.improved_p));
+  std::string text = fmt::format("  {:<11} {}: {} -> {} (only old {}, only new {}); grows by {} at most ({})",
+                                 name_of(change.end_point), name_of(change.change), failing_text(change.before),
+                                 failing_text(change.now), change.only_old, change.only_new,
+                                 signed_percent(change.upper), percent(rule.confidence));
   if (change.worlds_needed) text += fmt::format("; {} worlds would tell", *change.worlds_needed);
   return text + "\n";
 }
@@ -63,50 +60,53 @@ std::string release_text(const ReleaseRuns& release) {
 }
 
 Json json_of(const EndPointChange& change) {
-  Json json = {{"end_point", name_of(change.end_point)},
-               {"change", name_of(change.change)},
-               {"old_failing", change.old_failing},
-               {"old_worlds", change.old_worlds},
-               {"new_failing", change.new_failing},
-               {"new_worlds", change.new_worlds},
-               {"worse_p", change.worse_p},
-               {"improved_p", change.improved_p},
-               {"difference_lower", change.lower},
-               {"difference_upper", change.upper},
-               {"difference_one_sided_upper", change.one_sided_upper},
-               {"worlds_needed", change.worlds_needed ? Json(*change.worlds_needed) : Json(nullptr)}};
-  json["only_old"] = change.pairs ? Json(change.pairs->only_old) : Json(nullptr);
-  json["only_new"] = change.pairs ? Json(change.pairs->only_new) : Json(nullptr);
-  return json;
+  return {{"end_point", name_of(change.end_point)},
+          {"change", name_of(change.change)},
+          {"old_failed", change.before.failed},
+          {"old_unknown", change.before.unknown},
+          {"new_failed", change.now.failed},
+          {"new_unknown", change.now.unknown},
+          {"only_old", change.only_old},
+          {"only_new", change.only_new},
+          {"growth_lower", change.lower},
+          {"growth_upper", change.upper},
+          {"worlds_needed", change.worlds_needed ? Json(*change.worlds_needed) : Json(nullptr)}};
 }
 
 Json json_of(const ReleaseRuns& release) {
   return {{"archive", release.path},
           {"agent", release.agent},
           {"replicates", release.replicates.size()},
+          {"audited", release.audited},
+          {"differing", release.differing},
           {"plan_hash", hex_text(release.campaign.plan_hash)},
           {"libraries", release.campaign.engine.libraries}};
 }
 
 }  // namespace
 
+std::string worlds_text(const Comparison& comparison) {
+  if (!comparison.other_conditions.empty())
+    return fmt::format("nothing can be told: the campaigns differ in {}; run the old release under the new conditions",
+                       joined(comparison.other_conditions));
+  const std::string worlds = count_text(comparison.worlds, "world");
+  return comparison.same_worlds ? fmt::format("both ran in the same {}", worlds)
+                                : fmt::format("{} of each, drawn from other seeds: this takes more worlds", worlds);
+}
+
 std::string comparison_text(const Comparison& comparison, const ReleaseRuns& old_release,
                             const ReleaseRuns& new_release, const ComparisonRule& rule) {
   std::string text = fmt::format("fleetproof comparison\n  old: {}\n  new: {}\n", release_text(old_release),
                                  release_text(new_release));
-  text += comparison.paired
-              ? fmt::format("paired: both ran in the same worlds; {}\n", count_text(comparison.worlds, "world"))
-              : fmt::format("not paired: {}; this takes more worlds\n", comparison.why_unpaired);
-  text += fmt::format(
-      "worlds that failed or stayed unknown, old -> new; margin {}; not adjusted for the number of "
-      "end points:\n",
-      percent(rule.margin));
+  text += worlds_text(comparison) + "\n";
+  for (const std::string& doubt : comparison.doubts)
+    text += fmt::format("doubt: {}: neither is said to be as good as the other\n", doubt);
+  text += fmt::format("worlds that failed, old -> new; margin {}; not adjusted for the number of end points:\n",
+                      percent(rule.margin));
   for (const EndPointChange& change : comparison.end_points) text += line_of(change, rule);
-  text += fmt::format("transports per AGV-hour: {:.2f} -> {:.2f}", comparison.old_transports_per_agv_hour,
+  text += fmt::format("transports per AGV-hour: {:.2f} -> {:.2f}\n", comparison.old_transports_per_agv_hour,
                       comparison.new_transports_per_agv_hour);
-  if (!comparison.paired) return text + "\n";
-  text += fmt::format(" (slower in {}, faster in {} of {} worlds)\n", comparison.slower_worlds,
-                      comparison.faster_worlds, comparison.worlds);
+  if (!comparison.same_worlds) return text;
   text += cells_text(comparison.cells);
   text += runs_text("newly failing", comparison.newly_failing, new_release.path);
   return text + runs_text("newly passing", comparison.newly_passing, new_release.path);
@@ -114,19 +114,18 @@ std::string comparison_text(const Comparison& comparison, const ReleaseRuns& old
 
 std::string comparison_json(const Comparison& comparison, const ReleaseRuns& old_release,
                             const ReleaseRuns& new_release, const ComparisonRule& rule) {
-  Json json = {{"schema_version", 1},
+  Json json = {{"schema_version", 2},
                {"old", json_of(old_release)},
                {"new", json_of(new_release)},
-               {"paired", comparison.paired},
-               {"why_unpaired", comparison.paired ? Json(nullptr) : Json(comparison.why_unpaired)},
+               {"same_worlds", comparison.same_worlds},
+               {"other_conditions", comparison.other_conditions},
+               {"doubts", comparison.doubts},
                {"worlds", comparison.worlds},
                {"margin", rule.margin},
                {"confidence", rule.confidence},
                {"end_points", Json::array()},
                {"old_transports_per_agv_hour", comparison.old_transports_per_agv_hour},
                {"new_transports_per_agv_hour", comparison.new_transports_per_agv_hour},
-               {"slower_worlds", comparison.slower_worlds},
-               {"faster_worlds", comparison.faster_worlds},
                {"cells", Json::array()},
                {"newly_failing", comparison.newly_failing},
                {"newly_passing", comparison.newly_passing}};

@@ -6,6 +6,9 @@
 
 namespace fleetproof {
 
+// Which worlds were compared, or why that says nothing. No full stop.
+std::string worlds_text(const Comparison& comparison);
+
 std::string comparison_text(const Comparison& comparison, const ReleaseRuns& old_release,
                             const ReleaseRuns& new_release, const ComparisonRule& rule);
 std::string comparison_json(const Comparison& comparison, const ReleaseRuns& old_release,

@@ -1,173 +1,225 @@
 #include "reports/comparison/release_comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
+#include "reports/evidence/confidence.hpp"
 #include "reports/evidence/exposure.hpp"
-#include "reports/evidence/fisher.hpp"
+#include "reports/evidence/paired_sequence.hpp"
 
 namespace fleetproof {
 namespace {
 
 using Replicate = std::vector<ComparedRun>;
 
-bool fails(const Replicate& replicate, std::size_t end_point) {
-  return std::ranges::any_of(replicate,
-                             [&](const ComparedRun& run) { return run.results[end_point] != RunResult::Passed; });
-}
-
-std::uint64_t failing_worlds(const ReleaseRuns& release, std::size_t end_point, std::size_t worlds) {
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < worlds; ++i) count += fails(release.replicates[i], end_point) ? 1 : 0;
-  return count;
-}
+// ---- conditions
 
 bool same_conditions(const CellRecord& a, const CellRecord& b) {
   return a.layout == b.layout && a.fleet_size == b.fleet_size && a.lowest == b.lowest && a.highest == b.highest;
 }
 
-// The part of a plan that shapes worlds and judgement.
-SortedJson part_that_shapes(const std::string& plan_json) {
+// The part of a plan that shapes worlds and judgement, but for the seed.
+SortedJson conditions_of(const std::string& plan_json) {
   SortedJson plan = read_sorted_json(plan_json);
   if (!plan.is_object()) return plan_json;
   for (const char* key :
-       {"name", "replicates", "gates", "default_gates", "limits", "audit", "agent_config", "coverage"})
+       {"name", "seed", "replicates", "gates", "default_gates", "limits", "audit", "keep", "agent_config", "coverage"})
     plan.erase(key);
   if (plan.contains("factors") && plan["factors"].is_object()) plan["factors"].erase("agents");
   return plan;
 }
 
-// Why two campaigns did not run in the same worlds, judged by the same laws: "the plans differ in /horizon_s". Empty:
-// they did, if their cells are the same. Names, agents, gates, limits, audits and the number of replicates are no
-// difference.
-std::string world_difference(const CampaignRecord& one, const CampaignRecord& other) {
-  if (one.engine.version != other.engine.version) return "the versions of fleetproof differ";
-  if (one.seed != other.seed) return "the seeds differ";
-  const SortedJson patch = SortedJson::diff(part_that_shapes(one.plan_json), part_that_shapes(other.plan_json));
-  return patch.empty() ? "" : "the plans differ in " + patch.front().at("path").get<std::string>();
-}
-
-// Why the runs cannot be paired; empty: they can.
-std::string obstacle_to_pairs(const ReleaseRuns& a, const ReleaseRuns& b) {
-  if (!std::ranges::equal(a.cells, b.cells, same_conditions)) return "the cells differ";
-  return world_difference(a.campaign, b.campaign);
-}
-
-PairedCounts count_pairs(const ReleaseRuns& a, const ReleaseRuns& b, std::size_t end_point, std::size_t worlds) {
-  PairedCounts pairs;
-  for (std::size_t world = 0; world < worlds; ++world) {
-    const bool was = fails(a.replicates[world], end_point), is = fails(b.replicates[world], end_point);
-    ++(was ? (is ? pairs.both : pairs.only_old) : (is ? pairs.only_new : pairs.neither));
+// "horizon_s", for each field of the plans that differs: the outermost one that both have.
+std::vector<std::string> other_conditions(const ReleaseRuns& a, const ReleaseRuns& b) {
+  constexpr std::size_t kMostConditions = 8;
+  std::vector<std::string> list;
+  if (a.campaign.engine.version != b.campaign.engine.version) list.emplace_back("the version of fleetproof");
+  if (!std::ranges::equal(a.cells, b.cells, same_conditions)) list.emplace_back("the cells");
+  const SortedJson patch = SortedJson::diff(conditions_of(a.campaign.plan_json), conditions_of(b.campaign.plan_json));
+  for (const auto& change : patch) {
+    std::string field = change.at("path").get<std::string>();
+    if (field.starts_with('/')) field.erase(0, 1);
+    std::ranges::replace(field, '/', '.');
+    if (std::ranges::find(list, field) == list.end()) list.push_back(field.empty() ? "the plan" : field);
   }
-  return pairs;
+  if (list.size() > kMostConditions) {
+    const std::size_t more = list.size() - kMostConditions;
+    list.resize(kMostConditions);
+    list.push_back(fmt::format("{} more", more));
+  }
+  return list;
 }
 
-void take_difference(EndPointChange& change, const PairedDifference& difference) {
-  change.lower = difference.lower;
-  change.upper = difference.upper;
-  change.one_sided_upper = difference.one_sided_upper;
+// ---- doubts
+
+void doubt(std::vector<std::string>& doubts, const char* which, const ReleaseRuns& release) {
+  if (release.differing > 0)
+    doubts.push_back(fmt::format("{} of {} audited runs of the {} release came out differently", release.differing,
+                                 release.audited, which));
+  if (release.has_unplaced_repeats)
+    doubts.push_back(fmt::format(
+        "the file of the {} release does not say which of its runs repeat others; run it with this version", which));
 }
 
-// The one-sided bounds of both shares, each at a part of the risk (Bonferroni).
-PairedDifference unpaired_difference(const EndPointChange& change, Confidence confidence) {
-  const auto upper = [&](double parts) {
-    return upper_bound(change.new_failing, change.new_worlds, confidence.shared(parts)) -
-           lower_bound(change.old_failing, change.old_worlds, confidence.shared(parts));
+// ---- worlds
+
+RunResult result_of_world(const Replicate& replicate, std::size_t end_point) {
+  RunResult worst = RunResult::Passed;
+  for (const ComparedRun& run : replicate) {
+    if (run.results[end_point] == RunResult::Failed) return RunResult::Failed;
+    if (run.results[end_point] == RunResult::Unknown) worst = RunResult::Unknown;
+  }
+  return worst;
+}
+
+struct Work {
+  std::uint64_t transports_done = 0, agv_us = 0;
+
+  explicit Work(const Replicate& replicate) {
+    for (const ComparedRun& run : replicate) transports_done += run.transports_done, agv_us += run.agv_us;
+  }
+  double rate() const { return agv_us == 0 ? 0.0 : static_cast<double>(transports_done) / agv_hours(agv_us); }
+  // Less than 90 % of what the other one does in an hour.
+  bool is_slower_than(const Work& other) const {
+    __extension__ using Wide = unsigned __int128;
+    return Wide{transports_done} * other.agv_us * 10 < Wide{other.transports_done} * agv_us * 9;
+  }
+};
+
+// The two releases in each world, at one end point.
+struct World {
+  RunResult before = RunResult::Passed, now = RunResult::Passed;
+  bool is_new = true;
+
+  bool failed_only_now() const { return now == RunResult::Failed && before != RunResult::Failed; }
+  bool failed_only_before() const { return before == RunResult::Failed && now != RunResult::Failed; }
+};
+
+// The difference as it speaks most for the old release, or for the new one: what is unknown may have been anything.
+WorldDifference difference(const World& world, bool for_old) {
+  const auto counts = [](RunResult result, bool unknown_too) {
+    return result == RunResult::Failed || (unknown_too && result == RunResult::Unknown) ? 1 : 0;
   };
-  const double lower = lower_bound(change.new_failing, change.new_worlds, confidence.shared(4.0)) -
-                       upper_bound(change.old_failing, change.old_worlds, confidence.shared(4.0));
-  return {0.0, lower, upper(4.0), upper(2.0)};
+  return {counts(world.now, for_old) - counts(world.before, !for_old), world.is_new};
 }
 
-void judge_counts(EndPointChange& change, Confidence confidence) {
-  if (change.pairs) {
-    change.worse_p = mcnemar_exact(change.pairs->only_old, change.pairs->only_new).new_worse;
-    change.improved_p = mcnemar_exact(change.pairs->only_new, change.pairs->only_old).new_worse;
-    take_difference(change, paired_difference(*change.pairs, confidence));
-  } else {
-    const FisherResult fisher =
-        fisher_exact(change.old_failing, change.old_worlds, change.new_failing, change.new_worlds);
-    change.worse_p = fisher.first_smaller;
-    change.improved_p = fisher.first_larger;
-    take_difference(change, unpaired_difference(change, confidence));
-  }
+bool is_new(const Replicate& replicate) {
+  return std::ranges::any_of(replicate, [](const ComparedRun& run) { return !run.repeats; });
 }
 
-Change change_of(const EndPointChange& change, const ComparisonRule& rule) {
-  const double risk = Confidence(rule.confidence).risk();
-  if (change.worse_p <= risk) return Change::Worse;
-  if (change.improved_p <= risk) return Change::Improved;
-  return change.one_sided_upper <= rule.margin ? Change::NotWorse : Change::CannotTell;
-}
-
-// As many times the worlds, with the same shares, until the comparison can tell.
-std::optional<std::uint64_t> worlds_needed(const EndPointChange& change, const ComparisonRule& rule) {
-  constexpr std::uint64_t kMostTimes = 4096;
-  const auto tells = [&](std::uint64_t times) {
-    EndPointChange more = change;
-    for (auto* count : {&more.old_failing, &more.old_worlds, &more.new_failing, &more.new_worlds}) *count *= times;
-    if (more.pairs) {
-      for (auto* count : {&more.pairs->both, &more.pairs->only_old, &more.pairs->only_new, &more.pairs->neither})
-        *count *= times;
+std::vector<World> worlds_at(const ReleaseRuns& a, const ReleaseRuns& b, EndPoint end_point, std::size_t position) {
+  std::vector<World> worlds(std::min(a.replicates.size(), b.replicates.size()));
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    const Replicate &before = a.replicates[i], &now = b.replicates[i];
+    World& world = worlds[i];
+    world.is_new = is_new(before) || is_new(now);
+    if (end_point == EndPoint::Throughput) {
+      const Work work_before(before), work_now(now);
+      if (work_now.is_slower_than(work_before)) world.now = RunResult::Failed;
+      if (work_before.is_slower_than(work_now)) world.before = RunResult::Failed;
+    } else {
+      world.before = result_of_world(before, position);
+      world.now = result_of_world(now, position);
     }
-    judge_counts(more, rule.confidence);
-    return change_of(more, rule) != Change::CannotTell;
-  };
-  std::uint64_t times = 1;
-  while (times <= kMostTimes && !tells(times)) times *= 2;
-  if (times > kMostTimes) return std::nullopt;
-  std::uint64_t low = times / 2;
-  while (times - low > 1) {
-    const std::uint64_t middle = low + (times - low) / 2;
-    (tells(middle) ? times : low) = middle;
   }
-  return times * std::min(change.old_worlds, change.new_worlds);
+  return worlds;
 }
 
-EndPointChange change_at(const ReleaseRuns& a, const ReleaseRuns& b, std::size_t end_point, bool paired,
+// ---- the rule
+
+struct Claims {
+  PairedSequence worse = PairedSequence::worse(), improved = PairedSequence::improved(), not_worse;
+
+  explicit Claims(double margin) : not_worse(PairedSequence::not_worse_by(margin)) {}
+  void add(const World& world) {
+    worse.add(difference(world, false));
+    improved.add(difference(world, true));
+    not_worse.add(difference(world, true));
+  }
+  Change change(double risk, bool in_doubt) const {
+    if (worse.shows(risk)) return Change::Worse;
+    if (in_doubt) return Change::CannotTell;
+    if (improved.shows(risk)) return Change::Improved;
+    return not_worse.shows(risk) ? Change::NotWorse : Change::CannotTell;
+  }
+};
+
+// The same worlds again and again, as if each were new, until the comparison can tell.
+std::optional<std::uint64_t> worlds_needed(const std::vector<World>& worlds, const ComparisonRule& rule, double risk) {
+  constexpr std::uint64_t kMostTimes = 4096, kMostWorlds = 10'000'000;
+  if (worlds.empty()) return std::nullopt;
+  Claims claims(rule.margin);
+  for (std::uint64_t done = 0; done < std::min(kMostWorlds, kMostTimes * worlds.size());) {
+    World next = worlds[done % worlds.size()];
+    next.is_new = true;
+    claims.add(next);
+    ++done;
+    if (claims.change(risk, false) != Change::CannotTell) return done;
+  }
+  return std::nullopt;
+}
+
+EndPointChange change_at(const std::vector<World>& worlds, EndPoint end_point, const Comparison& comparison,
                          const ComparisonRule& rule) {
-  const std::size_t common = std::min(a.replicates.size(), b.replicates.size());
+  const double risk = Confidence(rule.confidence).risk();
   EndPointChange change;
-  change.end_point = kComparedEndPoints[end_point];
-  change.old_worlds = paired ? common : a.replicates.size();
-  change.new_worlds = paired ? common : b.replicates.size();
-  change.old_failing = failing_worlds(a, end_point, change.old_worlds);
-  change.new_failing = failing_worlds(b, end_point, change.new_worlds);
-  if (paired) change.pairs = count_pairs(a, b, end_point, common);
-  if (common == 0) return change;
-  judge_counts(change, rule.confidence);
-  change.change = change_of(change, rule);
-  if (change.change == Change::CannotTell) change.worlds_needed = worlds_needed(change, rule);
+  change.end_point = end_point;
+  Claims claims(rule.margin);
+  std::vector<WorldDifference> growth, shrinkage;
+  for (const World& world : worlds) {
+    claims.add(world);
+    growth.push_back(difference(world, true));
+    const WorldDifference least = difference(world, false);
+    shrinkage.push_back({-least.value, least.is_new});
+    change.only_old += world.failed_only_before() ? 1 : 0;
+    change.only_new += world.failed_only_now() ? 1 : 0;
+    for (const auto& [result, counts] : {std::pair{world.before, &change.before}, {world.now, &change.now}}) {
+      counts->failed += result == RunResult::Failed ? 1 : 0;
+      counts->unknown += result == RunResult::Unknown ? 1 : 0;
+    }
+  }
+  change.upper = difference_upper(growth, risk);
+  change.lower = -difference_upper(shrinkage, risk);
+  if (!comparison.other_conditions.empty()) return change;
+  change.change = claims.change(risk, !comparison.doubts.empty());
+  if (change.change == Change::CannotTell && comparison.doubts.empty())
+    change.worlds_needed = worlds_needed(worlds, rule, risk);
   return change;
 }
 
-double transports_per_agv_hour(const Replicate& replicate) {
-  std::uint64_t done = 0, agv_us = 0;
-  for (const ComparedRun& run : replicate) done += run.transports_done, agv_us += run.agv_us;
-  return agv_us == 0 ? 0.0 : static_cast<double>(done) / agv_hours(agv_us);
-}
+// ---- what is told beside it
 
 double mean_throughput(const ReleaseRuns& release, std::size_t worlds) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < worlds; ++i) sum += transports_per_agv_hour(release.replicates[i]);
+  for (std::size_t i = 0; i < worlds; ++i) sum += Work(release.replicates[i]).rate();
   return worlds == 0 ? 0.0 : sum / static_cast<double>(worlds);
+}
+
+bool fails_newly(const ComparedRun& was, const ComparedRun& is) {
+  for (std::size_t i = 0; i < is.results.size(); ++i) {
+    if (is.results[i] == RunResult::Failed && was.results[i] != RunResult::Failed) return true;
+  }
+  return false;
 }
 
 void compare_runs(Comparison& comparison, const ReleaseRuns& a, const ReleaseRuns& b) {
   std::vector<CellChange> cells;
   for (const CellRecord& cell : b.cells) cells.push_back({cell, 0, 0});
   for (std::size_t world = 0; world < comparison.worlds; ++world) {
-    const double before = transports_per_agv_hour(a.replicates[world]),
-                 now = transports_per_agv_hour(b.replicates[world]);
-    comparison.slower_worlds += now < before ? 1 : 0;
-    comparison.faster_worlds += now > before ? 1 : 0;
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
       const ComparedRun &was = a.replicates[world][cell], &is = b.replicates[world][cell];
-      if (was.is_clean() == is.is_clean()) continue;
-      (is.is_clean() ? comparison.newly_passing : comparison.newly_failing).push_back(is.run_index);
-      ++(is.is_clean() ? cells[cell].only_old : cells[cell].only_new);
+      if (fails_newly(was, is)) {
+        comparison.newly_failing.push_back(is.run_index);
+        ++cells[cell].only_new;
+      } else if (is.is_clean() && !was.is_clean()) {
+        comparison.newly_passing.push_back(is.run_index);
+        ++cells[cell].only_old;
+      }
     }
   }
   std::ranges::copy_if(cells, std::back_inserter(comparison.cells),
@@ -198,17 +250,20 @@ Comparison compare(const ReleaseRuns& old_release, const ReleaseRuns& new_releas
   Comparison comparison;
   comparison.old_agent = old_release.agent;
   comparison.new_agent = new_release.agent;
-  comparison.why_unpaired = obstacle_to_pairs(old_release, new_release);
-  comparison.paired = comparison.why_unpaired.empty();
+  comparison.other_conditions = other_conditions(old_release, new_release);
+  doubt(comparison.doubts, "old", old_release);
+  doubt(comparison.doubts, "new", new_release);
+  comparison.same_worlds =
+      comparison.other_conditions.empty() && old_release.campaign.seed == new_release.campaign.seed;
   comparison.worlds = std::min(old_release.replicates.size(), new_release.replicates.size());
-  for (std::size_t i = 0; i < kComparedEndPoints.size(); ++i)
-    comparison.end_points.push_back(change_at(old_release, new_release, i, comparison.paired, rule));
-  const bool paired = comparison.paired;
-  comparison.old_transports_per_agv_hour =
-      mean_throughput(old_release, paired ? comparison.worlds : old_release.replicates.size());
-  comparison.new_transports_per_agv_hour =
-      mean_throughput(new_release, paired ? comparison.worlds : new_release.replicates.size());
-  if (paired) compare_runs(comparison, old_release, new_release);
+  for (std::size_t i = 0; i < kComparedEndPoints.size(); ++i) {
+    const EndPoint end_point = kComparedEndPoints[i];
+    comparison.end_points.push_back(
+        change_at(worlds_at(old_release, new_release, end_point, i), end_point, comparison, rule));
+  }
+  comparison.old_transports_per_agv_hour = mean_throughput(old_release, comparison.worlds);
+  comparison.new_transports_per_agv_hour = mean_throughput(new_release, comparison.worlds);
+  if (comparison.same_worlds) compare_runs(comparison, old_release, new_release);
   return comparison;
 }
 

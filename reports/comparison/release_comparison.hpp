@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "reports/comparison/release_runs.hpp"
-#include "reports/evidence/paired.hpp"
 
 namespace fleetproof {
 
-// What a comparison says: `Worse` and `Improved` at the stated confidence, `NotWorse` if the difference of the
-// shares is below the margin at that confidence.
+// What a comparison says at the stated confidence, at any time (paired_sequence.hpp). NotWorse: the share of worlds
+// that fail has grown by less than the margin.
 enum class Change : std::uint8_t { Improved, NotWorse, Worse, CannotTell };
 const char* name_of(Change change);
 
@@ -20,16 +19,21 @@ struct ComparisonRule {
   double confidence = 0.95;
 };
 
-// Two counts of failing worlds. What stayed unknown counts as failing.
+// How many of the worlds failed, and in how many nobody knows.
+struct FailingWorlds {
+  std::uint64_t failed = 0, unknown = 0;
+};
+
+// One end point, world by world. What is unknown counts against what is claimed. A world fails Throughput in one
+// release if that delivers less than 90 % of what the other one does there.
 struct EndPointChange {
   EndPoint end_point = EndPoint::Violation;
-  std::uint64_t old_failing = 0, old_worlds = 0, new_failing = 0, new_worlds = 0;
-  std::optional<PairedCounts> pairs;       // if both releases ran in the same worlds
-  double worse_p = 1.0, improved_p = 1.0;  // McNemar or Fisher, exact, one-sided
-  double lower = -1.0, upper = 1.0;        // new minus old, guaranteed, two-sided at the confidence
-  double one_sided_upper = 1.0;            // what the margin is compared with
+  FailingWorlds before, now;
+  std::uint64_t only_old = 0, only_new = 0;  // worlds that failed in one release, and did not in the other
+  double upper = 1.0;                        // of the growth of the share, one-sided
+  double lower = -1.0;                       // the same
   Change change = Change::CannotTell;
-  std::optional<std::uint64_t> worlds_needed;  // to tell, if the rates stay as they are
+  std::optional<std::uint64_t> worlds_needed;  // to tell, if the shares stay as they are
 };
 
 struct CellChange {
@@ -39,21 +43,20 @@ struct CellChange {
 
 struct Comparison {
   std::string old_agent, new_agent;
-  bool paired = false;
-  std::string why_unpaired;  // if not paired
-  std::uint64_t worlds = 0;  // compared; of an unpaired comparison those of the smaller release
+  std::vector<std::string> other_conditions;  // in which the campaigns differ: then nothing can be told
+  std::vector<std::string> doubts;            // for which no release is said to be as good as the other or better
+  bool same_worlds = false;                   // both have the same seed
+  std::uint64_t worlds = 0;                   // that both have, compared in pairs
   std::vector<EndPointChange> end_points;
   double old_transports_per_agv_hour = 0.0, new_transports_per_agv_hour = 0.0;
-  std::uint64_t slower_worlds = 0, faster_worlds = 0;       // of a paired comparison
-  std::vector<CellChange> cells;                            // of a paired comparison: those with a change
-  std::vector<std::uint64_t> newly_failing, newly_passing;  // of a paired comparison: run indices in the new release
+  std::vector<CellChange> cells;                            // in the same worlds: those with a change
+  std::vector<std::uint64_t> newly_failing, newly_passing;  // in the same worlds: run indices in the new release
 
   bool any(Change change) const;
 };
 
-// Runs are paired if both releases ran in the same worlds and cells; then the worlds that both have
-// are compared, McNemar's test decides, and cells share worlds, so that the world is the unit. Otherwise Fisher's exact
-// test compares the shares of failing worlds.
+// Replicate i is compared with replicate i. If both campaigns have the same seed, these are the same worlds, and few
+// are needed; the rule holds for other seeds, too.
 Comparison compare(const ReleaseRuns& old_release, const ReleaseRuns& new_release, const ComparisonRule& rule);
 
 }  // namespace fleetproof

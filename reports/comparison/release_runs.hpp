@@ -10,16 +10,17 @@
 
 namespace fleetproof {
 
-// The end points that two releases are compared on. Throughput is compared for itself.
+// The end points that two releases are compared on. Throughput is that of a whole world.
 inline constexpr std::array kComparedEndPoints{EndPoint::Violation, EndPoint::Contact,    EndPoint::Deadlock,
                                                EndPoint::Livelock,  EndPoint::Starvation, EndPoint::WrongLoad,
-                                               EndPoint::Crash,     EndPoint::Hang};
+                                               EndPoint::Crash,     EndPoint::Hang,       EndPoint::Throughput};
 
 // What a comparison needs of one run.
 struct ComparedRun {
   std::uint64_t run_index = 0;
   std::array<RunResult, kComparedEndPoints.size()> results{};
   std::uint64_t transports_done = 0, agv_us = 0;
+  bool repeats = false;  // an earlier run of its cell had the same trace
 
   bool is_clean() const;  // no end point failed or stayed unknown
 };
@@ -31,6 +32,8 @@ struct ReleaseRuns {
   CampaignRecord campaign;
   std::vector<CellRecord> cells;                     // of this agent
   std::vector<std::vector<ComparedRun>> replicates;  // [replicate][cell of this agent]
+  std::uint64_t audited = 0, differing = 0;          // of its runs
+  bool has_unplaced_repeats = false;                 // some runs repeat others, and the file does not say which
 };
 
 // The agents that an archive can compare: those whose gates decide; all agents if no gate does.

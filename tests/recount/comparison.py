@@ -1,12 +1,9 @@
-"""The comparison with a baseline: pairs of worlds, exact tests, and the interval of the difference."""
-from math import comb
-from fractions import Fraction
-
+"""The comparison with a baseline: pairs of worlds, and what may be said of them at any time."""
 import wording as w
-from bounds import fixed_share
 
-END_POINTS = ("violation", "contact", "deadlock", "livelock", "starvation", "wrong-load", "crash", "hang")
-RISK, MARGIN = 0.05, 0.05
+END_POINTS = ("violation", "contact", "deadlock", "livelock", "starvation", "wrong-load", "crash", "hang", "throughput")
+RISK, MARGIN, STEPS = 0.05, 0.05, 4096
+PASSED, FAILED, UNKNOWN = 0, 1, 2
 
 
 def agents_under_test(archive):
@@ -17,28 +14,69 @@ def cells_of(archive, agent):
     return [cell["cell"] for cell in archive.cells if cell["agent"] == agent]
 
 
-def failing_worlds(archive, agent, end_point):
-    """Worlds in which the agent failed, or in which it stayed unknown whether it did."""
-    return {row["replicate"] for row in archive.results(end_point, cells_of(archive, agent)) if row["result"]}
+class World:
+    """One replicate of one release: its result at the end point, its work, and whether a run of it is new to its cell."""
+
+    def __init__(self):
+        self.result, self.transports, self.agv_us, self.is_new = PASSED, 0, 0, False
+
+    def is_slower_than(self, other):
+        return self.transports * other.agv_us * 10 < other.transports * self.agv_us * 9
 
 
-def at_least(successes, trials):
-    """P(X >= successes) of a fair coin, exactly."""
-    return Fraction(sum(comb(trials, i) for i in range(successes, trials + 1)), 2**trials)
+def worlds_of(archive, agent, end_point):
+    worlds = [World() for _ in range(archive.replicates)]
+    for row in archive.results(end_point if end_point != "throughput" else "crash", cells_of(archive, agent)):
+        world = worlds[row["replicate"]]
+        if end_point != "throughput" and row["result"] != PASSED and world.result != FAILED:
+            world.result = row["result"]
+        world.transports += row["transports_done"]
+        world.agv_us += row["agv_us"]
+        world.is_new |= not row["repeats"]
+    return worlds
 
 
-def hypergeometric(first, first_of, second, second_of):
-    """P(first or fewer failures in the first group), given the margins."""
-    failing, everyone = first + second, comb(first_of + second_of, first + second)
-    return Fraction(sum(comb(first_of, i) * comb(second_of, failing - i) for i in range(0, first + 1)
-                        if failing - i <= second_of), everyone)
+def pairs_of(old, new, agent, end_point):
+    """(result before, result now, whether the pair is new) of each replicate that both have."""
+    pairs = []
+    for before, now in zip(worlds_of(old, agent, end_point), worlds_of(new, agent, end_point)):
+        results = before.result, now.result
+        if end_point == "throughput":
+            results = int(before.is_slower_than(now)), int(now.is_slower_than(before))
+        pairs.append((*results, before.is_new or now.is_new))
+    return pairs
 
 
-def difference(one, one_of, other, other_of, risk):
-    """Bounds of share(one) - share(other), each part with half of the risk."""
-    lower_one, upper_one = fixed_share(one, one_of, risk / 2)
-    lower_other, upper_other = fixed_share(other, other_of, risk / 2)
-    return lower_one - upper_other, upper_one - lower_other
+def differences(pairs, in_doubt_for_old):
+    """New minus old. What is unknown may have been anything: it counts for the old release, or for the new one."""
+    for before, now, is_new in pairs:
+        most_now, least_before = now != PASSED, before == FAILED
+        least_now, most_before = now == FAILED, before != PASSED
+        yield (most_now - least_before if in_doubt_for_old else least_now - most_before), is_new
+
+
+def shows(steps, bets):
+    """Whether the mean of the three products reaches 1 / RISK at some time. Steps: what speaks for the claim."""
+    money = [1.0] * len(bets)
+    for step, is_new in steps:
+        if step > 0.0 and not is_new:
+            continue
+        money = [each * (1.0 + bet * step) for each, bet in zip(money, bets)]
+        if sum(money) / len(money) * (1.0 - 1e-6) >= 1.0 / RISK:
+            return True
+    return False
+
+
+def not_worse_by(margin, found):
+    return shows([(margin - difference, is_new) for difference, is_new in found], (0.25, 0.5, 1.0))
+
+
+def bound(found):
+    low, high = 0, STEPS
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if not_worse_by(middle / STEPS, found) else (middle, high)
+    return high / STEPS
 
 
 def signed(share, upwards):
@@ -46,40 +84,47 @@ def signed(share, upwards):
     return ("-" if share < 0.0 else "+") + text
 
 
-def row_of(old, new, agent, end_point, paired):
+def counted(results):
+    failed, unknown = results.count(FAILED), results.count(UNKNOWN)
+    return f"{failed} + {unknown}" if unknown else str(failed)
+
+
+def row_of(old, new, agent, end_point, may_tell, in_doubt):
     """The row of an end point, without the number of worlds that would tell."""
-    before, now = failing_worlds(old, agent, end_point), failing_worlds(new, agent, end_point)
-    old_worlds, new_worlds = old.replicates, new.replicates
-    if paired:
-        old_worlds = new_worlds = min(old_worlds, new_worlds)
-        before, now = ({world for world in worlds if world < old_worlds} for worlds in (before, now))
-        only_old, only_new = len(before - now), len(now - before)
-        worse, improved = (at_least(count, only_old + only_new) for count in (only_new, only_old))
-        parts = (only_new, new_worlds, only_old, old_worlds)
-    else:
-        only_old = only_new = "-"
-        worse = hypergeometric(len(before), old_worlds, len(now), new_worlds)
-        improved = hypergeometric(len(now), new_worlds, len(before), old_worlds)
-        parts = (len(now), new_worlds, len(before), old_worlds)
-    lower, upper = difference(*parts, RISK / 2)
+    pairs = pairs_of(old, new, agent, end_point)
+    most, least = list(differences(pairs, True)), list(differences(pairs, False))
     change = "cannot tell"
-    if worse <= RISK:
+    if may_tell and shows(least, (0.25, 0.5, 0.9)):
         change = "worse"
-    elif improved <= RISK:
+    elif may_tell and not in_doubt and shows([(-step, is_new) for step, is_new in most], (0.25, 0.5, 0.9)):
         change = "improved"
-    elif difference(*parts, RISK)[1] <= MARGIN:
+    elif may_tell and not in_doubt and not_worse_by(MARGIN, most):
         change = "not worse within the margin"
-    return [agent, end_point, change, f"{len(before)}/{old_worlds}", f"{len(now)}/{new_worlds}", str(only_old),
-            str(only_new), f"[{signed(lower, False)}, {signed(upper, True)}]"]
+    only_old = sum(before == FAILED and now != FAILED for before, now, _ in pairs)
+    only_new = sum(now == FAILED and before != FAILED for before, now, _ in pairs)
+    lower, upper = -bound([(-step, is_new) for step, is_new in least]), bound(most)
+    return [agent, end_point, change, counted([pair[0] for pair in pairs]), counted([pair[1] for pair in pairs]),
+            str(only_old), str(only_new), f"[{signed(lower, False)}, {signed(upper, True)}]"]
 
 
 def newly_failing(old, new, agent):
-    """Runs of the new release that fail at some end point, where the run of the old one did not."""
+    """Runs of the new release that fail at an end point where the run of the old one did not; and how many pass that
+    did not before."""
     worlds = min(old.replicates, new.replicates)
-    places = []
+    results = []  # by release: place -> result by end point
+    runs = {}
     for archive in (old, new):
-        own = cells_of(archive, agent)
-        places.append({(row["replicate"], own.index(row["cell"])): row["run_index"] for end_point in END_POINTS
-                       for row in archive.results(end_point, own) if row["result"] and row["replicate"] < worlds})
-    before, now = places
-    return sorted(now[place] for place in now.keys() - before.keys()), len(before.keys() - now.keys())
+        own, found = cells_of(archive, agent), {}
+        for end_point in END_POINTS[:-1]:
+            for row in archive.results(end_point, own):
+                if row["replicate"] < worlds:
+                    place = row["replicate"], own.index(row["cell"])
+                    found.setdefault(place, {})[end_point] = row["result"]
+                    runs[place] = row["run_index"]
+        results.append(found)
+    before, now = results
+    failing = {place for place in now if any(now[place][point] == FAILED and before[place][point] != FAILED
+                                             for point in now[place])}
+    passing = [place for place in now if place not in failing and not any(now[place].values())
+               and any(before[place].values())]
+    return sorted(runs[place] for place in failing), len(passing)

@@ -164,14 +164,15 @@ def check_html(archive, sections):
 
 
 def check_comparison(old, new, page, section):
-    """Both archives have the same agents and cells; whether the runs are paired, the page says."""
+    """Both archives have the same agents and cells; whether their conditions are the same, the page says."""
     sentences = [plain(text) for text in section.sentences]
-    paired = any(f"paired, because both ran in the same {min(old.replicates, new.replicates)} worlds" in text
-                 for text in sentences)
+    said = " ".join(sentences)
+    same_worlds = f"both ran in the same {min(old.replicates, new.replicates)} worlds" in said
+    may_tell, in_doubt = "nothing can be told: the campaigns differ in" not in said, "Doubt: " in said
     agents = c.agents_under_test(new)
-    expected = [c.row_of(old, new, agent, end_point, paired) for agent in agents for end_point in c.END_POINTS]
+    expected = [c.row_of(old, new, agent, end_point, may_tell, in_doubt) for agent in agents for end_point in c.END_POINTS]
     same_rows(page, "Compared with the baseline", section, expected, 8)
-    for agent in agents if paired else []:
+    for agent in agents if same_worlds else []:
         failing, passing = c.newly_failing(old, new, agent)
         told = f"{agent}: newly failing: {count(len(failing), 'run')}; newly passing: {count(passing, 'run')}."
         if told not in sentences:
