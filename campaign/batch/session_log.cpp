@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -110,6 +111,11 @@ void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs,
                {"cpu", machine.cpu},
                {"cpu_has", machine.instructions},
                {"libraries", engine_identity().libraries + ", " + machine.c_library}};
+  if (!facts.attempt.empty()) {
+    line["attempt"] = facts.attempt;
+    line["ledger_line"] = facts.ledger_line.number;
+    line["ledger_hash"] = fmt::format("{:016x}", facts.ledger_line.hash);
+  }
   if (!facts.shard.empty()) {
     line["shard"] = facts.shard;
     line["shard_source"] = facts.shard_source;
@@ -157,6 +163,21 @@ std::string last_text(const std::string& archive_path, const char* key) {
 }  // namespace
 
 std::string remembered_ledger(const std::string& archive_path) { return last_text(archive_path, "ledger"); }
+
+std::string remembered_attempt(const std::string& archive_path) { return last_text(archive_path, "attempt"); }
+
+std::optional<LogLine> remembered_ledger_line(const std::string& archive_path) {
+  std::ifstream file(session_log_path(archive_path));
+  std::optional<LogLine> found;
+  for (std::string line; std::getline(file, line);) {
+    const Json json = read_json(line);
+    if (!json.is_object() || !json.contains("ledger_line") || !json.contains("ledger_hash")) continue;
+    const Json &number = json["ledger_line"], &hash = json["ledger_hash"];
+    if (!number.is_number_unsigned() || !hash.is_string()) continue;
+    found = LogLine{number.get<std::uint64_t>(), std::strtoull(hash.get<std::string>().c_str(), nullptr, 16)};
+  }
+  return found;
+}
 
 std::string remembered_shard(const std::string& archive_path) { return last_text(archive_path, "shard"); }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "campaign/batch/campaign.hpp"
+#include "storage/line_log.hpp"
 
 namespace fleetproof {
 
@@ -14,6 +15,8 @@ struct SessionFacts {
   std::string ledger, overrides, shard{}, shard_source{};
   std::string release{};  // campaign/run/release.hpp
   bool fresh_seed = false;
+  std::string attempt{};  // its id, and the line of the ledger with which it began
+  LogLine ledger_line{};
 };
 
 // Of a shard: how many chunks it has, and how many of them are published.
@@ -42,6 +45,9 @@ std::string remembered_plugin(const std::string& archive_path, const std::string
 
 // The ledger that the last session wrote to; empty: no session says so.
 std::string remembered_ledger(const std::string& archive_path);
+// The attempt of the last session that names one, and the line of the ledger with which it began; empty: none does.
+std::string remembered_attempt(const std::string& archive_path);
+std::optional<LogLine> remembered_ledger_line(const std::string& archive_path);
 // The shard of the last session, as "3/8"; empty: it was none.
 std::string remembered_shard(const std::string& archive_path);
 // The release that the last shard tested, and whether its seed was a fresh one. Empty: no shard says so.

@@ -45,21 +45,27 @@ AttemptLog::AttemptLog(const std::string& ledger, const Campaign& campaign)
     require_appendable(ledger_.path(), "change the permissions, or name another ledger by --ledger");
 }
 
+const Attempt* AttemptLog::earlier() const {
+  const std::string remembered = remembered_attempt(attempt_.archive);
+  const Attempt* found = nullptr;
+  for (const Attempt& each : ledger_.attempts()) {
+    if (each.worlds != attempt_.worlds) continue;
+    if (each.id == remembered) return &each;
+    if (each.archive == attempt_.archive || (each.release == attempt_.release && !each.replaced)) found = &each;
+  }
+  return found;
+}
+
 void AttemptLog::begin() {
   if (!is_claim_) return;
-  if (goes_on_) {
-    const auto& attempts = ledger_.attempts();
-    const auto found = std::ranges::find_if(attempts.rbegin(), attempts.rend(), [&](const Attempt& earlier) {
-      return earlier.archive == attempt_.archive && earlier.worlds == attempt_.worlds;
-    });
-    if (found != attempts.rend()) {
-      attempt_.id = found->id;
-      return;
-    }
+  if (const Attempt* known = goes_on_ ? earlier() : nullptr) {
+    attempt_.id = known->id;
+    attempt_.line = known->line;
+    return;
   }
   attempt_.id = random_id();
   attempt_.begun_utc = goes_on_ ? "" : utc_now();
-  ledger_.begin(attempt_, overwrites_);
+  attempt_.line = ledger_.begin(attempt_, overwrites_);
 }
 
 void AttemptLog::end(const ReportInput& input) {
@@ -72,11 +78,16 @@ void AttemptLog::end(const ReportInput& input) {
 void add_history(ReportInput& input, const std::string& ledger) {
   std::string path = ledger.empty() ? remembered_ledger(input.archive_path) : ledger;
   if (ledger.empty() && !std::filesystem::exists(path)) path = default_ledger(input.archive_path);
+  const std::optional<LogLine> begin = remembered_ledger_line(input.archive_path);
+  input.attempts.ledger_lost_line = begin.has_value();
   try {
-    input.attempts = attempt_history(AttemptLedger(path), input.campaign);
+    const AttemptLedger known(path);
+    input.attempts = attempt_history(known, input.campaign);
+    input.attempts.ledger_lost_line = begin && !known.has(*begin);
   } catch (const InputError&) {
     if (!ledger.empty()) throw;  // nobody named it: a foreign file of this name tells nothing, and stops no report
   }
+  input.attempts.has_session_log = std::filesystem::exists(session_log_path(input.archive_path));
   input.attempts.looks = looks_at(input.archive_path);
   input.sensitivity = sensitivity_beside(input.archive_path, input.campaign);
   input.findings = findings_beside(input.archive_path, input.campaign.plan_hash, input.stored_runs);

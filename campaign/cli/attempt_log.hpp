@@ -22,12 +22,18 @@ class AttemptLog {
   // ledger.
   AttemptLog(const std::string& ledger, const Campaign& campaign);
 
-  // When the results file is open, before `end`. A campaign that goes on is the same attempt.
+  // When the results file is open, before `end`. A campaign that goes on is the same attempt, even if its file was
+  // moved since.
   void begin();
+  // What the session log keeps of it, once it has begun; empty and 0 if it is none.
+  const std::string& id() const { return attempt_.id; }
+  const LogLine& line() const { return attempt_.line; }
   void end(const ReportInput& input);
   const std::string& path() const { return ledger_.path(); }
 
  private:
+  const Attempt* earlier() const;  // of this campaign, which goes on
+
   AttemptLedger ledger_;
   Attempt attempt_;
   bool is_claim_, goes_on_, overwrites_;

@@ -79,8 +79,12 @@ int merge(MergeWords words) {
   // Before the file gets its name: a merge that is killed behind that is an attempt, too.
   const auto begin = [&] {
     copy_session_logs(chunks, words.archive);
-    session.begin({}, AgentPrograms(), {.ledger = attempt.path(), .overrides = remembered_overrides(words.archive)});
     attempt.begin();
+    session.begin({}, AgentPrograms(),
+                  {.ledger = attempt.path(),
+                   .overrides = remembered_overrides(words.archive),
+                   .attempt = attempt.id(),
+                   .ledger_line = attempt.line()});
   };
   result.stored = result.progress.done = merge_chunks(chunks, words.archive,
                                                       {.overwrite = words.overwrite,

@@ -26,10 +26,16 @@ bool had_other_luck(const Attempt& attempt, const Attempt& own) {
          attempt.verdict != own.verdict;
 }
 
+// Older programs did not note the conditions.
+bool is_same_plan(const Attempt& attempt, const Attempt& own) {
+  return attempt.conditions.empty() ? attempt.worlds == own.worlds : attempt.conditions == own.conditions;
+}
+
 std::string told(const Attempt& attempt) {
   const std::string state = attempt.ended_utc.empty() ? "aborted or still under way" : attempt.verdict;
-  return fmt::format("seed {}, plan digest {}: {}{}", attempt.seed, hex_text(attempt.plan_hash), printable(state, 40),
-                     attempt.replaced ? ", overwritten" : "");
+  return fmt::format("{}seed {}, plan digest {}: {}{}",
+                     attempt.agents.empty() ? "" : printable(attempt.agents, 60) + ", ", attempt.seed,
+                     hex_text(attempt.plan_hash), printable(state, 40), attempt.replaced ? ", overwritten" : "");
 }
 
 }  // namespace
@@ -41,6 +47,7 @@ AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord
   if (attempts.empty()) return history;
   history.ledger = ledger.path();
   history.broken_lines = ledger.broken_lines();
+  history.first_foreign_line = ledger.first_foreign_line();
   for (const Attempt& attempt : attempts) {
     if (history.since_utc.empty()) history.since_utc = attempt.begun_utc;
   }
@@ -52,50 +59,92 @@ AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord
   history.own = *own;
   for (auto attempt = attempts.begin(); attempt != attempts.end(); ++attempt) {
     const bool same_release = attempt->release == own->release, same_worlds = attempt->worlds == own->worlds;
-    if (same_release && same_worlds && had_other_luck(*attempt, *own)) history.others.push_back(*attempt);
-    if (same_worlds == same_release) continue;
-    if (!same_release) {
-      if (attempt < own.base() - 1) history.same_worlds.push_back(*attempt);
-      continue;
+    if (same_release) {
+      if (same_worlds && !had_other_luck(*attempt, *own)) continue;
+      if (!same_worlds)
+        std::erase_if(history.others, [&](const Attempt& other) { return other.worlds == attempt->worlds; });
+      history.others.push_back(*attempt);
+    } else if (is_same_plan(*attempt, *own)) {
+      std::erase_if(history.by_other_software, [&](const Attempt& other) {
+        return other.release == attempt->release && other.seed == attempt->seed;
+      });
+      history.by_other_software.push_back(*attempt);
+      if (attempt->seed == own->seed && attempt < own.base() - 1) history.same_worlds.push_back(*attempt);
     }
-    std::erase_if(history.others, [&](const Attempt& other) { return other.worlds == attempt->worlds; });
-    history.others.push_back(*attempt);
   }
   return history;
 }
 
+namespace {
+
+// The last of them, and how many more there are.
+std::string told(const std::vector<Attempt>& attempts) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < std::min(kMostTold, attempts.size()); ++i)
+    words.push_back(told(attempts[attempts.size() - 1 - i]));
+  if (attempts.size() > kMostTold) words.push_back(fmt::format("{} more", attempts.size() - kMostTold));
+  return joined(words, "; ");
+}
+
+std::string others_sentence(const AttemptHistory& history, double risk) {
+  const auto& others = history.others;
+  if (others.empty()) {
+    return "Earlier attempts unknown: the ledger names no other attempt for this release" +
+           (history.since_utc.empty() ? "." : fmt::format(", and begins on {}.", history.since_utc));
+  }
+  const double all = std::min(1.0, risk * static_cast<double>(others.size() + 1));
+  return fmt::format(
+      "The ledger names {} attempts for this release: this one and {} ({}). The bounds hold for one attempt and are "
+      "not adjusted for their number: a limit that is not met is demonstrated by one attempt in at most {} of cases, "
+      "by one of {} in up to {}.",
+      others.size() + 1, count_text(others.size(), "other"), told(others), percent(risk), others.size() + 1,
+      percent(all));
+}
+
+// A new name, another parameter or one more byte makes other software.
+std::string software_sentence(const AttemptHistory& history, double risk) {
+  const auto& attempts = history.by_other_software;
+  if (attempts.empty()) return "";
+  const std::size_t tries = attempts.size() + history.others.size() + 1;
+  return fmt::format(
+      " It names {} at the same plan by other software ({}). If some of that is the same under another name, these are "
+      "attempts, too: a limit that is not met is then demonstrated by one of {} in up to {}.",
+      count_text(attempts.size(), "attempt"), told(attempts), tries,
+      percent(std::min(1.0, risk * static_cast<double>(tries))));
+}
+
+std::string trouble_sentences(const AttemptHistory& history) {
+  std::string text;
+  if (!history.has_session_log)
+    text += " There is no session log beside the results file: who made it, when, and by which ledger is not known.";
+  if (history.ledger_lost_line)
+    text +=
+        " The session log names a line of a ledger that is not there: the ledger is missing, or was changed or "
+        "replaced since.";
+  if (history.first_foreign_line)
+    text += fmt::format(" Line {} of the ledger does not follow the line before it: somebody has changed the ledger.",
+                        *history.first_foreign_line);
+  if (history.broken_lines > 0)
+    text += fmt::format(" {} of the ledger cannot be read.", count_text(history.broken_lines, "line"));
+  return text;
+}
+
+}  // namespace
+
 std::string attempts_sentence(const AttemptHistory& history, double risk) {
   if (is_unreadable(history.ledger))
-    return fmt::format("Earlier attempts unknown: the ledger {} cannot be read.", printable(history.ledger));
+    return fmt::format("Earlier attempts unknown: the ledger {} cannot be read.", printable(history.ledger)) +
+           trouble_sentences(history);
   if (history.ledger.empty() || !history.own)
-    return "Earlier attempts unknown: no ledger of attempts tells of this campaign.";
-  const auto& others = history.others;
-  std::string text;
-  if (others.empty()) {
-    text = "Earlier attempts unknown: the ledger names no other attempt for this release" +
-           (history.since_utc.empty() ? "." : fmt::format(", and begins on {}.", history.since_utc));
-  } else {
-    std::vector<std::string> words;
-    for (std::size_t i = 0; i < std::min(kMostTold, others.size()); ++i)
-      words.push_back(told(others[others.size() - 1 - i]));
-    if (others.size() > kMostTold) words.push_back(fmt::format("{} more", others.size() - kMostTold));
-    const double all = std::min(1.0, risk * static_cast<double>(others.size() + 1));
-    text = fmt::format(
-        "The ledger names {} attempts for this release: this one and {} ({}). The bounds hold for one attempt and are "
-        "not adjusted for their number: a limit that is not met is demonstrated by one attempt in at most {} of cases, "
-        "by one of {} in up to {}.",
-        others.size() + 1, count_text(others.size(), "other"), joined(words, "; "), percent(risk), others.size() + 1,
-        percent(all));
-  }
+    return "Earlier attempts unknown: no ledger of attempts tells of this campaign." + trouble_sentences(history);
+  std::string text = others_sentence(history, risk) + software_sentence(history, risk);
   if (!history.same_worlds.empty()) {
     text += fmt::format(
         " Another release was tried in the same worlds before ({}): failures that were mended since do not count as "
         "evidence. seed = \"fresh\" gives each release worlds of its own.",
         history.same_worlds.back().begun_utc.empty() ? "date unknown" : history.same_worlds.back().begun_utc);
   }
-  if (history.broken_lines > 0)
-    text += fmt::format(" {} of the ledger cannot be read.", count_text(history.broken_lines, "line"));
-  return text;
+  return text + trouble_sentences(history);
 }
 
 }  // namespace fleetproof

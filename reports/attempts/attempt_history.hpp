@@ -18,9 +18,14 @@ struct AttemptHistory {
   // For the same release: in other worlds, the last of each plan; and in the same worlds, those that ended after as
   // many runs with another verdict.
   std::vector<Attempt> others;
-  std::vector<Attempt> same_worlds;  // of other releases, begun before
+  // At the same plan by other software, of whatever name, the last of each software and seed. `same_worlds`: those in
+  // the same worlds that began before.
+  std::vector<Attempt> by_other_software, same_worlds;
   std::uint64_t broken_lines = 0;
+  std::optional<std::uint64_t> first_foreign_line{};  // of the ledger, which somebody has changed
   // The session log beside the results file tells these; a caller adds them.
+  bool has_session_log = true;
+  bool ledger_lost_line = false;  // the ledger has not the line that the session log names: it is gone or another one
   std::optional<std::uint64_t> looks{};  // at the results; absent: not known
   std::string overrides{};               // options of a session that changed the plan, as typed
 };

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "storage/line_log.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -19,15 +20,20 @@ struct Attempt {
   std::string software;              // digest of everything that computed the runs
   // Digest of the plan without its name and, unless a gate is of the method fixed, its number of replicates.
   std::string worlds;
+  // The same without seed, agents and gates' names: what any software may be tried under. Empty: an older program
+  // began the attempt.
+  std::string conditions;
   std::uint64_t seed = 0, plan_hash = 0, runs = 0;
   std::uint64_t planned_runs = 0;  // when it began
   std::string verdict;
   bool fresh_seed = false;  // the seed follows from release and plan: nobody chose it
   bool replaced = false;    // a later attempt overwrote its results file
+  std::string agents;       // under test
+  LogLine line;             // that of its begin
 };
 
 // The ledger of a folder, or of a release: one line of JSON when an attempt begins, and one when a session of it ends.
-// Lines are only ever appended. Threads: one.
+// Lines are only ever appended, and each names the hash of the one before it. Threads: one.
 class AttemptLedger {
  public:
   // Throws InputError if the file exists and is no ledger.
@@ -37,17 +43,23 @@ class AttemptLedger {
   // In the order in which they began. Lines that cannot be read are left out and counted.
   const std::vector<Attempt>& attempts() const { return attempts_; }
   std::uint64_t broken_lines() const { return broken_lines_; }
+  // The number of the first line that does not name the hash of the line before it: somebody has changed the file.
+  std::optional<std::uint64_t> first_foreign_line() const { return first_foreign_line_; }
+  bool has(const LogLine& line) const;
 
   // Both throw MachineError if the ledger cannot be written.
-  void begin(const Attempt& attempt, bool overwrites);
+  LogLine begin(const Attempt& attempt, bool overwrites);
   void end(const Attempt& attempt);
 
  private:
   void take(const std::string& line);
 
   std::string path_;
+  std::vector<std::uint64_t> hashes_;  // of its lines
+  std::optional<std::uint64_t> first_foreign_line_;
   std::vector<Attempt> attempts_;
   std::uint64_t broken_lines_ = 0;
+  bool is_chained_ = false;
 };
 
 // "attempts.jsonl" beside the results file.

@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "reports/attempts/attempt_section.hpp"
@@ -120,11 +123,109 @@ TEST_F(Attempts, OfAnotherReleaseInTheSameWorldsAreTold) {
   EXPECT_THAT(sentence(campaign(1, "aa")), Not(HasSubstr("Another release"))) << "it came later";
 }
 
-TEST_F(Attempts, OfAnotherReleaseInOtherWorldsAreNoAttemptsOfThisOne) {
+// A new name, another parameter or one more byte makes another release of the same software.
+TEST_F(Attempts, AtTheSamePlanByOtherSoftwareAreNamedAndCounted) {
   tried(1, "violated", "r1", "aa");
-  tried(2, "demonstrated", "r2", "bb");
-  EXPECT_THAT(sentence(campaign(2, "bb")), HasSubstr("names no other attempt"));
-  EXPECT_THAT(sentence(campaign(2, "bb")), Not(HasSubstr("Another release")));
+  tried(2, "violated", "r1", "aa");
+  tried(3, "demonstrated", "r2", "bb");
+  const std::string text = sentence(campaign(3, "bb"));
+  EXPECT_THAT(text, HasSubstr("names no other attempt for this release"));
+  EXPECT_THAT(text, HasSubstr("names 2 attempts at the same plan by other software (seed 2, plan digest "
+                              "0000000000000002: violated; seed 1, "));
+  EXPECT_THAT(text, HasSubstr("by one of 3 in up to 15 %"));
+  EXPECT_THAT(text, Not(HasSubstr("Another release"))) << "its worlds are others";
+  tried(4, "violated", "r2", "bb");
+  tried(3, "demonstrated", "r2", "bb");
+  EXPECT_THAT(sentence(campaign(3, "bb")), HasSubstr("by one of 4 in up to 20 %")) << "with those of this release";
+}
+
+TEST_F(Attempts, AtAnotherPlanByOtherSoftwareAreNone) {
+  const auto conditions = [](const std::string& plan) {
+    CampaignRecord record;
+    record.plan_json = plan;
+    return attempt_of(record).conditions;
+  };
+  const std::string plan = R"({"name":"n","seed":1,"replicates":3,"horizon_s":60,"agent_config":"x",)"
+                           R"("factors":{"agents":["a"],"loss":[0]},"gates":[{"name":"g","agent":"a","limit":0.1}]})";
+  for (const auto& [from, to] :
+       std::initializer_list<std::pair<std::string, std::string>>{{R"("agents":["a"])", R"("agents":["b"])"},
+                                                                  {R"("agent":"a")", R"("agent":"b")"},
+                                                                  {R"("name":"g")", R"("name":"h")"},
+                                                                  {R"("agent_config":"x")", R"("agent_config":"y")"},
+                                                                  {R"("seed":1)", R"("seed":2)"},
+                                                                  {R"("replicates":3)", R"("replicates":9)"}}) {
+    std::string other = plan;
+    EXPECT_EQ(conditions(other.replace(other.find(from), from.size(), to)), conditions(plan)) << to;
+  }
+  for (const auto& [from, to] :
+       std::initializer_list<std::pair<std::string, std::string>>{{R"("horizon_s":60)", R"("horizon_s":61)"},
+                                                                  {R"("loss":[0])", R"("loss":[0.1])"},
+                                                                  {R"("limit":0.1)", R"("limit":0.2)"}}) {
+    std::string other = plan;
+    EXPECT_NE(conditions(other.replace(other.find(from), from.size(), to)), conditions(plan)) << to;
+  }
+}
+
+std::vector<std::string> lines_of(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+void write_lines(const std::string& path, const std::vector<std::string>& lines) {
+  std::ofstream file(path);
+  for (const std::string& line : lines) file << line << "\n";
+}
+
+TEST_F(Attempts, OfALedgerThatSomebodyChangedAreToldSo) {
+  for (const std::uint64_t seed : {1, 2, 3}) tried(seed, "violated");
+  const auto lines = lines_of(path_);
+  ASSERT_EQ(lines.size(), 6U);
+  EXPECT_THAT(sentence(campaign(3)), Not(HasSubstr("changed the ledger")));
+  auto without = lines;
+  without.erase(without.begin(), without.begin() + 2);  // an attempt is taken out
+  write_lines(path_, without);
+  EXPECT_THAT(sentence(campaign(3)), HasSubstr("Line 1 of the ledger does not follow the line before it"));
+  auto other = lines;
+  other[1].replace(other[1].find("violated"), 8, "demonstr");
+  write_lines(path_, other);
+  EXPECT_THAT(sentence(campaign(3)), HasSubstr("Line 3 of the ledger"));
+  auto swapped = lines;
+  std::swap(swapped[0], swapped[2]);
+  write_lines(path_, swapped);
+  EXPECT_THAT(sentence(campaign(3)), HasSubstr("changed the ledger"));
+}
+
+TEST_F(Attempts, OfALedgerThatAnOlderProgramBeganGoOn) {
+  std::ofstream(path_) << R"({"attempt":"begins","id":"old","release":"r0","worlds":"w"})"
+                          "\n";
+  tried(1, "violated");
+  EXPECT_THAT(sentence(campaign(1)), Not(HasSubstr("changed the ledger")));
+  auto lines = lines_of(path_);
+  lines[0][15] = 'x';
+  write_lines(path_, lines);
+  EXPECT_THAT(sentence(campaign(1)), HasSubstr("Line 2 of the ledger"));
+}
+
+TEST_F(Attempts, HaveALineThatASessionLogCanName) {
+  AttemptLedger ledger(path_);
+  Attempt attempt = attempt_of(campaign(1));
+  attempt.id = "1";
+  const LogLine line = ledger.begin(attempt, false);
+  EXPECT_EQ(line.number, 1U);
+  tried(2, "violated");
+  EXPECT_TRUE(AttemptLedger(path_).has(line));
+  EXPECT_EQ(AttemptLedger(path_).attempts().front().line, line);
+  EXPECT_FALSE(AttemptLedger(path_).has({line.number, line.hash + 1}));
+  EXPECT_FALSE(AttemptLedger(path_).has({9, line.hash}));
+  EXPECT_FALSE(AttemptLedger(folder_ / "none.jsonl").has(line));
+  AttemptHistory history = attempt_history(AttemptLedger(path_), campaign(1));
+  history.ledger_lost_line = true;
+  history.has_session_log = false;
+  EXPECT_THAT(attempts_sentence(history, 0.05),
+              HasSubstr("The session log names a line of a ledger that is not there"));
+  EXPECT_THAT(attempts_sentence(history, 0.05), HasSubstr("There is no session log beside the results file"));
 }
 
 TEST_F(Attempts, InOtherWorldsCountOnceHoweverOftenTheyAreRepeated) {
