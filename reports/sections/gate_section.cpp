@@ -61,12 +61,17 @@ std::string region_text(Region region) {
   invariant_violated("a region has words");
 }
 
-// The region, and the cells that the gate names in it. If it names a loss or delay, "all cells" would mislead.
-std::string where_text(const GateRecord& gate) {
+// What was sampled in the region, and the cells that the gate names in it. If it names a loss or delay, "all cells"
+// would mislead.
+std::string where_text(const Evidence& evidence, std::size_t index) {
+  const GateRecord& gate = evidence.gates()[index];
+  const auto& cells = evidence.cells_of(index);
   const std::string named = filter_text(gate.where);
   const auto& factors = gate.where.factors;
   if (gate.region == Region::All && (factors[Factor::Loss] || factors[Factor::Delay])) return named;
-  return region_text(gate.region) + (named.empty() ? "" : ", " + named);
+  const bool says_sample = gate.region == Region::Contract && !cells.empty();
+  return (says_sample ? sampled_quality(evidence, cells) : region_text(gate.region)) +
+         (named.empty() ? "" : ", " + named);
 }
 
 // " (2400 AGV-hours)", as planned; and ", 12 distinct", if worlds repeat others.
@@ -95,7 +100,7 @@ std::vector<std::string> row(const ReportInput& input, std::size_t index) {
   std::string what = name_of(gate.end_point);
   if (gate.end_point == EndPoint::Throughput) what += fmt::format(" >= {:g}/AGV-h", gate.min_transports_per_agv_hour);
   if (!gate.requirement.empty()) what += " [" + printable(gate.requirement, 30) + "]";
-  std::vector<std::string> cells{printable(gate.agent, 40), what, where_text(gate)};
+  std::vector<std::string> cells{printable(gate.agent, 40), what, where_text(input.evidence, index)};
   if (result.claim) {
     cells.push_back(failed_of_units(result));
     cells.push_back(value_text(gate, result.claim->upper, rounded_up));

@@ -35,6 +35,19 @@ std::vector<Remark> stall_notes(const ReportInput& input) {
   return notes;
 }
 
+std::vector<Remark> foreign_code_notes(const ReportInput& input) {
+  std::vector<std::string> plugins;
+  for (const AgentAudit& audit : input.evidence.audits().agents()) {
+    if (audit.is_plugin && is_under_test(input.evidence.plan(), audit.agent))
+      plugins.push_back(printable(audit.agent, 40));
+  }
+  if (plugins.empty()) return {};
+  return {{fmt::format("{} {} in the process of the engine that judges: that is safe from accidents, and not from "
+                       "forgery. Nor is it seen whether software does otherwise on a vehicle than in simulation.",
+                       joined(plugins), plugins.size() == 1 ? "runs" : "run"),
+           ""}};
+}
+
 std::vector<Remark> soundness_notes(const ReportInput& input) {
   std::uint64_t audited = 0;
   bool in_doubt = input.evidence.engine_errors() > 0;

@@ -17,6 +17,10 @@ std::vector<Remark> stall_notes(const ReportInput& input);
 // says so.
 std::vector<Remark> soundness_notes(const ReportInput& input);
 
+// What no plug-in can be cleared of, for each agent under test that is one: forgery, and doing otherwise in simulation
+// than on a vehicle.
+std::vector<Remark> foreign_code_notes(const ReportInput& input);
+
 // Which planted faults these worlds detect, if that was measured, or why what was measured tells nothing.
 std::vector<Remark> sensitivity_notes(const ReportInput& input);
 

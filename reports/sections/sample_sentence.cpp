@@ -117,6 +117,26 @@ std::string held_world(const Evidence& evidence) {
 
 }  // namespace
 
+std::string sampled_quality(const Evidence& evidence, const std::vector<std::uint32_t>& cells) {
+  std::vector<std::string> words;
+  for (const Factor id : {Factor::Loss, Factor::Delay}) {
+    std::set<double> values;
+    bool is_drawn = false;
+    for (const std::uint32_t index : cells) {
+      const CellRecord& cell = evidence.cells()[index];
+      values.insert({cell.lowest[id], cell.highest[id]});
+      is_drawn |= cell.lowest[id] != cell.highest[id];
+    }
+    const FactorInfo& factor = info_of(id);
+    const double least = *values.begin(), most = *values.rbegin();
+    words.push_back(is_drawn ? within(factor, least, most)
+                    : values.size() > 2
+                        ? fmt::format("{} {} to {}", factor.name, factor_text(factor, least), factor_text(factor, most))
+                        : fmt::format("{} {}", factor.name, listed(factor, values)));
+  }
+  return joined(words, "; ");
+}
+
 std::string sampled(const Evidence& evidence, const std::vector<std::uint32_t>& cells) {
   std::set<Span> spans;
   std::set<std::string> layouts;

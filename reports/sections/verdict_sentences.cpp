@@ -114,6 +114,7 @@ Headline claim(const ReportInput& input) {
   headline.details.emplace_back().text =
       "A world (replicate) is one draw of all that is random. It is run in every cell (test condition).";
   std::ranges::move(soundness_notes(input), std::back_inserter(headline.details));
+  std::ranges::move(foreign_code_notes(input), std::back_inserter(headline.details));
   std::ranges::move(sensitivity_notes(input), std::back_inserter(headline.details));
   if (const std::string attempts = attempts_headline(input.attempts, input.evidence); !attempts.empty())
     headline.details.emplace_back().text = attempts;

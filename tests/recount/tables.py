@@ -102,6 +102,21 @@ def deciding_units(archive, gate, cells):
                                              count[1]))
 
 
+def sampled(archive, cells):
+    """"loss 0 %, 40 %; delay 1 s" of the cells of a gate, "loss 0 % to 40 %" of more than two values, or "loss <= 40 %"
+    if they were drawn."""
+    own = [cell for cell in archive.cells if cell["cell"] in cells]
+    words = []
+    for factor, (name, low, high) in enumerate((("loss", "loss", "loss_to"), ("delay", "delay_s", "delay_to_s"))):
+        values = sorted({cell[column] for cell in own for column in (low, high)})
+        shown = [w.span(factor, value, value) for value in values]
+        if any(cell[low] != cell[high] for cell in own):
+            words.append(f"{name} <= {shown[-1]}" if values[0] == 0.0 else f"{shown[0]} <= {name} <= {shown[-1]}")
+        else:
+            words.append(f"{name} " + (f"{shown[0]} to {shown[-1]}" if len(values) > 2 else ", ".join(shown)))
+    return "; ".join(words)
+
+
 def gate_rows(archive):
     """[(row without its verdict, gate, counts)]"""
     rows = []
@@ -112,7 +127,8 @@ def gate_rows(archive):
         what = gate["end_point"] + (f" >= {gate['min_transports_per_agv_hour']:g}/AGV-h" if gate["end_point"] ==
                                     "throughput" else "") + (f" [{gate['requirement']}]" if gate["requirement"] else "")
         named = w.named_cells(gate)
-        where = ", ".join(filter(None, (WHERE[gate["region"]], named)))
+        region = sampled(archive, cells) if gate["region"] == "contract" and cells else WHERE[gate["region"]]
+        where = ", ".join(filter(None, (region, named)))
         if gate["region"] == "all" and (gate["loss"], gate["delay_s"]) != (None, None):
             where = named
         row = [gate["agent"], what, where]

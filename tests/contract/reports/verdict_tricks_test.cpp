@@ -1,9 +1,10 @@
 // Campaigns that look green and are not, through the command line: worlds that repeat one world, audits that differ,
-// the order of cells, software without a gate.
+// the order of cells, software without a gate, ledgers with other names, comparisons under other conditions.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/contract/audits/audited_campaign.hpp"
 
@@ -141,6 +142,161 @@ TEST_F(VerdictTricks, SoftwareUnderTestWithoutAGateLeavesNothingDemonstrated) {
   write("c.toml", fmt::format(fmt::runtime(kPlain), ours + ", " + reference, 0.01, "ours", 0.2, "violation"));
   EXPECT_EQ(run("run c.toml --db f.db").exit_code, 0);
 }
+
+// ---- what software takes from its process
+
+// It is reckless or sound by the place of the program, by the number of its process, or by memory that it never wrote.
+TEST_F(VerdictTricks, ACoinThatFallsOnceForTheNightIsNoVerdict) {
+  for (const char* kind : {"coin-place", "coin-process", "coin-heap"}) {
+    write("c.toml", fmt::format("replicates = 60\nhorizon_s = 120\n[factors]\nagents = [{}]\nlayouts = "
+                                "[\"aisle-grid\"]\nfleet_sizes = [3]\nloss = [0.4]\ndelay_s = [2]\n[world]\n"
+                                "transports_per_agv_hour = 60\n[coverage]\nprobes = []\n[[gate]]\nname = \"g\"\n"
+                                "agent = \"{}\"\nlimit = 0.2\nmin_transports_per_agv_hour = 0.5\n",
+                                test::unsteady(kind), kind));
+    for (int time = 0; time < 3; ++time) EXPECT_NE(run("run c.toml --db c.db --overwrite").exit_code, 0) << kind;
+  }
+}
+
+// ---- the seam to foreign code
+
+std::string untidy(const std::string& kind, const std::string& name) {
+  return fmt::format("{{ file = \"{}\", name = \"{}\", config = \"{}\" }}", FLEETPROOF_UNTIDY_AGENT, name, kind);
+}
+
+TEST_F(VerdictTricks, APlugInThatRoundsUpwardChangesNoOtherSoftwareAndIsTold) {
+  write("c.toml", fmt::format(fmt::runtime(kPlain), untidy("rounding", "one") + ", " + untidy("none", "other"), 0.1,
+                              "other", 0.9, "violation"));
+  (void)run("run c.toml --db c.db -j 1");
+  const json report = json::parse(run("report c.db --format json --exit-zero").out);
+  EXPECT_EQ(report.at("audits").at(0).at("processor_changed_runs"), 60);
+  EXPECT_EQ(report.at("audits").at(1).at("processor_changed_runs"), 0);
+  EXPECT_THAT(run("report c.db --exit-zero").out,
+              HasSubstr("processor changed | agent one: in 60 runs it left another rounding"));
+  EXPECT_EQ(run("run c.toml --db folded.db --keep failing").exit_code, run("report c.db").exit_code);
+  EXPECT_EQ(json::parse(run("report folded.db --format json --exit-zero").out).at("audits"), report.at("audits"));
+}
+
+TEST_F(VerdictTricks, CallsFromAThreadOfTheAgentAreItsCrash) {
+  write("c.toml", fmt::format(fmt::runtime(kPlain), untidy("other-thread", "one"), 0.1, "one", 0.01, "crash"));
+  const auto finished = run("run c.toml --db c.db");
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_THAT(run("report c.db --format json").out, HasSubstr("called its controller from another thread"));
+}
+
+TEST_F(VerdictTricks, EveryClaimAboutAPlugInSaysWhatIsOutOfReach) {
+  write("c.toml", fmt::format(fmt::runtime(kPlain), untidy("none", "one"), 0.1, "one", 0.9, "violation"));
+  EXPECT_THAT(
+      run("run c.toml --db c.db").out,
+      HasSubstr("one runs in the process of the engine that judges: that is safe from accidents, and not from"));
+}
+
+// ---- the ledger
+
+std::string in_one_line(const std::string& text) { return std::regex_replace(text, std::regex("\\s+"), " "); }
+
+class LedgerTricks : public test::ProgramTest {
+ protected:
+  // A sound fleet under any name. The limit is not met by 60 worlds.
+  void try_as(const std::string& name, const std::string& config = "", int seed = 1) {
+    write("c.toml",
+          fmt::format("seed = {}\nreplicates = 10\nhorizon_s = 60\n[factors]\nagents = [{{ agent = \"hull-lock\", "
+                      "name = \"{}\", config = \"{}\", role = \"candidate\" }}]\nlayouts = [\"aisle-grid\"]\n"
+                      "fleet_sizes = [3]\nloss = [0.1]\ndelay_s = [0.1]\n[coverage]\nprobes = []\n[[gate]]\n"
+                      "name = \"gate of {}\"\nagent = \"{}\"\nlimit = 0.5\nmin_transports_per_agv_hour = 0\n",
+                      seed, name, config, name, name));
+    finished = run("run c.toml --db c.db --overwrite");
+    ASSERT_EQ(finished.exit_code, 0) << finished.out << finished.err;
+  }
+  std::string head() const { return in_one_line(run("report c.db").out); }
+
+  test::Finished finished;
+};
+
+TEST_F(LedgerTricks, AnotherNameParameterOrSeedHidesNoAttempt) {
+  try_as("one");
+  EXPECT_THAT(head(), HasSubstr("names no other attempt for this release"));
+  EXPECT_THAT(head(), testing::Not(HasSubstr("by other software")));
+  try_as("two");
+  EXPECT_THAT(head(), HasSubstr("names 1 attempt at the same plan by other software (one, seed 1"));
+  try_as("two", "zones_from=200");
+  EXPECT_THAT(head(), HasSubstr("names 2 attempts at the same plan by other software (two, seed 1"));
+  try_as("three", "", 2);
+  EXPECT_THAT(head(), HasSubstr("names 3 attempts at the same plan by other software"));
+}
+
+TEST_F(LedgerTricks, WhatIsMissingStandsAtTheHead) {
+  try_as("one");
+  try_as("two");
+  EXPECT_THAT(head(), testing::Not(HasSubstr("The session log names")));
+  const std::string ledger = read(path("attempts.jsonl"));
+  write("attempts.jsonl", ledger.substr(0, ledger.find('\n') + 1));
+  EXPECT_THAT(head(), HasSubstr("The session log names a line of a ledger that is not there"));
+  std::filesystem::remove(path("attempts.jsonl"));
+  EXPECT_THAT(head(), HasSubstr("The session log names a line of a ledger that is not there"));
+  write("attempts.jsonl", ledger.substr(ledger.find('\n', ledger.find('\n') + 1) + 1));
+  EXPECT_THAT(head(), HasSubstr("somebody has changed the ledger"));
+  write("attempts.jsonl", ledger);
+  std::filesystem::remove(path("c.sessions.jsonl"));
+  EXPECT_THAT(head(), HasSubstr("There is no session log beside the results file"));
+}
+
+TEST_F(LedgerTricks, TheBeginOfAFileThatWasMovedIsKnown) {
+  try_as("one");
+  const std::string begun = "was fixed before run 0, at 20";
+  EXPECT_THAT(head(), HasSubstr(begun));
+  std::filesystem::rename(path("c.db"), path("d.db"));
+  std::filesystem::rename(path("c.sessions.jsonl"), path("d.sessions.jsonl"));
+  EXPECT_THAT(in_one_line(run("report d.db").out), HasSubstr(begun));
+  EXPECT_EQ(run("run c.toml --db d.db --replicates 20").exit_code, 0);
+  EXPECT_THAT(in_one_line(run("report d.db").out), HasSubstr(begun));
+  EXPECT_THAT(in_one_line(run("report d.db").out), HasSubstr("names no other attempt for this release"));
+}
+
+// ---- comparisons
+
+struct Trick {
+  const char *name, *old_lines, *new_lines;  // agent, and what else differs
+  int exit_code;
+  const char* sentence;
+};
+
+class ComparisonTricks : public VerdictTricks, public testing::WithParamInterface<Trick> {};
+
+TEST_P(ComparisonTricks, HasItsExitCode) {
+  const Trick& trick = GetParam();
+  for (const auto& [name, lines] : {std::pair{"old", trick.old_lines}, {"new", trick.new_lines}}) {
+    const std::string all = lines, agent = all.substr(0, all.find('|')), more = all.substr(all.find('|') + 1);
+    write(std::string(name) + ".toml",
+          fmt::format("replicates = 90\ndefault_gates = false\n{}\n[factors]\nagents = [{{ {}, name = \"ours\" }}]\n"
+                      "layouts = [\"aisle-grid\"]\nfleet_sizes = [3]\nloss = [0.4]\ndelay_s = [2]\n[world]\n"
+                      "transports_per_agv_hour = 60\n",
+                      more, agent));
+    (void)run(fmt::format("run {0}.toml --db {0}.db", name));
+  }
+  const auto told = run("compare old.db new.db --fail-on-regression");
+  EXPECT_EQ(told.exit_code, trick.exit_code) << told.out << told.err;
+  EXPECT_THAT(told.out, HasSubstr(trick.sentence));
+}
+
+constexpr const char *kSound = "agent = \"hull-lock\"|horizon_s = 60",
+                     *kReckless = "agent = \"reckless\"|horizon_s = 60",
+                     *kCrashes = "file = \"failing.so\", config = \"abort 1\"|horizon_s = 60",
+                     *kParked = "agent = \"scripted\"|horizon_s = 300";
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, ComparisonTricks,
+    testing::Values(
+        Trick{"TheSame", kSound, kSound, 0, "violation   not worse within the margin: 0 -> 0"},
+        Trick{"AnOldReleaseThatAlwaysCrashes", kCrashes, kReckless, 4, "violation   cannot tell"},
+        Trick{"ANewReleaseThatAlwaysCrashes", kSound, kCrashes, 1, "crash       worse: 0 -> 90"},
+        Trick{"AReleaseThatIsWorse", kSound, kReckless, 1, "violation   worse: 0 -> "},
+        Trick{"AFleetThatIsParked", "agent = \"hull-lock\"|horizon_s = 300", kParked, 1, "throughput  worse: 0 -> "},
+        Trick{"AShorterRun", kSound, "agent = \"hull-lock\"|horizon_s = 50", 4, "the campaigns differ in horizon_s"},
+        Trick{"AnotherSeedAndAShorterRun", kSound, "agent = \"hull-lock\"|horizon_s = 50\nseed = 2", 4,
+              "the campaigns differ in horizon_s"},
+        Trick{"AnotherSeed", kSound, "agent = \"hull-lock\"|horizon_s = 60\nseed = 2", 0,
+              "90 worlds of each, drawn from other seeds"}),
+    [](const auto& trick) { return std::string(trick.param.name); });
 
 }  // namespace
 }  // namespace fleetproof::verdict_tricks_test
