@@ -302,8 +302,8 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^[^:]*: newly failing: [0-9]+ runs?; newly passing: ", compared_elsewhere),
     (r"^Newly failing: run [0-9]+", compared_elsewhere),
     (r"^[0-9]+ more newly failing runs", compared_elsewhere),
-    (r", compared with .* in .*: (not )?paired", compared_elsewhere),
-    (r"^before, now = .* \(95 % confidence\), .* below the margin of 5 %", constant),
+    (r", compared with .* in .*: (both ran in the same|[0-9]+ worlds of each|nothing can be told)", compared_elsewhere),
+    (r"^before, now = .* \(95 % confidence on either side, .* less than 90 % of .* below the margin of 5 %", constant),
     # Constants of the method and of the contract.
     (r"^Required: at least one in 20000 runs has to meet ", constant),
     (r"upper = one-sided upper bound at ([0-9.]+ %)", is_confidence),

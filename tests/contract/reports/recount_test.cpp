@@ -162,7 +162,7 @@ TEST_F(Recount, AComparisonWithABaseline) {
   samples::write_archive(path("old.db"), campaign, cells, gates, 60 * cells.size(), 0.01);
   const auto unpaired = shell(compared);
   EXPECT_EQ(unpaired.out, "\nno difference\n") << unpaired.err;
-  EXPECT_THAT(read(path("page.txt")), testing::HasSubstr("not paired: the seeds differ"));
+  EXPECT_THAT(read(path("page.txt")), testing::HasSubstr("drawn from other seeds"));
 }
 
 // The control: one figure that is off by one, in each kind of place.
