@@ -156,13 +156,13 @@ TEST_F(Recount, AComparisonWithABaseline) {
       test::source("tests/recount/recount.py") + "' a.db page.txt page.html old.db";
   const auto paired = shell(compared);
   EXPECT_EQ(paired.out, "\nno difference\n") << paired.err;
-  EXPECT_THAT(read(path("page.txt")), testing::HasSubstr("paired, because both ran in the same 55 worlds"));
+  EXPECT_THAT(read(path("page.html")), testing::HasSubstr("both ran in the same 55 worlds"));
   std::filesystem::remove(path("old.db"));
   campaign.seed += 1;
   samples::write_archive(path("old.db"), campaign, cells, gates, 60 * cells.size(), 0.01);
   const auto unpaired = shell(compared);
   EXPECT_EQ(unpaired.out, "\nno difference\n") << unpaired.err;
-  EXPECT_THAT(read(path("page.txt")), testing::HasSubstr("drawn from other seeds"));
+  EXPECT_THAT(read(path("page.html")), testing::HasSubstr("drawn from other seeds"));
 }
 
 // The control: one figure that is off by one, in each kind of place.
