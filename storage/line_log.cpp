@@ -32,13 +32,19 @@ class OpenLog {
     file_ = ::open(path.c_str(), access | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
     if (file_ < 0) fail(errno);
     struct stat status {};
-    if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode)) fail(ENOTSUP);
+    if (::fstat(file_, &status) == 0 && S_ISREG(status.st_mode)) return;
+    ::close(file_);
+    fail(ENOTSUP);
   }
   ~OpenLog() { ::close(file_); }
   OpenLog(const OpenLog&) = delete;
   OpenLog& operator=(const OpenLog&) = delete;
 
-  void lock() const { ::flock(file_, LOCK_EX); }  // until it is closed
+  void lock() const {  // until it is closed
+    while (::flock(file_, LOCK_EX) != 0) {
+      if (errno != EINTR) fail(errno);
+    }
+  }
   std::string read() const {
     std::string text;
     std::array<char, 65'536> part;
@@ -54,7 +60,6 @@ class OpenLog {
 
  private:
   [[noreturn]] void fail(int error) const {
-    if (file_ >= 0) ::close(file_);
     throw MachineError(fmt::format("{}: cannot be written ({}); the results file itself is as it was", path_,
                                    error == ENOTSUP ? "it is no regular file" : std::strerror(error)));
   }

@@ -75,6 +75,7 @@ void AuditQueue::hurry() {
 }
 
 void AuditQueue::abandon() {
+  stop_playing_ = true;
   if (runs_) runs_->abandon();
   const std::lock_guard lock(mutex_);
   abandoned_ = closing_ = true;
@@ -152,6 +153,7 @@ AuditedRun AuditQueue::finding_of(const RunRecord& record, std::uint64_t checksu
   if (record.recording.empty()) return found(record);
   RunWatch watch;
   watch.play = record.recording;
+  watch.abandon = &stop_playing_;
   try {
     return found(run_one_(record.run_index, nullptr, watch));
   } catch (const EngineError&) {  // what it did is not known

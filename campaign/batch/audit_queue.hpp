@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <map>
@@ -69,6 +70,7 @@ class AuditQueue {
   int hung_ = 0;
   std::size_t under_way_ = 0;
   bool closing_ = false, abandoned_ = false;
+  std::atomic<bool> stop_playing_ = false;
   std::vector<AuditedRun> findings_;
   std::string failure_;
   std::vector<std::thread> threads_;

@@ -166,15 +166,16 @@ std::string remembered_ledger(const std::string& archive_path) { return last_tex
 
 std::string remembered_attempt(const std::string& archive_path) { return last_text(archive_path, "attempt"); }
 
-std::optional<LogLine> remembered_ledger_line(const std::string& archive_path) {
+std::vector<LogLine> remembered_ledger_lines(const std::string& archive_path) {
+  const std::string ledger = remembered_ledger(archive_path);
   std::ifstream file(session_log_path(archive_path));
-  std::optional<LogLine> found;
+  std::vector<LogLine> found;
   for (std::string line; std::getline(file, line);) {
     const Json json = read_json(line);
     if (!json.is_object() || !json.contains("ledger_line") || !json.contains("ledger_hash")) continue;
     const Json &number = json["ledger_line"], &hash = json["ledger_hash"];
-    if (!number.is_number_unsigned() || !hash.is_string()) continue;
-    found = LogLine{number.get<std::uint64_t>(), std::strtoull(hash.get<std::string>().c_str(), nullptr, 16)};
+    if (!number.is_number_unsigned() || !hash.is_string() || json.value("ledger", "") != ledger) continue;
+    found.push_back({number.get<std::uint64_t>(), std::strtoull(hash.get<std::string>().c_str(), nullptr, 16)});
   }
   return found;
 }

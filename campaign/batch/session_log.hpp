@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "campaign/batch/campaign.hpp"
 #include "storage/line_log.hpp"
@@ -45,9 +46,10 @@ std::string remembered_plugin(const std::string& archive_path, const std::string
 
 // The ledger that the last session wrote to; empty: no session says so.
 std::string remembered_ledger(const std::string& archive_path);
-// The attempt of the last session that names one, and the line of the ledger with which it began; empty: none does.
+// The attempt of the last session that names one; empty: none does.
 std::string remembered_attempt(const std::string& archive_path);
-std::optional<LogLine> remembered_ledger_line(const std::string& archive_path);
+// The lines with which the attempts of all sessions began, in the ledger of the last one.
+std::vector<LogLine> remembered_ledger_lines(const std::string& archive_path);
 // The shard of the last session, as "3/8"; empty: it was none.
 std::string remembered_shard(const std::string& archive_path);
 // The release that the last shard tested, and whether its seed was a fresh one. Empty: no shard says so.

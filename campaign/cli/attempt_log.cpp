@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <random>
+#include <vector>
 
 #include "campaign/batch/session_log.hpp"
 #include "campaign/plan/plan.hpp"
@@ -78,12 +79,13 @@ void AttemptLog::end(const ReportInput& input) {
 void add_history(ReportInput& input, const std::string& ledger) {
   std::string path = ledger.empty() ? remembered_ledger(input.archive_path) : ledger;
   if (ledger.empty() && !std::filesystem::exists(path)) path = default_ledger(input.archive_path);
-  const std::optional<LogLine> begin = remembered_ledger_line(input.archive_path);
-  input.attempts.ledger_lost_line = begin.has_value();
+  const std::vector<LogLine> begins = remembered_ledger_lines(input.archive_path);
+  input.attempts.ledger_lost_line = !begins.empty();
   try {
     const AttemptLedger known(path);
     input.attempts = attempt_history(known, input.campaign);
-    input.attempts.ledger_lost_line = begin && !known.has(*begin);
+    input.attempts.ledger_lost_line =
+        !std::ranges::all_of(begins, [&](const LogLine& line) { return known.has(line); });
   } catch (const InputError&) {
     if (!ledger.empty()) throw;  // nobody named it: a foreign file of this name tells nothing, and stops no report
   }

@@ -155,7 +155,10 @@ class ForkerProcess {
           request.kind == ForkRequest::Kind::Start ? start(request.slot, descriptor) : collect(request.pid);
       if (::send(control_, &reply, sizeof reply, MSG_NOSIGNAL) != static_cast<ssize_t>(sizeof reply)) break;
     }
-    for (const pid_t worker : alive_) ::kill(-worker, SIGKILL);
+    for (const pid_t worker : alive_) {
+      ::kill(-worker, SIGKILL);
+      ::kill(worker, SIGKILL);  // it may have left its group
+    }
     for (const pid_t worker : alive_) ::waitpid(worker, nullptr, 0);
     ::_exit(0);
   }
@@ -189,6 +192,7 @@ class ForkerProcess {
     ::kill(-worker, SIGKILL);
     if (ended == 0) {
       reply.death.had_to_be_killed = true;
+      ::kill(worker, SIGKILL);  // it may have left its group
       while (::wait4(worker, &reply.death.status, 0, &use) < 0 && errno == EINTR) {
       }
     }

@@ -169,6 +169,7 @@ void IsolatedRuns::expect_cpu_ns(std::uint64_t cpu_ns) {
 // False if the worker died at once.
 bool IsolatedRuns::start(Member& member) {
   if (member.worker.pid != 0) return true;
+  slots_[member.slot].started = 0;
   member.worker = forker_.start(member.slot);
   return member.worker.channel.send(setup_);
 }
@@ -204,8 +205,6 @@ IsolatedRuns::Attempt IsolatedRuns::lost(Member& member, std::uint64_t run_index
   WorkerLoss loss;
   loss.run_index = run_index;
   loss.death = forker_.collect(member.worker);
-  if (WIFEXITED(loss.death.status) && WEXITSTATUS(loss.death.status) == kCannotStartExit)
-    throw EngineError("the program of a worker cannot be started");
   const CauseOfDeath cause = cause_of_death(state, loss.death, slots_[member.slot]);
   loss.message = cause.message;
   loss.log = logs_.path(member.slot);
@@ -214,6 +213,10 @@ IsolatedRuns::Attempt IsolatedRuns::lost(Member& member, std::uint64_t run_index
   loss.in_fresh_worker = member.fresh;
   member.worker = {};
   member.fresh = true;
+  // Software may end its process with any code, but only once that runs.
+  if (slots_[member.slot].started == 0 && WIFEXITED(loss.death.status) &&
+      WEXITSTATUS(loss.death.status) == kCannotStartExit)
+    throw EngineError("the program of a worker cannot be started");
   const std::lock_guard lock(mutex_);
   losses_.push_back(std::move(loss));
   return {std::nullopt, cause};

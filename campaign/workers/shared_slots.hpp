@@ -10,6 +10,7 @@ namespace fleetproof {
 
 // What a worker process writes down for the time after its death. Which run it was in, the main process knows.
 struct WorkerSlot {
+  std::atomic<std::uint32_t> started{0};         // 1: the program of the worker runs
   std::atomic<std::uint32_t> stack_overflow{0};  // 1: the fatal signal came from the guard page of the stack
   CallNote call;
 };

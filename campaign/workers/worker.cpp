@@ -176,6 +176,7 @@ class Worker {
   try {
     std::setvbuf(stdout, nullptr, _IONBF, 0);  // a crash loses nothing
     const SharedSlots slots(count, slots_fd);
+    slots[slot].started = 1;
     note_fatal_signals(slots[slot]);
     if (const auto setup = next_frame(channel)) Worker(decode_setup(*setup), slots[slot], channel).take_orders();
   } catch (const std::bad_alloc&) {

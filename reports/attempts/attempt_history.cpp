@@ -28,7 +28,8 @@ bool had_other_luck(const Attempt& attempt, const Attempt& own) {
 
 // Older programs did not note the conditions.
 bool is_same_plan(const Attempt& attempt, const Attempt& own) {
-  return attempt.conditions.empty() ? attempt.worlds == own.worlds : attempt.conditions == own.conditions;
+  if (attempt.conditions.empty() || own.conditions.empty()) return attempt.worlds == own.worlds;
+  return attempt.conditions == own.conditions;
 }
 
 std::string told(const Attempt& attempt) {

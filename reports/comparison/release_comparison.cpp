@@ -28,7 +28,7 @@ SortedJson conditions_of(const std::string& plan_json) {
   SortedJson plan = read_sorted_json(plan_json);
   if (!plan.is_object()) return plan_json;
   for (const char* key :
-       {"name", "seed", "replicates", "gates", "default_gates", "limits", "audit", "keep", "agent_config", "coverage"})
+       {"name", "seed", "replicates", "gates", "default_gates", "audit", "keep", "agent_config", "coverage"})
     plan.erase(key);
   if (plan.contains("factors") && plan["factors"].is_object()) plan["factors"].erase("agents");
   return plan;
@@ -91,6 +91,11 @@ struct Work {
   }
 };
 
+// A run of which nobody knows how it went on has no time.
+bool is_known(const Replicate& replicate) {
+  return std::ranges::none_of(replicate, [](const ComparedRun& run) { return run.agv_us == 0; });
+}
+
 // The two releases in each world, at one end point.
 struct World {
   RunResult before = RunResult::Passed, now = RunResult::Passed;
@@ -122,6 +127,8 @@ std::vector<World> worlds_at(const ReleaseRuns& a, const ReleaseRuns& b, EndPoin
       const Work work_before(before), work_now(now);
       if (work_now.is_slower_than(work_before)) world.now = RunResult::Failed;
       if (work_before.is_slower_than(work_now)) world.before = RunResult::Failed;
+      if (!is_known(now)) world.now = RunResult::Unknown;
+      if (!is_known(before)) world.before = RunResult::Unknown;
     } else {
       world.before = result_of_world(before, position);
       world.now = result_of_world(now, position);

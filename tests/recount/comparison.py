@@ -18,7 +18,7 @@ class World:
     """One replicate of one release: its result at the end point, its work, and whether a run of it is new to its cell."""
 
     def __init__(self):
-        self.result, self.transports, self.agv_us, self.is_new = PASSED, 0, 0, False
+        self.result, self.transports, self.agv_us, self.is_new, self.is_known = PASSED, 0, 0, False, True
 
     def is_slower_than(self, other):
         return self.transports * other.agv_us * 10 < other.transports * self.agv_us * 9
@@ -32,6 +32,7 @@ def worlds_of(archive, agent, end_point):
             world.result = row["result"]
         world.transports += row["transports_done"]
         world.agv_us += row["agv_us"]
+        world.is_known &= row["agv_us"] > 0
         world.is_new |= not row["repeats"]
     return worlds
 
@@ -42,7 +43,8 @@ def pairs_of(old, new, agent, end_point):
     for before, now in zip(worlds_of(old, agent, end_point), worlds_of(new, agent, end_point)):
         results = before.result, now.result
         if end_point == "throughput":
-            results = int(before.is_slower_than(now)), int(now.is_slower_than(before))
+            results = (int(before.is_slower_than(now)) if before.is_known else UNKNOWN,
+                       int(now.is_slower_than(before)) if now.is_known else UNKNOWN)
         pairs.append((*results, before.is_new or now.is_new))
     return pairs
 
