@@ -172,10 +172,10 @@ std::vector<LogLine> remembered_ledger_lines(const std::string& archive_path) {
   std::vector<LogLine> found;
   for (std::string line; std::getline(file, line);) {
     const Json json = read_json(line);
-    if (!json.is_object() || !json.contains("ledger_line") || !json.contains("ledger_hash")) continue;
-    const Json &number = json["ledger_line"], &hash = json["ledger_hash"];
-    if (!number.is_number_unsigned() || !hash.is_string() || json.value("ledger", "") != ledger) continue;
-    found.push_back({number.get<std::uint64_t>(), std::strtoull(hash.get<std::string>().c_str(), nullptr, 16)});
+    if (!json.is_object() || json.find("ledger") == json.end() || json["ledger"] != ledger) continue;
+    const auto number = json.find("ledger_line"), hash = json.find("ledger_hash");
+    if (number == json.end() || !number->is_number_unsigned() || hash == json.end() || !hash->is_string()) continue;
+    found.push_back({number->get<std::uint64_t>(), std::strtoull(hash->get<std::string>().c_str(), nullptr, 16)});
   }
   return found;
 }

@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "tests/storage/sample_records.hpp"
@@ -19,6 +21,16 @@ TEST(SessionLog, NothingIsAppendedToAForeignFile) {
   EXPECT_EQ(samples::bytes_of(folder / "a.sessions.jsonl"), "my notes\n");
   samples::write_bytes(folder / "a.sessions.jsonl", "{\"started_utc\":\"2026-11-21T22:04:05Z\"}\n");
   EXPECT_NO_THROW(SessionLog(folder / "a.db"));
+}
+
+// Of damaged lines and of another ledger, none; a line of any kind stops no report.
+TEST(SessionLog, RemembersTheLinesOfTheLastLedger) {
+  const samples::TemporaryFolder folder;
+  const std::string line = R"("ledger_line":7,"ledger_hash":"00000000000000ff"})";
+  samples::write_bytes(folder / "a.sessions.jsonl",
+                       R"({"ledger":"/old",)" + line + "\n" + R"({"ledger":5,)" + line + "\n" + R"({"ledger":"/new",)" +
+                           line + "\n" + R"({"ledger":"/new","ledger_line":"7","ledger_hash":1})" + "\nno JSON\n");
+  EXPECT_EQ(remembered_ledger_lines(folder / "a.db"), (std::vector<LogLine>{{7, 255}}));
 }
 
 class RememberedPlugin : public testing::Test {
