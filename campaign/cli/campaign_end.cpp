@@ -4,6 +4,7 @@
 #include "campaign/cli/command_line.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
+#include "campaign/cli/waived.hpp"
 #include "core/base/error.hpp"
 #include "reports/sections/report_input.hpp"
 
@@ -36,6 +37,7 @@ void add_exit_code(ReportInput& input) { input.exit_code = code_of(conclusion_of
 int tell_verdict(const std::string& archive, AttemptLog& attempt, const EndWords& words) {
   ReportInput input = read_report_input(ArchiveReader(archive), archive);
   add_exit_code(input);
+  add_waived(input);
   attempt.end(input);
   add_history(input, attempt.path());
   if (words.json) {

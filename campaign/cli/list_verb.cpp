@@ -70,6 +70,7 @@ int list_fields(bool json) {
                      {"default", row.fallback},
                      {"expected", row.expected},
                      {"unit", row.unit},
+                     {"named_at_head", row.named},
                      {"description", row.text}});
     } else {
       text += fmt::format("{} {}{}: {}\n    {}\n", row.file, row.key, row.fallback.empty() ? "" : " = " + row.fallback,

@@ -12,6 +12,7 @@
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/cli/waived.hpp"
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
 #include "reports/attempts/looks.hpp"
@@ -74,6 +75,7 @@ int html_report(const ArchiveReader& archive, const ReportWords& words) {
                      "writes files of its own; leave out --output, --json and --format, or call report twice");
   HtmlInput input = read_html_input(archive, words.archive);
   add_exit_code(input.report);
+  add_waived(input.report);
   add_baseline(input.report, archive, words);
   show_history(input.report, words);
   if (!words.no_film) input.strips = film_strips(archive, words.archive, input.report.failures);
@@ -95,6 +97,7 @@ int report(const ReportWords& words) {
                      "stands on pages for people (text, markdown, --html); see: fleetproof compare --json");
   ReportInput input = read_report_input(archive, words.archive);
   add_exit_code(input);
+  add_waived(input);
   add_baseline(input, archive, words);
   show_history(input, words);
   const std::string text = render(input, words.json ? "json" : words.format);

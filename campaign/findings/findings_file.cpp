@@ -68,7 +68,8 @@ std::string text_in(const TomlTable::Given& given) {
 
 double number_in(const TomlTable::Given& given) {
   double value = 0.0;
-  const auto sentence = take(Field{.key = "", .text = "", .low = 0.0, .high = kNever_s}, given.value, value);
+  const auto sentence =
+      take(Field{.key = "", .text = "", .lenient = kDecidesNothing, .low = 0.0, .high = kNever_s}, given.value, value);
   if (!sentence.empty()) given.refuse(sentence);
   return value;
 }
@@ -222,7 +223,8 @@ KnownIssue read_finding(TomlTable& table) {
   finding.id = needed(table, "id");
   finding.mechanism = needed(table, "mechanism");
   if (const auto given = table.given("status")) {
-    const auto sentence = take(Field{.key = "status", .text = ""}, given->value, finding.status);
+    const auto sentence =
+        take(Field{.key = "status", .text = "", .lenient = kDecidesNothing}, given->value, finding.status);
     if (!sentence.empty()) given->refuse(sentence);
   }
   table.get("until", finding.until);

@@ -48,7 +48,7 @@ class CampaignReader {
   }
   static std::string word_of(const TomlTable::Given& given) {
     std::string word;
-    take_given({}, given, word);
+    take_given({.key = "", .text = "", .lenient = kDecidesNothing}, given, word);
     return word;
   }
 

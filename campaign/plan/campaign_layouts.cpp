@@ -64,7 +64,8 @@ ImportChoice import_choice(TomlTable& table, const std::string& path, const Purp
   table.get("level", choice.level);
   if (const auto graph = table.given("graph")) {
     std::uint32_t number = 0;
-    const auto sentence = take(Field{.key = "graph", .text = "", .high = 1e6}, graph->value, number);
+    const auto sentence =
+        take(Field{.key = "graph", .text = "", .lenient = kDecidesNothing, .high = 1e6}, graph->value, number);
     if (!sentence.empty()) graph->refuse(sentence);
     choice.rmf.graph_idx = number;
   }

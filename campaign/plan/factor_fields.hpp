@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/base/error.hpp"
 #include "core/scenario/scenario_fields.hpp"
 #include "storage/factors.hpp"
@@ -22,14 +24,14 @@ void visit_factor_fields(Owner& owner, Visit&& visit) {
 
 // The field behind a factor: its bounds and its explanation, as a field of [factors].
 inline Field factor_field(Factor factor) {
-  Field found;
+  std::optional<Field> found;
   const Scenario scenario;
   visit_factor_fields(scenario, [&](Factor other, const Field& field, double) {
     if (other == factor) found = field;
   });
-  ensure(!found.key.empty(), "a factor is a field of the scenario");
-  found.home = FieldHome::Both;
-  return found;
+  ensure(found.has_value(), "a factor is a field of the scenario");
+  found->home = FieldHome::Both;
+  return *found;
 }
 
 template <class Owner>

@@ -70,7 +70,7 @@ class RowWriter {
   void add(const std::string& key, const Field& field, std::string fallback, std::string expected) {
     if (field.needed) fallback.clear();
     rows_.push_back({file_, key, std::move(fallback), std::move(expected), std::string(unit_of(field.key)),
-                     std::string(field.text)});
+                     field.lenient.text(), std::string(field.text)});
   }
 
   template <class Value>

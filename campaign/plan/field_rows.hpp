@@ -12,6 +12,7 @@ struct FieldRow {
   std::string fallback;  // the default as a file would give it; empty: there is none, or it is empty
   std::string expected;  // bounds, or words, with the unit
   std::string unit;      // "m/s"; empty for shares, counts and words
+  std::string named;     // which values are named at the head of a report, as "below 0.2"; or why none is
   std::string text;      // one line of explanation
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
 #include <memory>
@@ -83,6 +84,9 @@ constexpr const char* name_of(CampaignKind kind) {
 struct LimitSetup {
   std::uint64_t memory_mb = 4096;  // addresses that a plug-in may map; 0: no limit
   double cpu_s = 10.0;             // at least; 20 times the slowest run so far if that is more
+
+  // CPU time in which a plug-in has to be loaded: an interpreter takes longer than a run.
+  double loading_s() const { return std::max(cpu_s, 10.0); }
   friend bool operator==(const LimitSetup&, const LimitSetup&) = default;
 };
 

@@ -40,7 +40,8 @@ class TomlTable {
   void get(std::string_view key, Value& value) {
     const auto found = given(key);
     if (!found) return;
-    const auto sentence = take(Field{.key = key, .text = "", .low = -1e300, .high = 1e300}, found->value, value);
+    const auto sentence = take(Field{.key = key, .text = "", .lenient = kDecidesNothing, .low = -1e300, .high = 1e300},
+                               found->value, value);
     if (!sentence.empty()) found->refuse(sentence);
   }
 

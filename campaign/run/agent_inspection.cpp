@@ -50,7 +50,7 @@ void write_all(int fd, std::string_view bytes) {
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {0, 1, 2})
     ::dup2(nothing, stream);  // what the object prints while it is inspected is dropped
-  const auto cpu_s = static_cast<rlim_t>(std::max(1.0, std::ceil(limits.cpu_s)));
+  const auto cpu_s = static_cast<rlim_t>(std::ceil(limits.loading_s()));
   const rlimit cpu{cpu_s, cpu_s + 1}, core{0, 0};
   ::setrlimit(RLIMIT_CPU, &cpu);
   ::setrlimit(RLIMIT_CORE, &core);

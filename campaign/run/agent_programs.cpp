@@ -68,10 +68,12 @@ std::string AgentPrograms::load(const std::string& path, bool global_symbols) {
   void* object = dlopen(file.c_str(), RTLD_NOW | (global_symbols ? RTLD_GLOBAL : RTLD_LOCAL));
   if (object == nullptr) throw InputError(path, fmt::format("cannot be loaded as a shared object: {}", dlerror()));
   objects_.push_back(object);
-  set_engine_processor_state();  // an object may be built so that it changes it
+  bool changed_processor = !has_engine_processor_state();  // an object may be built so that it does
+  set_engine_processor_state();
   const auto query = reinterpret_cast<fp_agent_query_function>(dlsym(object, FP_AGENT_QUERY_SYMBOL));
   if (query == nullptr) throw InputError(path, "exports no " FP_AGENT_QUERY_SYMBOL "; see core/sdk/fleetproof/agent.h");
   const fp_agent_type* type = query(FP_ABI_MAJOR);
+  changed_processor = changed_processor || !has_engine_processor_state();
   set_engine_processor_state();
   if (type == nullptr) throw InputError(path, fmt::format("refuses version {} of fleetproof/agent.h", FP_ABI_MAJOR));
   check_type(path, *type);
@@ -79,7 +81,7 @@ std::string AgentPrograms::load(const std::string& path, bool global_symbols) {
   program.file = file;
   program.sha256 = sha256_of_file(path);
   program.global_symbols = global_symbols;
-  program.handles = std::make_shared<ForeignHandles>();
+  program.handles = std::make_shared<ForeignHandles>(changed_processor);
   return add(std::move(program), path).name;
 }
 

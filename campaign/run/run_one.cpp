@@ -10,7 +10,16 @@
 namespace fleetproof {
 
 RunOne::RunOne(const CampaignPlan& plan, const AgentPrograms& programs)
-    : plan_(plan), scenarios_(plan), programs_(programs) {}
+    : plan_(plan), scenarios_(plan), programs_(programs), handles_(plan.agents.size()) {}
+
+// An agent that calls too late is an agent of its own factor, whatever else its software runs as.
+ForeignHandles* RunOne::handles_of(std::uint64_t cell, const AgentProgram& program) const {
+  if (program.handles == nullptr) return nullptr;
+  const std::lock_guard lock(mutex_);
+  auto& handles = handles_[agent_of_run(cell, plan_.agents.size())];
+  if (handles == nullptr) handles = std::make_unique<ForeignHandles>(program.handles->changed_processor());
+  return handles.get();
+}
 
 RunRecord RunOne::empty_record(std::uint64_t run_index) const {
   const RunPlace place = scenarios_.place(run_index);
@@ -48,7 +57,7 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const Run
   record.scenario_digest = scenario_digest(scenario);
   RunWatch in_plant = watch;
   in_plant.plant = &world->plant;
-  in_plant.foreign = program.handles.get();
+  in_plant.foreign = handles_of(record.cell, program);
   record.outcome = simulate(scenario, *program.type, laws, sink, plan_.config_of(factor).c_str(), in_plant);
   return record;
 }

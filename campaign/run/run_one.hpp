@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "campaign/plan/scenario_source.hpp"
@@ -30,10 +31,14 @@ class RunOne {
   const ScenarioSource& scenarios() const { return scenarios_; }
 
  private:
+  ForeignHandles* handles_of(std::uint64_t cell, const AgentProgram& program) const;
+
   const CampaignPlan& plan_;
   ScenarioSource scenarios_;
   const AgentPrograms& programs_;
   mutable WorldCache worlds_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<ForeignHandles>> handles_;  // by agent of the plan
 };
 
 }  // namespace fleetproof

@@ -20,8 +20,10 @@ class Channel {
   Channel& operator=(Channel&& other) noexcept;
   ~Channel() { close(); }
 
-  // False if the other end is gone.
+  // False if the other end is gone. Waits until the other end has taken all of it.
   bool send(std::string_view bytes);
+  // Waits for nothing: what the other end does not take at once leaves while this end waits for its next frame.
+  void post(std::string_view bytes);
 
   enum class Wait : std::uint8_t { Arrived, NotYet, Gone };
   // Waits for the next frame, which is then in `received()`. Gone: the other end is closed, or sent what is no frame.
@@ -36,9 +38,13 @@ class Channel {
 
  private:
   Wait frame_in_buffer() const;
+  void send_posted();
+  bool is_readable_within(std::chrono::milliseconds patience);
+  void set_patience(std::chrono::milliseconds patience);
 
   int fd_ = -1;
-  std::string buffer_;
+  std::string buffer_, posted_;            // received, and not sent yet
+  std::chrono::milliseconds patience_{0};  // that the socket has
 };
 
 struct Channel::Pair {

@@ -18,6 +18,7 @@
 #include <cstring>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "campaign/workers/worker_watch.hpp"
 #include "core/base/error.hpp"
@@ -259,10 +260,15 @@ void Forker::end_process() {
   ::shutdown(control_, SHUT_RDWR);  // forkers that were made later hold copies of this end
   ::close(control_);
   control_ = -1;
-  for (int waited_ms = 0; ::waitpid(forker_, nullptr, WNOHANG) == 0; ++waited_ms) {
+  int status = 0;
+  for (int waited_ms = 0; ::waitpid(forker_, &status, WNOHANG) == 0; ++waited_ms) {
     ::kill(forker_, waited_ms < kPatienceAtEnd_ms ? SIGCONT : SIGKILL);
     ::poll(nullptr, 0, 1);
   }
+  if (WIFSIGNALED(status)) {  // then it has not ended what its workers have started
+    for (const pid_t worker : alive_) ::kill(-worker, SIGKILL);
+  }
+  alive_.clear();
 }
 
 // False: it is dead.
@@ -289,13 +295,17 @@ Forker::Worker Forker::start(int slot) {
       throw MachineError(fmt::format("the process that starts the workers cannot be started: {}", program_.file));
   }
   if (reply.pid < 0) throw_not_started(-reply.pid);
+  alive_.insert(reply.pid);
   return {reply.pid, std::move(ends.here), number_};
 }
 
 WorkerDeath Forker::collect(const Worker& worker) {
   const std::lock_guard lock(mutex_);
   ForkReply reply;
-  if (worker.forker == number_ && ask({ForkRequest::Kind::Collect, 0, worker.pid}, -1, reply)) return reply.death;
+  if (worker.forker == number_ && ask({ForkRequest::Kind::Collect, 0, worker.pid}, -1, reply)) {
+    alive_.erase(worker.pid);
+    return reply.death;
+  }
   ::kill(-worker.pid, SIGKILL);
   reply.death.with_forker = true;
   return reply.death;
@@ -306,6 +316,7 @@ namespace {
 [[noreturn]] void serve_forker(int control, const std::vector<std::string>& words) {
   // It ends when its socket closes, not with a signal: then it can kill what the workers have started.
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(number, SIG_IGN);
+  ::signal(SIGCHLD, SIG_DFL);  // whoever started this program may ignore it; then no worker would leave its end behind
   WorkerProgram program;
   program.logs = numbers_in(words[3]);
   program.descriptors = numbers_in(words[4]);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,7 @@ class Forker {
   int control_ = -1;
   pid_t forker_ = 0;
   std::uint64_t number_ = 0;  // counts the processes that were forker
+  std::set<pid_t> alive_;     // the workers of this one that are not collected yet
 };
 
 // Call this first in main(). If a Forker has started this process as its own, it serves and never returns.

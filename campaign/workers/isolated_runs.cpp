@@ -99,7 +99,10 @@ RunAnswer IsolatedRuns::answer_of(RunOrder& order, HostProcess process) {
 
 RunAnswer IsolatedRuns::answer_of(Member& member, RunOrder& order) {
   Attempt first = attempt(member, order, cpu_limit_s(order.run_index));
-  return first.answer ? std::move(*first.answer) : repeat(member, order, first.cause.with_forker);
+  if (first.answer) return std::move(*first.answer);
+  RunAnswer answer = repeat(member, order, first.cause.with_forker);
+  retire(member);  // agents that ended early have cleared nothing away
+  return answer;
 }
 
 // Each attempt happens in a worker that has hosted nothing before, and learns at which calls agents ended the attempts
@@ -139,17 +142,10 @@ IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& orde
   for (;;) {
     if (abandoned_) throw RunAbandoned();
     slots_[member.slot].call.number = 0;  // before the start: the worker may die while it loads
-    if (!start(member) || !member.worker.channel.send(encode(order)))
-      return lost(member, order.run_index, WorkerState::Closed);
-    std::string bytes;
-    if (const auto state = wait_for_answer(member, cpu_limit_s, bytes)) return lost(member, order.run_index, *state);
+    if (const auto state = start(member)) return lost(member, order.run_index, *state);
+    member.worker.channel.post(encode(order));
     RunAnswer answer;
-    try {
-      answer = decode_answer(bytes);
-    } catch (const EngineError&) {
-      return lost(member, order.run_index, WorkerState::Garbled);
-    }
-    if (answer.failed) throw EngineError(answer.message);
+    if (const auto state = take_answer(member, cpu_limit_s, answer)) return lost(member, order.run_index, *state);
     if (answer.declined && !member.fresh) {
       retire(member);
       continue;
@@ -166,12 +162,13 @@ void IsolatedRuns::expect_cpu_ns(std::uint64_t cpu_ns) {
   }
 }
 
-// False if the worker died at once.
-bool IsolatedRuns::start(Member& member) {
-  if (member.worker.pid != 0) return true;
+std::optional<WorkerState> IsolatedRuns::start(Member& member) {
+  if (member.worker.pid != 0) return std::nullopt;
   slots_[member.slot].started = 0;
   member.worker = forker_.start(member.slot);
-  return member.worker.channel.send(setup_);
+  member.worker.channel.post(setup_);
+  RunAnswer ready;
+  return take_answer(member, plan_.limits.loading_s(), ready);
 }
 
 void IsolatedRuns::retire(Member& member) {
@@ -182,14 +179,18 @@ void IsolatedRuns::retire(Member& member) {
   member.fresh = true;
 }
 
-// Empty: `bytes` are there.
-std::optional<WorkerState> IsolatedRuns::wait_for_answer(Member& member, double cpu_limit_s, std::string& bytes) {
+std::optional<WorkerState> IsolatedRuns::take_answer(Member& member, double cpu_limit_s, RunAnswer& answer) {
   Channel& channel = member.worker.channel;
   WorkerWatch watch(member.worker.pid, cpu_limit_s);
   for (;;) {
     switch (channel.wait(kLookEvery)) {
       case Channel::Wait::Arrived:
-        bytes = channel.received();
+        try {
+          answer = decode_answer(channel.received());
+        } catch (const EngineError&) {
+          return WorkerState::Garbled;
+        }
+        if (answer.failed) throw EngineError(answer.message);
         return std::nullopt;
       case Channel::Wait::Gone:
         return WorkerState::Closed;

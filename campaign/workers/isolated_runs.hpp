@@ -82,8 +82,9 @@ class IsolatedRuns {
   Member take_member();
   void give_back(Member member);
   Attempt attempt(Member& member, const RunOrder& order, double cpu_limit_s, bool alone = false);
-  std::optional<WorkerState> wait_for_answer(Member& member, double cpu_limit_s, std::string& bytes);
-  bool start(Member& member);
+  // Of these two, empty: the worker may take an order, or has answered. Throws EngineError if it says that it cannot.
+  std::optional<WorkerState> start(Member& member);
+  std::optional<WorkerState> take_answer(Member& member, double cpu_limit_s, RunAnswer& answer);
   void retire(Member& member);
   Attempt lost(Member& member, std::uint64_t run_index, WorkerState state);
   RunAnswer repeat(Member& member, RunOrder& order, bool alone);

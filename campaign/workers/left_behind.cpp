@@ -54,19 +54,30 @@ class Status {
     std::array<char, 4096> text;
     const ssize_t size = ::pread(file_, text.data(), text.size(), 0);
     const std::string_view lines(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
-    const auto threads = lines.find("\nThreads:\t"), signals = lines.find("\nSigBlk:"), end = lines.find("\nCapInh:");
-    if (threads == lines.npos || signals == lines.npos || end == lines.npos || signals > end) return false;
-    threads_ = 0;
-    std::from_chars(lines.data() + threads + 10, lines.data() + lines.size(), threads_);
+    const auto signals = lines.find("\nSigBlk:"), end = lines.find("\nCapInh:");
+    const auto threads = number_after("\nThreads:\t", 10, lines), umask = number_after("\nUmask:\t", 8, lines);
+    if (!threads || !umask || signals == lines.npos || end == lines.npos || signals > end) return false;
+    threads_ = *threads;
+    umask_ = static_cast<mode_t>(*umask);
     signals_.assign(lines.substr(signals, end - signals));
     return true;
   }
   int threads() const { return threads_; }
+  mode_t umask() const { return umask_; }
   const std::string& signals() const { return signals_; }  // blocked, ignored, caught
 
  private:
+  static std::optional<int> number_after(std::string_view word, int base, std::string_view lines) {
+    const auto at = lines.find(word);
+    int number = 0;
+    if (at == lines.npos) return std::nullopt;
+    std::from_chars(lines.data() + at + word.size(), lines.data() + lines.size(), number, base);
+    return number;
+  }
+
   int file_ = ::open("/proc/self/status", O_RDONLY | O_CLOEXEC);
   int threads_ = 0;
+  mode_t umask_ = 0;
   std::string signals_;
 };
 
@@ -110,8 +121,9 @@ class Signals {
 
 class Folder {
  public:
-  bool set_back() const {
-    if (umask_now() != umask_) ::umask(umask_);
+  explicit Folder(const Status& status) : umask_(status.umask()) {}
+  bool set_back(const Status& status) const {
+    if (status.umask() != umask_) ::umask(umask_);
     const std::string now = path();
     return now == path_ || (!path_.empty() && ::chdir(path_.c_str()) == 0);
   }
@@ -121,13 +133,8 @@ class Folder {
     std::array<char, PATH_MAX> text;
     return ::getcwd(text.data(), text.size()) == nullptr ? "" : text.data();
   }
-  static mode_t umask_now() {
-    const mode_t now = ::umask(0);
-    ::umask(now);
-    return now;
-  }
   std::string path_ = path();
-  mode_t umask_ = umask_now();
+  mode_t umask_;
 };
 
 // The soft limit of addresses is set before each run.
@@ -212,13 +219,13 @@ struct Holdings {
   int threads = 0, first_free = 0;
   off_t descriptors = 0;  // not every kernel tells their number; the first that is free moves in any case
 
-  static Holdings now(const Status& status) {
+  static Holdings now(const Status& status, int descriptors_file) {
     Holdings holdings;
     holdings.threads = status.threads();
     holdings.first_free = ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
     if (holdings.first_free >= 0) ::close(holdings.first_free);
     struct stat folder {};
-    if (::stat("/proc/self/fd", &folder) == 0) holdings.descriptors = folder.st_size;
+    if (::fstat(descriptors_file, &folder) == 0) holdings.descriptors = folder.st_size;
     return holdings;
   }
   bool fit_into(const Holdings& first) const {
@@ -232,11 +239,17 @@ struct LeftBehind::State {
   Status status;
   Locale locale;
   Signals signals{status};
-  Folder folder;
+  Folder folder{status};
   Limits limits;
   Timers timers;
   Environment environment;
+  int descriptors = ::open("/proc/self/fd", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   std::optional<Holdings> after_first_run;
+
+  State() = default;
+  ~State() { ::close(descriptors); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
 };
 
 LeftBehind::LeftBehind() : state_(std::make_unique<State>()) {}
@@ -247,11 +260,11 @@ bool LeftBehind::set_back() {
   if (!was.status.look()) return false;
   bool all = was.locale.set_back();
   all = was.signals.set_back(was.status) && all;
-  all = was.folder.set_back() && all;
+  all = was.folder.set_back(was.status) && all;
   all = was.limits.set_back() && all;
   all = was.timers.set_back() && all;
   all = was.environment.set_back() && all;
-  const Holdings now = Holdings::now(was.status);
+  const Holdings now = Holdings::now(was.status, was.descriptors);
   if (!was.after_first_run) was.after_first_run = now;
   return all && now.fit_into(*was.after_first_run);
 }

@@ -23,7 +23,8 @@ struct RunOrder {
 std::string encode(const RunOrder& order);
 RunOrder decode_order(std::string_view bytes);  // throws EngineError on bytes that `encode` did not write
 
-// What a worker answers. Failed: `message` says why no run can be simulated in a worker.
+// What a worker answers; the first answer says that it has loaded its plug-ins. Failed: `message` says why no run can
+// be simulated in a worker.
 struct RunAnswer {
   bool failed = false;
   bool declined = false;  // this worker hosts no more runs; another one has to take the order

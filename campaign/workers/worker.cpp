@@ -95,18 +95,23 @@ class Worker {
         RunAnswer declined;
         declined.declined = true;
         send_answer(channel_, declined);
-        return;
+        ::_exit(0);  // to clear away what nobody uses any more takes longer than a run
       }
       prepare(order);
       send_answer(channel_, answer_to(order));
-      // While the answer is on its way. The first run belongs to the start: it makes what later ones find.
-      const bool is_clean = left_behind_->set_back();
-      if (runs_ == 1) start_cpu_ns_ = cpu_ns();
-      is_worn_ = !is_clean || cpu_ns() >= (1 + kTimesOwnStart) * start_cpu_ns_;
+      is_worn_ = is_worn();  // while the answer is on its way
     }
   }
 
  private:
+  // The first run belongs to the start: it makes what later ones find.
+  bool is_worn() {
+    const bool is_clean = left_behind_->set_back();
+    const std::uint64_t used_ns = cpu_ns();
+    if (runs_ == 1) start_cpu_ns_ = used_ns;
+    return !is_clean || used_ns >= (1 + kTimesOwnStart) * start_cpu_ns_;
+  }
+
   void prepare(const RunOrder& order) {
     // What a reference agent leaves mapped does not count against the plug-ins of the runs that follow.
     if (before_unlimited_) own_bytes_ += std::max(mapped_bytes(), *before_unlimited_) - *before_unlimited_;
@@ -178,7 +183,11 @@ class Worker {
     const SharedSlots slots(count, slots_fd);
     slots[slot].started = 1;
     note_fatal_signals(slots[slot]);
-    if (const auto setup = next_frame(channel)) Worker(decode_setup(*setup), slots[slot], channel).take_orders();
+    if (const auto setup = next_frame(channel)) {
+      Worker worker(decode_setup(*setup), slots[slot], channel);
+      send_answer(channel, {});  // it is ready: what it has used until here is no part of a run
+      worker.take_orders();
+    }
   } catch (const std::bad_alloc&) {
     ::_exit(kOutOfMemoryExit);
   } catch (const std::exception& error) {

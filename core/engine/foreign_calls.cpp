@@ -55,6 +55,7 @@ ForeignCalls::~ForeignCalls() {
 }
 
 fp_controller* ForeignCalls::lend(AgvId agv, fp_controller* controller) {
+  if (lent_.empty() && handles_.changed_processor()) ++processor_changes_;
   if (lent_.size() <= agv.index()) lent_.resize(agv.index() + 1);
   ForeignHandle*& handle = lent_[agv.index()];
   if (handle != nullptr) handles_.take_back(*handle);  // of an agent whose destroy() is not called

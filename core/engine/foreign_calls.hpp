@@ -40,6 +40,10 @@ struct ForeignHandle {
 // Threads: any number.
 class ForeignHandles {
  public:
+  // Whether the plug-in was loaded with another state of the processor than the engine's: its runs count that, too.
+  explicit ForeignHandles(bool changed_processor = false) : changed_processor_(changed_processor) {}
+
+  bool changed_processor() const { return changed_processor_; }
   ForeignHandle& lend(AgvId agv, fp_controller* controller);
   void take_back(ForeignHandle& handle);
   // The AGV of an agent that has called after its end, since the last question. Not valid: none has.
@@ -49,6 +53,7 @@ class ForeignHandles {
   friend struct ForeignHandle;
   static constexpr std::size_t kMostResting = 16'384;
 
+  const bool changed_processor_;
   std::mutex mutex_;
   std::deque<ForeignHandle> all_;
   std::deque<ForeignHandle*> resting_;

@@ -27,6 +27,14 @@ inline bool has_engine_processor_state() {
   return x87 == kX87 && computes_as_engine();
 }
 
+// The pending exceptions of x87 go first: one that is no longer masked would end the program at the next instruction.
+// A string instruction that runs backward is no rounding, but as wrong.
+inline void set_engine_processor_state() {
+  constexpr std::uint32_t kMxcsr = 0x1f80;
+  constexpr std::uint16_t kX87 = 0x037f;
+  asm volatile("fnclex; fldcw %0; ldmxcsr %1; cld" : : "m"(kX87), "m"(kMxcsr) : "memory", "cc");
+}
+
 #elif defined(__aarch64__)
 
 inline bool computes_as_engine() {
@@ -37,11 +45,11 @@ inline bool computes_as_engine() {
 
 inline bool has_engine_processor_state() { return computes_as_engine(); }
 
+inline void set_engine_processor_state() { asm volatile("msr fpcr, xzr" : : : "memory"); }
+
 #else
 #error "how this processor rounds is not known"
 #endif
-
-void set_engine_processor_state();
 
 // While it lives, the thread computes as the engine does. Then it has the state again that it had before.
 class EngineProcessorState {

@@ -11,6 +11,7 @@
 
 #include "core/base/sim_time.hpp"
 #include "core/base/words.hpp"
+#include "core/scenario/lenient.hpp"
 
 namespace fleetproof {
 
@@ -25,8 +26,9 @@ enum class FieldHome : std::uint8_t {
 // that calls visit(field, value) for each. Readers, writers, the validator, digests and the tables that users read all
 // go over these lists.
 struct Field {
-  std::string_view key;          // its unit is the end of the key: unit_of
-  std::string_view text;         // one line of explanation
+  std::string_view key;   // its unit is the end of the key: unit_of
+  std::string_view text;  // one line of explanation
+  Lenient lenient;
   double low = 0.0, high = 1.0;  // of a number
   bool above_low = false;        // `low` itself is refused
   bool below_high = false;       // `high` itself is refused

@@ -22,69 +22,108 @@ struct TypeIndex {
 };
 
 // A scenario and a campaign have these in common.
-inline constexpr Field kSeed{.key = "seed", .text = "seed of everything that is drawn", .is_seed = true};
-inline constexpr Field kHorizon{.key = "horizon_s", .text = "length of a run", .high = 1e7, .above_low = true};
+inline constexpr Field kSeed{.key = "seed",
+                             .text = "seed of everything that is drawn",
+                             .lenient = Lenient::none("every seed is an attempt of the ledger"),
+                             .is_seed = true};
+inline constexpr Field kHorizon{.key = "horizon_s",
+                                .text = "length of a run",
+                                .lenient = Lenient::down(Weight::Load),
+                                .high = 1e7,
+                                .above_low = true};
 inline constexpr Field kStuckAfter{.key = "stuck_after_s",
                                    .text = "a run is stuck if nothing begins or ends for so long",
+                                   .lenient = Lenient::up(Weight::Judgement),
                                    .high = kLongest_s,
                                    .above_low = true};
-inline constexpr Field kContactStops{.key = "contact_stops", .text = "bodies that touch stand still from then on"};
+inline constexpr Field kContactStops{.key = "contact_stops",
+                                     .text = "bodies that touch stand still from then on",
+                                     .lenient = Lenient::down(Weight::Judgement)};
 
 template <FieldsOf<SensingSetup> Sensing, class Visit>
 void visit_fields(Sensing& sensing, Visit&& visit) {
   auto& [clock_offset_s, clock_drift_ppm, position_error_m, position_late_s] = sensing;
-  visit(Field{.key = "clock_offset_s", .text = "the AGV's clock is ahead by this much", .high = 1e6}, clock_offset_s);
-  visit(Field{.key = "clock_drift_ppm", .text = "and runs too fast by this much", .low = -1e5, .high = 1e5},
+  visit(Field{.key = "clock_offset_s",
+              .text = "the AGV's clock is ahead by this much",
+              .lenient = kOfScenarios,
+              .high = 1e6},
+        clock_offset_s);
+  visit(Field{.key = "clock_drift_ppm",
+              .text = "and runs too fast by this much",
+              .lenient = kOfScenarios,
+              .low = -1e5,
+              .high = 1e5},
         clock_drift_ppm);
   visit(Field{.key = "position_error_m",
               .text = "each coordinate of getPosition is wrong by up to this",
+              .lenient = kOfScenarios,
               .high = kLargestBody_m},
         position_error_m);
-  visit(Field{.key = "position_late_s", .text = "getPosition tells where the AGV was so long ago", .high = kHour_s},
+  visit(Field{.key = "position_late_s",
+              .text = "getPosition tells where the AGV was so long ago",
+              .lenient = kOfScenarios,
+              .high = kHour_s},
         position_late_s);
 }
 
 template <FieldsOf<TransportOrder> Order, class Visit>
 void visit_fields(Order& order, Visit&& visit) {
   auto& [from, to, release] = order;
-  visit(Field{.key = "from", .text = "station where the load is", .needed = true}, from);
-  visit(Field{.key = "to", .text = "station where the load goes", .needed = true}, to);
-  visit(Field{.key = "release_s", .text = "when the agent gets the order", .high = kLongest_s, .needed = true},
+  visit(Field{.key = "from", .text = "station where the load is", .lenient = kOfScenarios, .needed = true}, from);
+  visit(Field{.key = "to", .text = "station where the load goes", .lenient = kOfScenarios, .needed = true}, to);
+  visit(Field{.key = "release_s",
+              .text = "when the agent gets the order",
+              .lenient = kOfScenarios,
+              .high = kLongest_s,
+              .needed = true},
         release);
 }
 
 template <FieldsOf<ScriptedCall> Call, class Visit>
 void visit_fields(Call& call, Visit&& visit) {
   auto& [at, action, segment, backward] = call;
-  visit(Field{.key = "at_s", .text = "when the call is made", .high = kLongest_s, .needed = true}, at);
-  visit(Field{.key = "action", .text = "the controller call", .needed = true}, action);
+  visit(
+      Field{
+          .key = "at_s", .text = "when the call is made", .lenient = kOfScenarios, .high = kLongest_s, .needed = true},
+      at);
+  visit(Field{.key = "action", .text = "the controller call", .lenient = kOfScenarios, .needed = true}, action);
   visit(Field{.key = "segment",
               .text = "name of the segment that the AGV drives first; left out of pick, drop, park or charge: it stays "
                       "where it stands",
+              .lenient = kOfScenarios,
               .left_out = !segment.valid()},
         segment);
-  visit(Field{.key = "backward", .text = "whether the AGV drives the segment backward", .left_out = !backward},
+  visit(Field{.key = "backward",
+              .text = "whether the AGV drives the segment backward",
+              .lenient = kOfScenarios,
+              .left_out = !backward},
         backward);
 }
 
 template <FieldsOf<AgvSetup> Agv, class Visit>
 void visit_fields(Agv& agv, Visit&& visit) {
   auto& [name, type, start, heading, battery, sensing, transports, script, draws_as] = agv;
-  visit(Field{.key = "name", .text = "name of the AGV", .needed = true}, name);
-  visit(Field{.key = "type", .text = "name of its vehicle type; left out: the first one"},
+  visit(Field{.key = "name", .text = "name of the AGV", .lenient = kIsName, .needed = true}, name);
+  visit(Field{.key = "type", .text = "name of its vehicle type; left out: the first one", .lenient = kOfScenarios},
         TypeIndex<decltype(type)>{type});
-  visit(Field{.key = "start", .text = "station where it stands at first", .needed = true}, start);
-  visit(Field{.key = "heading", .text = "direction [x, y] in which it looks at first"},
+  visit(Field{.key = "start", .text = "station where it stands at first", .lenient = kOfScenarios, .needed = true},
+        start);
+  visit(Field{.key = "heading", .text = "direction [x, y] in which it looks at first", .lenient = kOfScenarios},
         Direction<std::remove_reference_t<decltype(heading)>>{heading});
-  visit(Field{.key = "battery", .text = "level at first; 1: full"}, battery);
-  visit(
-      Field{
-          .key = "sensing", .text = "how wrong its own clock and position are", .left_out = sensing == SensingSetup{}},
-      sensing);
-  visit(Field{.key = "transports", .text = "its orders"}, transports);
-  visit(Field{.key = "script", .text = "controller calls of the `scripted` agent, in order of time"}, script);
+  visit(Field{.key = "battery", .text = "level at first; 1: full", .lenient = kOfScenarios}, battery);
+  visit(Field{.key = "sensing",
+              .text = "how wrong its own clock and position are",
+              .lenient = kOfScenarios,
+              .left_out = sensing == SensingSetup{}},
+        sensing);
+  visit(Field{.key = "transports", .text = "its orders", .lenient = kOfScenarios}, transports);
+  visit(Field{.key = "script",
+              .text = "controller calls of the `scripted` agent, in order of time",
+              .lenient = kOfScenarios},
+        script);
   visit(Field{.key = "draws_as",
               .text = "number under which what is random about it is drawn; left out: its place in the list",
+              .lenient = kOfScenarios,
               .high = 65535.0,
               .left_out = !draws_as.has_value(),
               .is_later = true},
@@ -98,24 +137,27 @@ void visit_fields(Obstacle& obstacle, Visit&& visit) {
   auto& [position_m, heading] = pose;
   Field length = kLength, width = kWidth;
   length.needed = width.needed = true;
-  visit(Field{.key = "name", .text = "name of the obstacle", .needed = true}, name);
+  visit(Field{.key = "name", .text = "name of the obstacle", .lenient = kIsName, .needed = true}, name);
   visit(length, length_m);
   visit(width, width_m);
   visit(Field{.key = "position_m",
               .text = "[x, y] of its centre",
+              .lenient = kOfScenarios,
               .low = -kFloorEnd_m,
               .high = kFloorEnd_m,
               .needed = true},
         position_m);
-  visit(Field{.key = "heading", .text = "direction [x, y] of its length"},
+  visit(Field{.key = "heading", .text = "direction [x, y] of its length", .lenient = kOfScenarios},
         Direction<std::remove_reference_t<decltype(heading)>>{heading});
   visit(Field{.key = "appears_s",
               .text = "when it appears; 0: it is there from the start",
+              .lenient = kOfScenarios,
               .high = kLongest_s,
               .left_out = appears == Duration::zero()},
         appears);
   visit(Field{.key = "leaves_s",
               .text = "when it leaves; left out: never",
+              .lenient = kOfScenarios,
               .high = kLongest_s,
               .left_out = leaves == kLongestDuration},
         leaves);
@@ -124,7 +166,10 @@ void visit_fields(Obstacle& obstacle, Visit&& visit) {
 template <FieldsOf<AgentClockSetup> Clock, class Visit>
 void visit_fields(Clock& clock, Visit&& visit) {
   auto& [call_cost_s] = clock;
-  visit(Field{.key = "call_cost_s", .text = "simulated time that every controller call takes", .high = 60.0},
+  visit(Field{.key = "call_cost_s",
+              .text = "simulated time that every controller call takes",
+              .lenient = Lenient::down(Weight::Load),
+              .high = 60.0},
         call_cost_s);
 }
 
@@ -136,31 +181,44 @@ void visit_fields(Law& law, Visit&& visit) {
          exempt_pairs, leave_out] = law;
   visit(Field{.key = "safety_distance_m",
               .text = "bodies that come closer than this violate the safety distance",
+              .lenient = Lenient::down(Weight::Judgement),
               .low = 0.001,
               .high = 0.5},
         safety_distance_m);
   visit(Field{.key = "snapshot_s",
               .text = "time between two snapshots of the published laws",
+              .lenient = kOfScenarios,
               .low = 1e-6,
               .high = kLongest_s,
               .home = FieldHome::ScenarioOnly},
         snapshot_s);
-  visit(Field{.key = "reaction_s", .text = "an agent may leave safe mode so much later than it could", .high = kHour_s},
+  visit(Field{.key = "reaction_s",
+              .text = "an agent may leave safe mode so much later than it could",
+              .lenient = Lenient::up(Weight::Judgement),
+              .high = kHour_s},
         reaction_s);
   visit(Field{.key = "min_transports_per_agv_hour",
               .text = "a run with a lower throughput is not normal operation; 0: any will do",
+              .lenient = Lenient::down(Weight::Judgement),
               .high = 3600.0},
         min_transports_per_agv_hour);
-  visit(Field{.key = "exempt_purposes", .text = "bodies near stations of such a purpose may be close to each other"},
+  visit(Field{.key = "exempt_purposes",
+              .text = "bodies near stations of such a purpose may be close to each other",
+              .lenient = kToldAtHead},
         exempt_purposes);
-  visit(Field{.key = "exempt_radius_m", .text = "how near, for exempt_purposes", .high = kLargestBody_m},
+  visit(Field{.key = "exempt_radius_m",
+              .text = "how near, for exempt_purposes",
+              .lenient = kToldAtHead,
+              .high = kLargestBody_m},
         exempt_radius_m);
   visit(Field{.key = "exempt_pairs",
               .text = "pairs of vehicle types, or \"obstacle\", that may be close to each other anywhere",
+              .lenient = kToldAtHead,
               .left_out = exempt_pairs.empty()},
         exempt_pairs);
   visit(Field{.key = "leave_out",
               .text = "laws that are not run",
+              .lenient = kOfScenarios,
               .home = FieldHome::ScenarioOnly,
               .left_out = leave_out.empty(),
               .is_later = true},
@@ -170,51 +228,68 @@ void visit_fields(Law& law, Visit&& visit) {
 template <FieldsOf<ExpectedOutcome> Expected, class Visit>
 void visit_fields(Expected& expected, Visit&& visit) {
   auto& [failure, digest] = expected;
-  visit(Field{.key = "failure", .text = "how the run fails, as shrink says it", .needed = true}, failure);
-  visit(Field{.key = "digest", .text = "digest of its trace, as 0x and hexadecimal digits", .is_seed = true}, digest);
+  visit(
+      Field{.key = "failure", .text = "how the run fails, as shrink says it", .lenient = kOfScenarios, .needed = true},
+      failure);
+  visit(Field{.key = "digest",
+              .text = "digest of its trace, as 0x and hexadecimal digits",
+              .lenient = kOfScenarios,
+              .is_seed = true},
+        digest);
 }
 
 template <FieldsOf<Scenario> Given, class Visit>
 void visit_fields(Given& scenario, Visit&& visit) {
   auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, deliveries, agent_clock, law,
          contact_stops, horizon, stuck_after, seed, stream_seeds, agent, agent_config, expected] = scenario;
-  visit(Field{.key = "name", .text = "name of the scenario"}, name);
+  visit(Field{.key = "name", .text = "name of the scenario", .lenient = kIsName}, name);
   visit(kSeed, seed);
   visit(Field{.key = "stream_seeds",
               .text = "streams of randomness that have a seed of their own",
+              .lenient = kOfScenarios,
               .left_out = stream_seeds.empty()},
         stream_seeds);
   visit(Field{.key = "agent",
               .text = "the control software of the fleet; left out: the caller names it, or a script moves the AGVs",
+              .lenient = kOfScenarios,
               .left_out = agent.empty()},
         agent);
-  visit(
-      Field{
-          .key = "agent_config", .text = "a text that every agent gets at its start", .left_out = agent_config.empty()},
-      agent_config);
+  visit(Field{.key = "agent_config",
+              .text = "a text that every agent gets at its start",
+              .lenient = kOfScenarios,
+              .left_out = agent_config.empty()},
+        agent_config);
   visit(Field{.key = "expected",
               .text = "what a saved case is known to do; it changes nothing",
+              .lenient = kOfScenarios,
               .left_out = expected == ExpectedOutcome{},
               .is_later = true},
         expected);
   visit(kHorizon, horizon);
   visit(kStuckAfter, stuck_after);
   visit(kContactStops, contact_stops);
-  visit(Field{.key = "radio", .text = "the radio"}, radio);
-  visit(Field{.key = "agent_clock", .text = "the agent's computer"}, agent_clock);
-  visit(Field{.key = "law", .text = "what the laws ask"}, law);
-  visit(Field{.key = "vehicle_types", .text = "kinds of AGVs"}, vehicle_types);
-  visit(Field{.key = "agvs", .text = "the fleet", .needed = true}, agvs);
-  visit(Field{.key = "obstacles", .text = "bodies that stand on the floor"}, obstacles);
-  visit(Field{.key = "faults", .text = "what goes wrong, and when", .left_out = faults.empty()}, faults);
-  visit(Field{.key = "scanner", .text = "the laser scanners", .left_out = scanner == ScannerSetup{}}, scanner);
-  visit(Field{.key = "operator", .text = "the operator", .left_out = operator_help == OperatorSetup{}}, operator_help);
+  visit(Field{.key = "radio", .text = "the radio", .lenient = kIsTable}, radio);
+  visit(Field{.key = "agent_clock", .text = "the agent's computer", .lenient = kIsTable}, agent_clock);
+  visit(Field{.key = "law", .text = "what the laws ask", .lenient = kIsTable}, law);
+  visit(Field{.key = "vehicle_types", .text = "kinds of AGVs", .lenient = kIsTable}, vehicle_types);
+  visit(Field{.key = "agvs", .text = "the fleet", .lenient = kOfScenarios, .needed = true}, agvs);
+  visit(Field{.key = "obstacles", .text = "bodies that stand on the floor", .lenient = kOfScenarios}, obstacles);
+  visit(Field{.key = "faults", .text = "what goes wrong, and when", .lenient = kIsTable, .left_out = faults.empty()},
+        faults);
+  visit(
+      Field{.key = "scanner", .text = "the laser scanners", .lenient = kIsTable, .left_out = scanner == ScannerSetup{}},
+      scanner);
+  visit(
+      Field{
+          .key = "operator", .text = "the operator", .lenient = kIsTable, .left_out = operator_help == OperatorSetup{}},
+      operator_help);
   visit(Field{.key = "fates",
               .text = "what becomes of single messages, whatever the radio would draw for them",
+              .lenient = kOfScenarios,
               .home = FieldHome::ScenarioOnly,
               .left_out = deliveries.empty()},
         deliveries);
-  visit(Field{.key = "layout", .text = "the logical map", .needed = true}, map);
+  visit(Field{.key = "layout", .text = "the logical map", .lenient = kOfScenarios, .needed = true}, map);
 }
 
 // Structs that have a list of fields.

@@ -166,7 +166,8 @@ class ScenarioReader {
     scenario.map = std::move(map);
     stations_.emplace("station", scenario.map->layout().stations);
     segments_.emplace("segment", scenario.map->layout().segments);
-    if (const auto types = root.find("vehicle_types")) value({}, *types, scenario.vehicle_types);
+    if (const auto types = root.find("vehicle_types"))
+      value({.key = "vehicle_types", .text = "", .lenient = kOfScenarios}, *types, scenario.vehicle_types);
     types_.emplace("vehicle type", scenario.vehicle_types);
     visit_fields(scenario, [&](const Field& field, auto&& target) {
       member(root, field, target);

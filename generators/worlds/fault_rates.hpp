@@ -79,7 +79,8 @@ inline constexpr auto kRecurringFaults = std::to_array<RecurringFault>({
 
 inline constexpr Field kClocksAgree{
     .key = "clocks_agree_share",
-    .text = "chance that the clocks of a world agree: no offset, no drift; AGVs then begin at one instant"};
+    .text = "chance that the clocks of a world agree: no offset, no drift; AGVs then begin at one instant",
+    .lenient = Lenient::up(Weight::Load)};
 
 template <FieldsOf<FaultRates> Rates, class Visit>
 void visit_fields(Rates& rates, Visit&& visit) {
@@ -89,46 +90,66 @@ void visit_fields(Rates& rates, Visit&& visit) {
          power_failures_per_agv_hour, power_back_s, clock_offset_s, clock_drift_ppm, clocks_agree_share,
          position_error_m, position_late_s, low_battery_share] = rates;
   const auto rate = [](std::string_view key, std::string_view text) {
-    return Field{.key = key, .text = text, .high = 3600.0};
+    return Field{.key = key, .text = text, .lenient = Lenient::down(Weight::Load), .high = 3600.0};
   };
-  const auto time = [](std::string_view key, std::string_view text) {
-    return Field{.key = key, .text = text, .high = kDay_s};
+  const auto time = [](std::string_view key, Lenient lenient, std::string_view text) {
+    return Field{.key = key, .text = text, .lenient = lenient, .high = kDay_s};
   };
   visit(rate("breakdowns_per_agv_hour", "an AGV breaks down and blocks its place; 1 / MTBF"), breakdowns_per_agv_hour);
-  visit(Field{.key = "breakdowns_per_transport", .text = "chance of a breakdown on the way with a load"},
+  visit(Field{.key = "breakdowns_per_transport",
+              .text = "chance of a breakdown on the way with a load",
+              .lenient = Lenient::down(Weight::Load)},
         breakdowns_per_transport);
-  visit(time("repair_s", "mean time until it goes on (MTTR); exponential"), repair_s);
+  visit(time("repair_s", Lenient::up(Weight::Load), "mean time until it goes on (MTTR); exponential"), repair_s);
   visit(rate("protective_stops_per_agv_hour", "an AGV stops in mid-segment and goes on by itself; 1 to 20 are usual"),
         protective_stops_per_agv_hour);
-  visit(time("protective_stop_least_s", "shortest protective stop"), protective_stop_least_s);
-  visit(time("protective_stop_most_s", "longest protective stop; uniform"), protective_stop_most_s);
-  visit(Field{.key = "load_drops_per_transport", .text = "chance that a load of 1.2 m x 0.8 m falls behind the AGV"},
+  visit(time("protective_stop_least_s", Lenient::up(Weight::Load), "shortest protective stop"),
+        protective_stop_least_s);
+  visit(time("protective_stop_most_s", Lenient::up(Weight::Load), "longest protective stop; uniform"),
+        protective_stop_most_s);
+  visit(Field{.key = "load_drops_per_transport",
+              .text = "chance that a load of 1.2 m x 0.8 m falls behind the AGV",
+              .lenient = Lenient::down(Weight::Load)},
         load_drops_per_transport);
-  visit(time("load_lies_s", "mean time until it is cleared away; exponential"), load_lies_s);
+  visit(time("load_lies_s", Lenient::up(Weight::Load), "mean time until it is cleared away; exponential"), load_lies_s);
   visit(rate("obstacles_per_hour", "a body of 0.8 m x 0.6 m appears on or beside a lane; in the whole warehouse"),
         obstacles_per_hour);
-  visit(time("obstacle_stays_s", "mean time until it leaves; exponential"), obstacle_stays_s);
+  visit(time("obstacle_stays_s", Lenient::up(Weight::Load), "mean time until it leaves; exponential"),
+        obstacle_stays_s);
   visit(rate("restarts_per_agv_hour", "an agent loses its memory and starts again"), restarts_per_agv_hour);
-  visit(time("restart_s", "for so long it is away"), restart_s);
+  visit(time("restart_s", Lenient::either(Weight::Load), "for so long it is away"), restart_s);
   visit(rate("freezes_per_agv_hour", "an agent does not answer, and then sees everything at once"),
         freezes_per_agv_hour);
-  visit(time("freeze_least_s", "shortest freeze"), freeze_least_s);
-  visit(time("freeze_most_s", "longest freeze; uniform"), freeze_most_s);
+  visit(time("freeze_least_s", Lenient::down(Weight::Load), "shortest freeze"), freeze_least_s);
+  visit(time("freeze_most_s", Lenient::down(Weight::Load), "longest freeze; uniform"), freeze_most_s);
   visit(rate("power_failures_per_agv_hour", "an AGV stops where it is and its agent loses its memory"),
         power_failures_per_agv_hour);
-  visit(time("power_back_s", "mean time until the power is back; exponential"), power_back_s);
-  visit(Field{.key = "clock_offset_s", .text = "each AGV's clock is ahead by up to this; uniform", .high = 1e6},
+  visit(time("power_back_s", Lenient::up(Weight::Load), "mean time until the power is back; exponential"),
+        power_back_s);
+  visit(Field{.key = "clock_offset_s",
+              .text = "each AGV's clock is ahead by up to this; uniform",
+              .lenient = Lenient::down(Weight::Load),
+              .high = 1e6},
         clock_offset_s);
-  visit(Field{.key = "clock_drift_ppm", .text = "each AGV's clock is too fast or too slow by up to this", .high = 1e5},
+  visit(Field{.key = "clock_drift_ppm",
+              .text = "each AGV's clock is too fast or too slow by up to this",
+              .lenient = Lenient::down(Weight::Load),
+              .high = 1e5},
         clock_drift_ppm);
   visit(kClocksAgree.left_out_if(clocks_agree_share == 0.0), clocks_agree_share);
   visit(Field{.key = "position_error_m",
               .text = "each coordinate of getPosition is wrong by up to this",
+              .lenient = Lenient::down(Weight::Load),
               .high = kLargestBody_m},
         position_error_m);
-  visit(Field{.key = "position_late_s", .text = "getPosition tells where the AGV was so long ago", .high = kHour_s},
+  visit(Field{.key = "position_late_s",
+              .text = "getPosition tells where the AGV was so long ago",
+              .lenient = Lenient::down(Weight::Load),
+              .high = kHour_s},
         position_late_s);
-  visit(Field{.key = "low_battery_share", .text = "chance that an AGV starts with 12 to 20 % of its battery"},
+  visit(Field{.key = "low_battery_share",
+              .text = "chance that an AGV starts with 12 to 20 % of its battery",
+              .lenient = Lenient::down(Weight::Load)},
         low_battery_share);
 }
 

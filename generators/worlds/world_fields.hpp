@@ -10,17 +10,21 @@
 // The fields of what a campaign fixes about its worlds.
 namespace fleetproof {
 
-inline constexpr Field kPlacement{.key = "placement", .text = "how the fleet stands at the start"};
+inline constexpr Field kPlacement{.key = "placement",
+                                  .text = "how the fleet stands at the start",
+                                  .lenient = Lenient::either(Weight::Load).but_not("adversarial", "mixed")};
 
 template <FieldsOf<Demand> Given, class Visit>
 void visit_fields(Given& demand, Visit&& visit) {
   auto& [transports_per_agv_hour, hot_spot_skew] = demand;
   visit(Field{.key = "transports_per_agv_hour",
               .text = "mean of a Poisson process for each AGV, whose first order comes within 10 s; 0: no orders",
+              .lenient = Lenient::down(Weight::Load),
               .high = 3600.0},
         transports_per_agv_hour);
   visit(Field{.key = "hot_spot_skew",
               .text = "the n-th busiest station gets n^-skew of the busiest one's orders; 0: all get alike",
+              .lenient = Lenient::down(Weight::Load),
               .high = 4.0},
         hot_spot_skew);
 }
@@ -31,6 +35,7 @@ void visit_fields(Sources& sources, Visit&& visit) {
   auto& [count, like] = sources;
   visit(Field{.key = "sources",
               .text = "external sources (other networks, ovens, welding robots), in other places in every replicate",
+              .lenient = Lenient::down(Weight::Load),
               .high = 1000.0},
         count);
   visit_fields(like, [&](const Field& field, auto& value) {
@@ -46,6 +51,7 @@ void visit_fields(Share& vehicle, Visit&& visit) {
   auto& [type, share] = vehicle;
   visit(Field{.key = "share",
               .text = "how much of the fleet is of this type, relative to the others",
+              .lenient = Lenient::none("what fills the fleet stands under Conditions"),
               .high = 1e6,
               .above_low = true},
         share);

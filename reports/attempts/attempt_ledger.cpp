@@ -128,10 +128,6 @@ bool has_fixed_gate(const Json& plan) {
   });
 }
 
-}  // namespace
-
-namespace {
-
 // What stays of a plan when other software is tried under it, in worlds of its own.
 Json conditions_of(Json plan) {
   if (!plan.is_object()) return plan;

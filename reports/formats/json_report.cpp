@@ -266,6 +266,13 @@ Json one_cell_json(const ReportInput& input, const CellRecord& cell) {
   return json;
 }
 
+Json waived_json(const LenientConditions& waived) {
+  auto list = Json::array();
+  for (const auto& [field, value, usual] : waived.list)
+    list.push_back({{"field", field}, {"value", value}, {"usual", usual.empty() ? Json(nullptr) : Json(usual)}});
+  return list;
+}
+
 Json campaign_json(const ReportInput& input) {
   const auto& campaign = input.campaign;
   return {{"name", campaign.name},
@@ -279,7 +286,9 @@ Json campaign_json(const ReportInput& input) {
           {"plan_hash", hex_text(campaign.plan_hash)},
           {"sampling", campaign.sampling.empty() ? Json(nullptr) : Json(campaign.sampling)},
           {"held_streams", campaign.held_streams},
-          {"held_replicate", campaign.held_streams.empty() ? Json(nullptr) : Json(campaign.held_replicate)}};
+          {"held_replicate", campaign.held_streams.empty() ? Json(nullptr) : Json(campaign.held_replicate)},
+          {"waived", waived_json(input.waived)},
+          {"waived_unknown", input.waived.trouble.empty() ? Json(nullptr) : Json(input.waived.trouble)}};
 }
 
 Json exemptions_json(const CampaignRecord& campaign) {

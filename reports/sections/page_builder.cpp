@@ -136,6 +136,7 @@ Page build_page(const ReportInput& input, std::size_t most_rows) {
                   printable(input.campaign.kind, 20), replicates_text(evidence), evidence.cells().size(),
                   count_text(evidence.complete_replicates() * evidence.cells().size(), "run"));
   page.headlines = reservations(input);
+  for (auto& waived : lenient_headlines(input.waived)) page.headlines.push_back(std::move(waived));
   for (auto& warning : warnings(input)) page.headlines.push_back(std::move(warning));
   for (auto& audit : audit_headlines(input)) page.headlines.push_back(std::move(audit));
   for (auto& weak : weak_headlines(input)) page.headlines.push_back(std::move(weak));

@@ -11,6 +11,7 @@
 #include "reports/evidence/evidence.hpp"
 #include "reports/evidence/failure_groups.hpp"
 #include "reports/findings/mechanism_record.hpp"
+#include "reports/sections/lenient_conditions.hpp"
 #include "reports/sensitivity/sensitivity_record.hpp"
 #include "storage/archive_reader.hpp"
 
@@ -26,11 +27,13 @@ struct ReportInput {
   std::vector<GateResult> gates;               // in the order of evidence.gates()
   std::uint64_t stored_runs = 0;               // in the file; evidence.runs() of them are before the first gap
   std::vector<BaselineComparison> baseline{};  // empty: the report compares with nothing
-  // A caller adds these: the exit code of the program, which knows its codes, and what files beside the archive tell.
+  // A caller adds these: the exit code of the program, which knows its codes, what files beside the archive tell, and
+  // what the plan waives.
   std::optional<int> exit_code{};
   AttemptHistory attempts{};
   SensitivityFile sensitivity{};
   MechanismFile findings{};
+  LenientConditions waived{};
 };
 
 // What a campaign ends with: the overall verdict, or that the engine made an error, after which no verdict counts.

@@ -30,6 +30,35 @@ TEST(Channel, CarriesFramesOfAnySizeInOrder) {
   EXPECT_EQ(here.wait(kNow), Wait::NotYet);
 }
 
+// A worker may be stopped, or read nothing: whoever posts looks after it meanwhile.
+TEST(Channel, PostsToAnEndThatDoesNotRead) {
+  auto [here, there] = Channel::make_pair();
+  const std::string large(3'000'000, 'x');
+  here.post(large);
+  here.post("after it");
+  EXPECT_EQ(here.wait(std::chrono::milliseconds(20)), Wait::NotYet);
+  std::thread reader([&there = there, &large] {
+    for (const std::string& expected : {large, std::string("after it")}) {
+      ASSERT_EQ(there.wait(kSoon), Wait::Arrived);
+      EXPECT_EQ(there.received(), expected);
+    }
+    EXPECT_TRUE(there.send("read"));
+  });
+  EXPECT_EQ(here.wait(kSoon), Wait::Arrived);
+  EXPECT_EQ(here.received(), "read");
+  reader.join();
+}
+
+TEST(Channel, WhatAnEndSaidBeforeItWentIsReadAlthoughItTookNothing) {
+  auto [here, there] = Channel::make_pair();
+  here.post(std::string(3'000'000, 'x'));
+  ASSERT_TRUE(there.send("I cannot"));
+  there.close();
+  EXPECT_EQ(here.wait(kSoon), Wait::Arrived);
+  EXPECT_EQ(here.received(), "I cannot");
+  EXPECT_EQ(here.wait(kSoon), Wait::Gone);
+}
+
 TEST(Channel, TellsThatTheOtherEndIsGone) {
   auto [here, there] = Channel::make_pair();
   ASSERT_TRUE(there.send("last words"));

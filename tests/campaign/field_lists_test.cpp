@@ -205,12 +205,14 @@ std::string escaped(std::string text) {
 
 // All rows of one kind of file as a Markdown table.
 std::string field_table_markdown(const std::string& file) {
-  std::string table = "| key | default | what a file may give | what it is |\n|---|---|---|---|\n";
+  const bool judged = file == "campaign";
+  std::string table = fmt::format("| key | default | what a file may give |{} what it is |\n|---|---|---|{}---|\n",
+                                  judged ? " named at the head |" : "", judged ? "---|" : "");
   for (const FieldRow& row : field_rows()) {
     if (row.file != file) continue;
-    table +=
-        fmt::format("| `{}` | {} | {} | {} |\n", row.key, row.fallback.empty() ? "" : fmt::format("`{}`", row.fallback),
-                    escaped(row.expected), escaped(row.text));
+    table += fmt::format("| `{}` | {} | {} |{} {} |\n", row.key,
+                         row.fallback.empty() ? "" : fmt::format("`{}`", row.fallback), escaped(row.expected),
+                         judged ? fmt::format(" {} |", row.named) : "", escaped(row.text));
   }
   return table;
 }

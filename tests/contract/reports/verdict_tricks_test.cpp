@@ -176,6 +176,19 @@ TEST_F(VerdictTricks, APlugInThatRoundsUpwardChangesNoOtherSoftwareAndIsTold) {
   EXPECT_EQ(json::parse(run("report folded.db --format json --exit-zero").out).at("audits"), report.at("audits"));
 }
 
+// It needs more CPU time to load than a run may use, and more than one process loads it.
+TEST_F(VerdictTricks, WhatAPlugInDoesWhileItIsLoadedIsNoPartOfARunAndIsTold) {
+  const std::string agent = fmt::format("{{ file = \"{}\", name = \"one\" }}", FLEETPROOF_LOADING_AGENT);
+  write("c.toml", fmt::format(fmt::runtime(kPlain), agent, 0.1, "one", 0.9, "crash") + "[limits]\ncpu_s = 0.2\n");
+  const auto finished = run("run c.toml --db c.db -j 1 --replicates 8");
+  const json report = json::parse(run("report c.db --format json --exit-zero").out);
+  EXPECT_THAT(finished.out, HasSubstr("0/8")) << finished.err;
+#ifdef __x86_64__
+  EXPECT_EQ(report.at("audits").at(0).at("processor_changed_runs"), 8);
+#endif
+  EXPECT_EQ(report.at("audits").at(0).at("differing"), 0) << "the count stands on the tape, too";
+}
+
 TEST_F(VerdictTricks, CallsFromAThreadOfTheAgentAreItsCrash) {
   write("c.toml", fmt::format(fmt::runtime(kPlain), untidy("other-thread", "one"), 0.1, "one", 0.01, "crash"));
   const auto finished = run("run c.toml --db c.db");
