@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "campaign/batch/audit_finding.hpp"
 #include "campaign/batch/stored_plan.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
@@ -145,28 +146,12 @@ HostProcess AuditQueue::process_for(std::uint64_t run_index) {
   return is_early ? HostProcess::Own : HostProcess::Shared;
 }
 
-AuditedRun AuditQueue::finding_of(const RunRecord& record, std::uint64_t checksum_before) const {
-  const auto found = [&](const RunRecord& run) {
-    const std::uint64_t checksum = row_checksum(run);
-    return AuditedRun{{run.run_index, checksum, audited_outcome(run)}, checksum == checksum_before};
-  };
-  if (record.recording.empty()) return found(record);
-  RunWatch watch;
-  watch.play = record.recording;
-  watch.abandon = &stop_playing_;
-  try {
-    return found(run_one_(record.run_index, nullptr, watch));
-  } catch (const EngineError&) {  // what it did is not known
-    return {{record.run_index, row_checksum(record) ^ 1, std::nullopt}, false};
-  }
-}
-
 void AuditQueue::audit(const Batch& batch) {
   for (const auto& [run_index, checksum] : batch) {
     const bool record_calls = is_plugin_[agent_of_run(run_index, is_plugin_.size())];
     const RunRecord record = (*runs_)(run_index, record_calls, process_for(run_index));
     runs_->take_losses();  // what ended a worker here stands in the record, and so in the finding
-    AuditedRun finding = finding_of(record, checksum);
+    AuditedRun finding = audit_finding(run_one_, record, checksum, &stop_playing_);
     const std::lock_guard lock(mutex_);
     findings_.push_back(std::move(finding));
     if (++found_ >= kAuditsToPass) wanted_ = kBatch;

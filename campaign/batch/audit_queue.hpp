@@ -17,9 +17,8 @@
 namespace fleetproof {
 
 // Simulates a share of the finished runs once more: in processes that are started afresh, with other addresses, other
-// bytes in fresh memory, and in another order. What a plug-in did there is then played in this process, in which no
-// plug-in has ever been: that is what the audit finds, so that damage to the engine of a worker shows. Works beside the
-// campaign, on threads of its own. Threads: the caller's one.
+// bytes in fresh memory, and in another order; audit_finding.hpp says what counts. Works beside the campaign, on
+// threads of its own. Threads: the caller's one.
 class AuditQueue {
  public:
   // `audits`: no: nothing is audited. `plan` and `programs` outlive it.
@@ -53,7 +52,6 @@ class AuditQueue {
   Batch next_batch();
   void audit(const Batch& batch);
   HostProcess process_for(std::uint64_t run_index);
-  AuditedRun finding_of(const RunRecord& record, std::uint64_t checksum_before) const;
 
   AuditShare share_;
   RunOne run_one_;               // plays tapes

@@ -155,6 +155,18 @@ inline constexpr Field kConstantDelayShare{
     .text = "share of worlds in which every message takes delay_s, whatever delay_model says",
     .lenient = Lenient::up(Weight::Load)};
 
+// The radio of a campaign is that of a scenario, with sources that are drawn.
+template <FieldsOf<CampaignPlan> Plan, class Visit>
+void visit_radio_table(Plan& plan, Visit&& visit) {
+  visit_fields(plan.radio, visit);
+  visit_fields(plan.sources, visit);
+  visit(kConstantDelayShare.left_out_if(plan.constant_delay_share == 0.0), plan.constant_delay_share);
+}
+
+inline constexpr Field kProbes{.key = "probes",
+                               .text = "names of probes; left out: what the kind of campaign asks for",
+                               .lenient = Lenient::down(Weight::Judgement)};
+
 template <FieldsOf<AuditSetup> Audit, class Visit>
 void visit_fields(Audit& audit, Visit&& visit) {
   auto& [share] = audit;
@@ -213,23 +225,16 @@ void visit_fields(Plan& plan, Visit&& visit) {
         scanner);
   visit(Field{.key = "operator", .text = "the operator; the table switches the operator on", .lenient = kIsTable},
         operator_help);
-  visit(Field{.key = "radio", .text = "the radio of every cell", .lenient = kIsTable}, FieldTable{[&](auto& inner) {
-          visit_fields(plan.radio, inner);
-          visit_fields(plan.sources, inner);
-          inner(kConstantDelayShare.left_out_if(plan.constant_delay_share == 0.0), plan.constant_delay_share);
-        }});
+  visit(Field{.key = "radio", .text = "the radio of every cell", .lenient = kIsTable},
+        FieldTable{[&](auto& inner) { visit_radio_table(plan, inner); }});
   visit(Field{.key = "agent_clock", .text = "the agent's computer", .lenient = kIsTable}, agent_clock);
   visit(Field{.key = "law", .text = "what the laws ask", .lenient = kIsTable}, FieldTable{[&](auto& inner) {
           visit_fields(plan.law, inner);
           inner(Field{.key = "leave_out", .text = "laws that are not run", .lenient = Lenient::up(Weight::Judgement)},
                 plan.laws_left_out);
         }});
-  visit(Field{.key = "coverage", .text = "what has to be met", .lenient = kIsTable}, FieldTable{[&](auto& inner) {
-          inner(Field{.key = "probes",
-                      .text = "names of probes; left out: what the kind of campaign asks for",
-                      .lenient = Lenient::down(Weight::Judgement)},
-                plan.required_probes);
-        }});
+  visit(Field{.key = "coverage", .text = "what has to be met", .lenient = kIsTable},
+        FieldTable{[&](auto& inner) { inner(kProbes, plan.required_probes); }});
   visit(Field{.key = "limits", .text = "what one run of a plug-in may use", .lenient = kIsTable}, limits);
   visit(Field{.key = "audit", .text = "how the campaign checks that its runs can be repeated", .lenient = kIsTable},
         audit);

@@ -20,6 +20,8 @@
 #include <string_view>
 #include <vector>
 
+#include "campaign/workers/system_calls.hpp"
+
 namespace fleetproof {
 namespace {
 
@@ -236,6 +238,8 @@ struct Holdings {
 }  // namespace
 
 struct LeftBehind::State {
+  SystemCalls calls;
+  bool has_called = true;
   Status status;
   Locale locale;
   Signals signals{status};
@@ -255,15 +259,22 @@ struct LeftBehind::State {
 LeftBehind::LeftBehind() : state_(std::make_unique<State>()) {}
 LeftBehind::~LeftBehind() = default;
 
+void LeftBehind::run_begins() { state_->calls.begin(); }
+
+void LeftBehind::run_ended() { state_->has_called = state_->calls.any(); }
+
 bool LeftBehind::set_back() {
   State& was = *state_;
-  if (!was.status.look()) return false;
   bool all = was.locale.set_back();
+  all = was.environment.set_back() && all;
+  // Other threads may call at any time.
+  const bool is_alone = was.after_first_run && was.after_first_run->threads == 1;
+  if (!was.has_called && is_alone) return all;
+  if (!was.status.look()) return false;
   all = was.signals.set_back(was.status) && all;
   all = was.folder.set_back(was.status) && all;
   all = was.limits.set_back() && all;
   all = was.timers.set_back() && all;
-  all = was.environment.set_back() && all;
   const Holdings now = Holdings::now(was.status, was.descriptors);
   if (!was.after_first_run) was.after_first_run = now;
   return all && now.fit_into(*was.after_first_run);

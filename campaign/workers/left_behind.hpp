@@ -12,6 +12,9 @@ class LeftBehind {
   LeftBehind();
   ~LeftBehind();
 
+  // Between these two, calls of the system are noticed: software that has made none has left nothing there.
+  void run_begins();
+  void run_ended();
   // Call it between two runs. Sets back what the next run would meet. False: that cannot be done, so this process must
   // host no other run. Descriptors and threads that are there after the first run may stay; more may not.
   bool set_back();

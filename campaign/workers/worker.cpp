@@ -142,6 +142,7 @@ class Worker {
     watch.known_ends = order.known_ends;
     CallTape tape;
     if (order.record) watch.record = &tape;
+    left_behind_->run_begins();
     if (order.scenario.is_empty()) {
       RunRecord record = run_one_(order.run_index, nullptr, watch);
       answer.scenario_digest = record.scenario_digest;
@@ -153,6 +154,7 @@ class Worker {
       answer.run = run_case(cases_.read(order.scenario), programs_.find(agent.program, "agent"), plan_.config_of(agent),
                             plan_.laws_left_out, order.deliveries ? Deliveries::Kept : Deliveries::Ignored, watch);
     }
+    left_behind_->run_ended();
     if (order.record && (order.is_audit || answer.run.outcome.is_failure())) answer.recording = tape.take();
     answer.cpu_ns = cpu_ns() - begin_ns;
     ++runs_;

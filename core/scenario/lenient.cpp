@@ -30,19 +30,14 @@ bool Lenient::names(std::string_view word, std::string_view usual) const {
 }
 
 std::string Lenient::text() const {
-  const std::string bound = beyond_ ? fmt::format("{:g}", *beyond_) : "the default";
-  switch (way_) {
-    case Way::None:
-      return "no: " + std::string(reason_);
-    case Way::Up:
-      return fmt::format("above {}{}", bound, zero_is_endless_ ? ", and 0" : "");
-    case Way::Down:
-      return fmt::format("below {}{}", bound, zero_is_endless_ ? ", but 0" : "");
-    case Way::Either:
-      return harder_.empty() ? "any but the default"
-                             : fmt::format("any but the default, {} and {}", harder_, other_harder_);
-  }
-  return {};
+  if (way_ == Way::None) return "no: " + std::string(reason_);
+  std::string text = "any but the default";
+  if (way_ != Way::Either) text = fmt::format("{} {}", way_ == Way::Up ? "above" : "below", bound_text());
+  if (zero_is_endless_) text += way_ == Way::Up ? ", and 0" : ", but 0";
+  if (!harder_.empty()) text += fmt::format(", {} and {}", harder_, other_harder_);
+  return fmt::format("{} ({})", text, name_of(weight_));
 }
+
+std::string Lenient::bound_text() const { return beyond_ ? fmt::format("{:g}", *beyond_) : "the default"; }
 
 }  // namespace fleetproof

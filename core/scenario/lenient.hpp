@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/words.hpp"
+
 namespace fleetproof {
 
 // What an easier value of a field touches, the heaviest last.
@@ -13,6 +15,17 @@ enum class Weight : std::uint8_t {
   Plant,      // vehicles that no plant has
   Judgement,  // what counts as a failure, and how it is looked for
 };
+constexpr const char* name_of(Weight weight) {
+  switch (weight) {
+    case Weight::Load:
+      return "load";
+    case Weight::Plant:
+      return "plant";
+    case Weight::Judgement:
+      return "judgement";
+  }
+  return kNoWord;
+}
 
 // Which values of a field make it easier to pass. A report on a campaign that has one of them names it at its head.
 // There is no default: every field of a campaign says it, or why no value of it is easier.
@@ -52,10 +65,11 @@ class Lenient {
 
   bool names(double value, double usual) const;
   bool names(std::string_view word, std::string_view usual) const;
-  // "above 120", "below the default", "any but the default"; of none, the reason.
+  // "above 120 (judgement)", "below the default (load)", "any but the default (load)"; of none, the reason.
   std::string text() const;
 
  private:
+  std::string bound_text() const;
   constexpr Lenient(Way way, Weight weight, std::optional<double> beyond)
       : way_(way), weight_(weight), beyond_(beyond) {}
 

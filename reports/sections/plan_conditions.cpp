@@ -229,7 +229,9 @@ std::vector<Fact> campaign_conditions(const ReportInput& input) {
   Tally all;
   for (const CellRecord& cell : evidence.cells()) all.add(evidence.tally(cell.index));
   auto facts = plan_conditions(campaign.plan_json);
-  for (const LenientCondition& waived : input.waived.list) facts.emplace_back("Waived", lenient_text(waived));
+  std::vector<std::string> waived;
+  for (const LenientCondition& condition : input.waived.list) waived.push_back(lenient_text(condition));
+  if (!waived.empty()) facts.emplace_back("Waived", joined(waived, "; "));
   facts.emplace_back("Cells (test conditions)", std::to_string(evidence.cells().size()));
   facts.emplace_back("Runs",
                      fmt::format("{} judged, {} of {} complete", evidence.runs(), evidence.complete_replicates(),

@@ -5,6 +5,7 @@ import re
 
 import wording as w
 from sentences import agv_hours, judged
+from waived import waived
 
 MOST = 40  # names and numbers in a list
 
@@ -91,6 +92,8 @@ def conditions(archive):
                  "Safety scanner": "on" if plan["scanner"]["on"] else "off: only the software keeps the distance",
                  "Operator": "clears jams" if plan["operator"]["on"] else "never intervenes",
                  "Horizon of a run": f"{plan['horizon_s']:g} s simulated"}
+    if "factors" in plan and waived(plan):
+        said["Waived"] = "; ".join(waived(plan))
     return said | {"Cells (test conditions)": str(len(archive.cells)), "Runs": judged(archive),
                    "Simulated": agv_hours(archive),
                    "Software": f"fleetproof {campaign['engine_version']}, sha256 {campaign['program_sha256']}",

@@ -5,9 +5,10 @@ A sentence with digits that no pattern knows is an error, so that no figure reac
 import re
 
 import wording as w
-from conditions import is_sample
+from conditions import is_sample, plan_of
 from counts import END_POINTS, KINDS
 from drawings import field_maps, gate_on_violations, grids, worlds_needed
+from waived import sentence
 
 ENDS = "CASE WHEN contact THEN 'contact' WHEN violation THEN 'violation' WHEN crash THEN 'crash' WHEN hang THEN 'hang' " \
        "WHEN indeterminate THEN 'indeterminate' WHEN engine_error THEN 'engine error' WHEN stuck THEN 'stuck' END"
@@ -44,6 +45,10 @@ def run_sentence(archive, index):
     phrases = ("loss", "delay", "outages of", "call cost")
     return text + ", ".join(f"{phrases[i]} {w.span(i, value, value)}" for i, value in enumerate(values)
                             if value > 0.0 or i < 2)
+
+
+def is_waived(archive, found):
+    return found[1] == sentence(plan_of(archive))
 
 
 def is_run(archive, found):
@@ -260,6 +265,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^Agent (.+): ([0-9]+) runs? w(?:as|ere) audited, and ", is_audit),
     (r"^([0-9]+) of ([0-9]+) cells (in the contract region )?\D", is_weak_point),
     (r"^Gates of .+: (?:not )?(?:demonstrated|violated): ", gates_by_verdict),
+    (r"^(?:waived \| )?(what is easier here than usual: .*)", is_waived),
     (r"Sampled: .*[0-9]+ worlds?\b", sample),
     (r"weak evidence for agent (.+): its ([0-9]+) runs? did not meet", agent_runs),
     (r"A run takes up to ([0-9.]+) s\. stalled", longest_run),

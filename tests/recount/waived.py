@@ -1,0 +1,107 @@
+"""What a plan waives, from the plan in the archive and the rules of campaign/fields.md."""
+import os
+import re
+
+PAGE = os.path.join(os.path.dirname(__file__), "..", "..", "campaign", "fields.md")
+UNITS = (("_radps2", "rad/s2"), ("_radps", "rad/s"), ("_mps2", "m/s2"), ("_mps", "m/s"), ("_per_m", "per m"),
+         ("_per_byte_s", "s per byte"), ("_per_s", "per s"), ("_per_agv_hour", "per AGV and hour"),
+         ("_per_hour", "per hour"), ("_per_transport", "per transport"), ("_ppm", "ppm"), ("_m", "m"), ("_s", "s"))
+HEAVIEST = 8
+
+
+def rules():
+    """Key, usual value as the page has it, which values are named, weight: one for each field that has a direction."""
+    table = open(PAGE, encoding="utf-8").read().split("fields of campaign files", 1)[1].split("<!-- end -->", 1)[0]
+    for line in table.splitlines():
+        cells = re.split(r"(?<!\\) \| ", line.strip("| "))
+        found = re.fullmatch(r"(.*) \((judgement|plant|load)\)", cells[3]) if len(cells) == 5 else None
+        if found:
+            yield cells[0].strip("`"), cells[1].strip("`"), found[1], found[2]
+
+
+def text(value, key):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return value
+    unit = next((unit for ending, unit in UNITS if key.endswith(ending)), "")
+    return re.sub(r"\.0$", "", repr(float(value))) + (" " + unit if unit else "")
+
+
+def stated(plan, key):
+    """All that the plan says of a field."""
+    found = [plan]
+    for part in key.split("."):
+        is_list = part.endswith("[]")
+        name = part[:-2] + "s" if is_list else part
+        found = [each.get(name) for each in found if isinstance(each, dict) and each.get(name) is not None]
+        if is_list:
+            found = [item for each in found for item in each]
+    if key.startswith("gate[]") and key.endswith("min_transports_per_agv_hour"):
+        floors = {}
+        for gate in plan["gates"]:
+            floors[gate["agent"]] = max(floors.get(gate["agent"], 0.0), gate["min_transports_per_agv_hour"])
+        return [floors[gate["agent"]] for gate in plan["gates"]]
+    if key == "coverage.probes" or key == "law.leave_out":
+        return found
+    flat = [item for each in found for item in (each if isinstance(each, list) else [each])]
+    return [end for each in flat
+            for end in ((each["from"], each["to"]) if isinstance(each, dict) and "from" in each else (each,))]
+
+
+def usual_of(key, shown, plan):
+    if key == "coverage.probes":
+        return [] if plan["kind"] == "search" else ["encounter", "negotiation?"]
+    shown = shown.strip("[]")
+    if shown in ("true", "false"):
+        return shown == "true"
+    if shown.startswith('"'):
+        return shown.strip('"')
+    return float(shown) if shown else []
+
+
+def amount(value):
+    return float(len(value)) if isinstance(value, (list, dict)) else float(value)
+
+
+def is_easier(value, usual, named):
+    if isinstance(value, str):
+        harder = re.fullmatch(r"any but the default(?:, (.*) and (.*))?", named)
+        return value != usual and value not in (harder[1], harder[2])
+    if named.startswith("any"):
+        return amount(value) != amount(usual)
+    way, bound, endless = re.fullmatch(r"(above|below) (the default|[-+0-9.e]+)(, (?:and|but) 0)?", named).groups()
+    reach = lambda number: float("inf") if endless and number == 0.0 else number
+    limit = reach(amount(usual)) if bound == "the default" else float(bound)
+    if amount(value) == amount(usual):
+        return False
+    return reach(amount(value)) > limit if way == "above" else reach(amount(value)) < limit
+
+
+def shown_value(value, key):
+    if isinstance(value, list):
+        return "[" + ", ".join(value) + "]"
+    return "given" if isinstance(value, dict) else text(value, key)
+
+
+def waived(plan):
+    """The conditions as pages write them, the heaviest first."""
+    found = []
+    for key, shown, named, weight in rules():
+        usual, easier = usual_of(key, shown, plan), []
+        for value in stated(plan, key):
+            words = shown_value(value, key)
+            if is_easier(value, usual, named) and words not in easier:
+                easier.append(words)
+        if easier:
+            told = shown_value(usual, key) if usual != [] else "none"
+            found.append((weight, f"{key.replace('[]', '')} = {', '.join(easier)} (usual: {told})"))
+    order = ("judgement", "plant", "load")
+    return [words for weight in order for its, words in found if its == weight]
+
+
+def sentence(plan):
+    """At the head."""
+    words = waived(plan)
+    more = f"; and {len(words) - HEAVIEST} more, under Conditions" if len(words) > HEAVIEST else ""
+    return f"what is easier here than usual: {'; '.join(words[:HEAVIEST])}{more}." if words else ""
