@@ -26,15 +26,15 @@ bool Lenient::names(double value, double usual) const {
 }
 
 bool Lenient::names(std::string_view word, std::string_view usual) const {
-  return way_ != Way::None && word != usual && word != harder_ && word != other_harder_;
+  return way_ != Way::None && word != usual && words_.find(word) == words_.npos;
 }
 
 std::string Lenient::text() const {
-  if (way_ == Way::None) return "no: " + std::string(reason_);
+  if (way_ == Way::None) return "no: " + std::string(words_);
   std::string text = "any but the default";
   if (way_ != Way::Either) text = fmt::format("{} {}", way_ == Way::Up ? "above" : "below", bound_text());
   if (zero_is_endless_) text += way_ == Way::Up ? ", and 0" : ", but 0";
-  if (!harder_.empty()) text += fmt::format(", {} and {}", harder_, other_harder_);
+  if (!words_.empty()) text += fmt::format(", {}", words_);
   return fmt::format("{} ({})", text, name_of(weight_));
 }
 

@@ -43,7 +43,7 @@ class Lenient {
   static constexpr Lenient either(Weight weight) { return {Way::Either, weight, {}}; }
   static constexpr Lenient none(std::string_view reason) {
     Lenient none{Way::None, Weight::Load, {}};
-    none.reason_ = reason;
+    none.words_ = reason;
     return none;
   }
   // 0 stands for more than any number.
@@ -52,11 +52,10 @@ class Lenient {
     changed.zero_is_endless_ = true;
     return changed;
   }
-  // Of words, two that are harder than the usual one.
-  constexpr Lenient but_not(std::string_view harder, std::string_view other) const {
+  // Words that are harder than the usual one, with spaces between them.
+  constexpr Lenient but_not(std::string_view harder) const {
     Lenient changed = *this;
-    changed.harder_ = harder;
-    changed.other_harder_ = other;
+    changed.words_ = harder;
     return changed;
   }
 
@@ -77,7 +76,7 @@ class Lenient {
   Weight weight_;
   std::optional<double> beyond_;
   bool zero_is_endless_ = false;
-  std::string_view harder_, other_harder_, reason_;
+  std::string_view words_;  // that are harder; of none, the reason
 };
 
 inline constexpr Lenient kIsName = Lenient::none("a name");

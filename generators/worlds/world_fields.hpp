@@ -12,7 +12,7 @@ namespace fleetproof {
 
 inline constexpr Field kPlacement{.key = "placement",
                                   .text = "how the fleet stands at the start",
-                                  .lenient = Lenient::either(Weight::Load).but_not("adversarial", "mixed")};
+                                  .lenient = Lenient::either(Weight::Load).but_not("adversarial mixed")};
 
 template <FieldsOf<Demand> Given, class Visit>
 void visit_fields(Given& demand, Visit&& visit) {

@@ -66,8 +66,7 @@ def amount(value):
 
 def is_easier(value, usual, named):
     if isinstance(value, str):
-        harder = re.fullmatch(r"any but the default(?:, (.*) and (.*))?", named)
-        return value != usual and value not in (harder[1], harder[2])
+        return value != usual and value not in named.split(", ")[-1].split()
     if named.startswith("any"):
         return amount(value) != amount(usual)
     way, bound, endless = re.fullmatch(r"(above|below) (the default|[-+0-9.e]+)(, (?:and|but) 0)?", named).groups()
