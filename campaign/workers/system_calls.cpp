@@ -26,7 +26,16 @@ void on_system_call(int, siginfo_t*, void* context) {
   static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_RIP] -= kInstruction;
 }
 
+// Software may have a use of its own for this signal, from the time when it was loaded.
+bool is_signal_free() {
+  struct sigaction now {};
+  sigset_t blocked;
+  return ::sigaction(SIGSYS, nullptr, &now) == 0 && ::pthread_sigmask(SIG_BLOCK, nullptr, &blocked) == 0 &&
+         (now.sa_handler == SIG_DFL || now.sa_sigaction == on_system_call) && ::sigismember(&blocked, SIGSYS) == 0;
+}
+
 bool watch_system_calls() {
+  if (!is_signal_free()) return false;
   struct sigaction action {};
   action.sa_sigaction = on_system_call;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
@@ -46,7 +55,9 @@ bool watch_system_calls() { return false; }
 
 SystemCalls::SystemCalls() : can_tell_(watch_system_calls()) {}
 
-void SystemCalls::begin() { selector = kNotice; }
+void SystemCalls::begin() {
+  if (can_tell_) selector = kNotice;
+}
 
 bool SystemCalls::any() {
   const bool had_some = selector == kAllow;

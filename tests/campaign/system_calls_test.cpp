@@ -2,11 +2,12 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
-#include <string>
+#include <cerrno>
+#include <csignal>
 #include <thread>
 
 namespace fleetproof::system_calls_test {
@@ -74,6 +75,30 @@ TEST(SystemCalls, ToStartAThreadIsOne) {
   std::thread([&] { sum = work(); }).join();
   EXPECT_TRUE(calls.any());
   EXPECT_GT(sum, 9.0);
+}
+
+// Software that blocks or handles the signal by which calls are noticed keeps it: then nothing is known of its calls.
+TEST(SystemCalls, LeaveTheSignalToSoftwareThatUsesIt) {
+  sigset_t signal, before;
+  sigemptyset(&signal);
+  sigaddset(&signal, SIGSYS);
+  ::pthread_sigmask(SIG_BLOCK, &signal, &before);
+  SystemCalls blocked;
+  blocked.begin();
+  EXPECT_TRUE(blocked.any());
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+
+  struct sigaction own {
+  }, old{};
+  own.sa_handler = [](int) {};
+  ::sigaction(SIGSYS, &own, &old);
+  SystemCalls handled;
+  handled.begin();
+  EXPECT_TRUE(handled.any());
+  struct sigaction now {};
+  ::sigaction(SIGSYS, nullptr, &now);
+  EXPECT_EQ(now.sa_handler, own.sa_handler);
+  ::sigaction(SIGSYS, &old, nullptr);
 }
 
 // Nothing is left behind for calls outside a watch.
