@@ -123,28 +123,6 @@ struct StoredPlan {
   std::vector<GateRecord> gates;
 };
 
-// run_index = replicate x cells + cell, so that every prefix of a campaign is balanced over its cells.
-struct RunRecord {
-  std::uint64_t run_index = 0;
-  std::uint32_t cell = 0;
-  std::uint64_t replicate = 0;
-  std::uint64_t scenario_digest = 0;  // of the canonical scenario text
-  FactorValues factors;               // the cell's, or what the replicate drew within its bounds
-  Outcome outcome;
-  // An earlier run of its cell had the same trace. Known once the runs are read in their order.
-  bool repeats = false;
-  // The run was folded: of its outcome only transports, safe mode, smallest clearance, time and AGVs are known. All
-  // else is as in a run in which nothing went wrong. Of drawn factors, a bound of the cell stands for what was drawn,
-  // within the contract if the run was.
-  bool folded = false;
-  // What the agents did, as a CallTape (core/engine) has it; empty: nothing was recorded. Not part of the outcome.
-  std::string recording{};
-};
-
-// If so many audited runs of an agent came out the same, and none differently, the agent has passed: its failed runs
-// are simulated again from their seeds, and need no recordings.
-inline constexpr std::uint64_t kAuditsToPass = 20;
-
 // What a run came to that was simulated once more.
 struct AuditedOutcome {
   JudgedOutcome judged;
@@ -166,7 +144,33 @@ struct AuditRecord {
   std::optional<AuditedOutcome> outcome{};  // files of schema 11 and older do not have it
   friend bool operator==(const AuditRecord&, const AuditRecord&) = default;
 };
+
+// run_index = replicate x cells + cell, so that every prefix of a campaign is balanced over its cells.
+struct RunRecord {
+  std::uint64_t run_index = 0;
+  std::uint32_t cell = 0;
+  std::uint64_t replicate = 0;
+  std::uint64_t scenario_digest = 0;  // of the canonical scenario text
+  FactorValues factors;               // the cell's, or what the replicate drew within its bounds
+  Outcome outcome;
+  // An earlier run of its cell had the same trace. Known once the runs are read in their order.
+  bool repeats = false;
+  // The run was folded: of its outcome only transports, safe mode, smallest clearance, time and AGVs are known. All
+  // else is as in a run in which nothing went wrong. Of drawn factors, a bound of the cell stands for what was drawn,
+  // within the contract if the run was.
+  bool folded = false;
+  // What the agents did, as a CallTape (core/engine) has it; empty: nothing was recorded. Not part of the outcome.
+  std::string recording{};
+  // Neither of these is in the row of the run. It had been begun in a worker that did not bring it to its end, and what
+  // ended it there did not come again. Either somebody else may have done it, or it counts as an audit of the run.
+  bool was_disturbed = false;
+  std::optional<AuditRecord> otherwise{};
+};
 AuditedOutcome audited_outcome(const RunRecord& run);
+
+// If so many audited runs of an agent came out the same, and none differently, the agent has passed: its failed runs
+// are simulated again from their seeds, and need no recordings.
+inline constexpr std::uint64_t kAuditsToPass = 20;
 
 // And whether it came out the same.
 struct AuditedRun {

@@ -48,6 +48,11 @@ AuditQueue::~AuditQueue() {
 }
 
 bool AuditQueue::offer(const RunRecord& run, std::uint64_t slowest_cpu_ns) {
+  if (run.otherwise) {
+    const std::lock_guard lock(mutex_);
+    findings_.push_back({*run.otherwise, false});
+    return true;
+  }
   if (!runs_ || !share_.contains(run)) return false;
   runs_->expect_cpu_ns(slowest_cpu_ns);
   const std::lock_guard lock(mutex_);
@@ -151,7 +156,8 @@ void AuditQueue::audit(const Batch& batch) {
     const bool record_calls = is_plugin_[agent_of_run(run_index, is_plugin_.size())];
     const RunRecord record = (*runs_)(run_index, record_calls, process_for(run_index));
     runs_->take_losses();  // what ended a worker here stands in the record, and so in the finding
-    AuditedRun finding = audit_finding(run_one_, record, checksum, &stop_playing_);
+    AuditedRun finding = record.otherwise ? AuditedRun{*record.otherwise, false}
+                                          : audit_finding(run_one_, record, checksum, &stop_playing_);
     const std::lock_guard lock(mutex_);
     findings_.push_back(std::move(finding));
     if (++found_ >= kAuditsToPass) wanted_ = kBatch;

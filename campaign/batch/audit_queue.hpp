@@ -29,6 +29,7 @@ class AuditQueue {
 
   // Takes the run in if it belongs to the share. `slowest_cpu_ns`: what a run of the campaign took at most so far, so
   // that no audit has a lower limit than its run had.
+  // A run that had ended in another way before has been audited by that.
   // True: it will be audited, unless the queue fails or is told to abandon.
   bool offer(const RunRecord& run, std::uint64_t slowest_cpu_ns = 0);
   void start();

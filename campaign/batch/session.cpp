@@ -95,6 +95,7 @@ void Session::finish_audits(SessionPolicy& policy) {
 
 void Session::take(SessionPolicy& policy, const RunRecord& run) {
   ++result_.progress.simulated;
+  result_.progress.disturbed += run.was_disturbed ? 1 : 0;
   count(run);
   policy.keep(run, audits_.offer(run, runs_.slowest_cpu_ns()));
   listener_.run_finished(run);

@@ -37,6 +37,7 @@ bool must_stop(const RunOptions& options);
 struct Progress {
   std::uint64_t simulated = 0, done = 0, planned = 0, violating = 0, engine_errors = 0;
   std::uint64_t audited = 0, audits_open = 0;  // open: still to do
+  std::uint64_t disturbed = 0;                 // runs whose worker somebody else may have ended
   double elapsed_s = 0.0;
 };
 

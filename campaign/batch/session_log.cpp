@@ -132,6 +132,7 @@ void SessionLog::end(const CampaignResult& result, int signal_number, const std:
                {"runs_simulated", result.progress.simulated},
                {"runs_planned", result.progress.planned},
                {"workers_lost", result.loss_count},
+               {"runs_disturbed", result.progress.disturbed},
                {"runs_audited", result.progress.audited},
                {"audits_differing", result.audits_differing},
                {"signal", signal_number}};
@@ -187,6 +188,17 @@ std::string remembered_release(const std::string& archive_path) { return last_te
 bool remembers_fresh_seed(const std::string& archive_path) { return last_text(archive_path, "seed") == kFresh; }
 
 std::string remembered_overrides(const std::string& archive_path) { return last_text(archive_path, "overrides"); }
+
+std::uint64_t remembered_disturbed(const std::string& archive_path) {
+  std::ifstream file(session_log_path(archive_path));
+  std::uint64_t sum = 0;
+  for (std::string line; std::getline(file, line);) {
+    const Json json = read_json(line);
+    const auto found = json.is_object() ? json.find("runs_disturbed") : json.end();
+    if (found != json.end() && found->is_number_unsigned()) sum += found->get<std::uint64_t>();
+  }
+  return sum;
+}
 
 std::string remembered_plugin(const std::string& archive_path, const std::string& agent) {
   std::ifstream file(session_log_path(archive_path));

@@ -57,5 +57,7 @@ std::string remembered_release(const std::string& archive_path);
 bool remembers_fresh_seed(const std::string& archive_path);
 // The options with which the last session changed the plan of the campaign file, as typed. Empty: there were none.
 std::string remembered_overrides(const std::string& archive_path);
+// The runs of all sessions whose worker somebody else may have ended, and which came to their end in another one.
+std::uint64_t remembered_disturbed(const std::string& archive_path);
 
 }  // namespace fleetproof

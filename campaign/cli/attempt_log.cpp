@@ -94,6 +94,7 @@ void add_history(ReportInput& input, const std::string& ledger) {
   input.sensitivity = sensitivity_beside(input.archive_path, input.campaign);
   input.findings = findings_beside(input.archive_path, input.campaign.plan_hash, input.stored_runs);
   input.attempts.overrides = remembered_overrides(input.archive_path);
+  input.attempts.disturbed_runs = remembered_disturbed(input.archive_path);
 }
 
 }  // namespace fleetproof::cli

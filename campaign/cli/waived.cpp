@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <compare>
+#include <limits>
 #include <utility>
 
 #include "campaign/plan/plan_fields.hpp"
@@ -134,26 +136,46 @@ bool is_easier(const Lenient& lenient, const Amount& amount, const Amount& usual
   return amount.word.empty() ? lenient.names(amount.number, usual.number) : lenient.names(amount.word, usual.word);
 }
 
+// How far an easier value is from where it begins to be named, as a factor. What is no number is far.
+double distance(const Lenient& lenient, const Amount& amount, const Amount& usual) {
+  const double bound = lenient.bound(usual.number);
+  const bool is_scaled = amount.word.empty() && lenient.way() != Lenient::Way::Either && bound > 0.0;
+  if (!is_scaled || amount.number <= 0.0) return std::numeric_limits<double>::infinity();
+  return std::max(amount.number / bound, bound / amount.number);
+}
+
+// What is close to its bound comes after all else, so that many small steps hide no large one.
+struct Heaviness {
+  bool is_far = false;
+  Weight weight = Weight::Load;
+  double distance = 0.0;
+  friend auto operator<=>(const Heaviness&, const Heaviness&) = default;
+};
+constexpr double kFar = 1.25;
+
 }  // namespace
 
 std::vector<LenientCondition> waived_conditions(const CampaignPlan& plan) {
   const CampaignPlan usual_one = usual_plan(plan);
   const StatedFields stated(plan), usual(usual_one);
-  std::vector<std::pair<Weight, LenientCondition>> found;
+  std::vector<std::pair<Heaviness, LenientCondition>> found;
   for (const Stated& field : stated.all()) {
     const auto other = std::ranges::find(usual.all(), field.path, &Stated::path);
     const Amount normal = other == usual.all().end() ? Amount{} : other->amounts.front();
     std::vector<std::string> easier;
+    double farthest = 0.0;
     for (const Amount& amount : field.amounts) {
-      if (is_easier(field.lenient, amount, normal) && std::ranges::find(easier, amount.text) == easier.end())
-        easier.push_back(amount.text);
+      if (!is_easier(field.lenient, amount, normal)) continue;
+      farthest = std::max(farthest, distance(field.lenient, amount, normal));
+      if (std::ranges::find(easier, amount.text) == easier.end()) easier.push_back(amount.text);
     }
     if (!easier.empty())
-      found.push_back({field.lenient.weight(), {field.path, fmt::format("{}", fmt::join(easier, ", ")), normal.text}});
+      found.push_back({{farthest >= kFar, field.lenient.weight(), farthest},
+                       {field.path, fmt::format("{}", fmt::join(easier, ", ")), normal.text}});
   }
-  std::ranges::stable_sort(found, std::ranges::greater{}, &std::pair<Weight, LenientCondition>::first);
+  std::ranges::stable_sort(found, std::ranges::greater{}, &std::pair<Heaviness, LenientCondition>::first);
   std::vector<LenientCondition> list;
-  for (auto& [weight, condition] : found) list.push_back(std::move(condition));
+  for (auto& [heaviness, condition] : found) list.push_back(std::move(condition));
   return list;
 }
 

@@ -6,8 +6,8 @@
 
 namespace fleetproof::cli {
 
-// What a plan makes easier than one that leaves it out (core/scenario/lenient.hpp): heaviest first, and of one weight
-// in the order of campaign files.
+// What a plan makes easier than one that leaves it out (core/scenario/lenient.hpp): heaviest first. Values within a
+// quarter of their bound come last; of the others, those with more weight first, and of one weight the farther ones.
 std::vector<LenientCondition> waived_conditions(const CampaignPlan& plan);
 
 // Adds those of the plan in the results file.

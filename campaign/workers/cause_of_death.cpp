@@ -63,6 +63,7 @@ CauseOfDeath cause_of_death(WorkerState state, const WorkerDeath& death, const W
   cause.with_forker = death.with_forker;
   cause.from_outside = state == WorkerState::Closed && !death.with_forker && !death.had_to_be_killed &&
                        WIFSIGNALED(death.status) && WTERMSIG(death.status) == SIGKILL;
+  cause.maybe_outside = cause.from_outside || cause.with_forker || state == WorkerState::Asleep;
   cause.call = slot.call.number.load();
   cause.message = fmt::format("{} {}", end_words(state, death, slot), call_words(slot.call));
   return cause;

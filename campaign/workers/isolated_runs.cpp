@@ -11,6 +11,7 @@
 #include "campaign/workers/worker_watch.hpp"
 #include "core/base/error.hpp"
 #include "core/scenario/canonical_bytes.hpp"
+#include "storage/checksum.hpp"
 
 namespace fleetproof {
 namespace {
@@ -19,6 +20,28 @@ constexpr std::chrono::milliseconds kLookEvery{100};
 constexpr double kTimesSlowest = 20.0;  // the CPU time that a run may use, in times of the slowest run so far
 constexpr double kRepeatFactor = 10.0;  // a run that went beyond it gets so much more in the repeat
 constexpr int kKillsFromOutside = 3;    // of one run; then the run itself is the reason
+
+// Whether what ended the first attempt of a run ended a later one, too. A run that is only slow needs its time again.
+bool came_again(const CauseOfDeath& first, double limit_s, const RunOrder& order, const RunAnswer& answer) {
+  if (!answer.explained) return true;
+  const bool is_filed = std::ranges::any_of(order.known_ends, [&](const KnownEnd& end) {
+    return end.hang == first.hang && (end.hang || end.call == first.call);
+  });
+  return is_filed || (first.hang && !first.maybe_outside && 1e-9 * static_cast<double>(answer.cpu_ns) > limit_s / 2.0);
+}
+
+// A first attempt that ended in another way than the run, as an audit of the run would have it.
+AuditRecord audit_of(const CauseOfDeath& cause, const RunRecord& run) {
+  RunRecord ended;
+  ended.run_index = run.run_index;
+  ended.cell = run.cell;
+  ended.replicate = run.replicate;
+  ended.outcome.crash = !cause.hang;
+  ended.outcome.hang = cause.hang;
+  ended.outcome.agv_count = run.outcome.agv_count;
+  ended.outcome.message = cause.message;
+  return {run.run_index, row_checksum(ended), audited_outcome(ended)};
+}
 
 }  // namespace
 
@@ -69,6 +92,8 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls, H
   record.scenario_digest = answer.scenario_digest;
   record.outcome = std::move(answer.run.outcome);
   record.recording = std::move(answer.recording);
+  record.was_disturbed = answer.ended_otherwise && answer.ended_otherwise->maybe_outside;
+  if (answer.ended_otherwise && !record.was_disturbed) record.otherwise = audit_of(*answer.ended_otherwise, record);
   return record;
 }
 
@@ -98,9 +123,11 @@ RunAnswer IsolatedRuns::answer_of(RunOrder& order, HostProcess process) {
 }
 
 RunAnswer IsolatedRuns::answer_of(Member& member, RunOrder& order) {
-  Attempt first = attempt(member, order, cpu_limit_s(order.run_index));
+  const double limit_s = cpu_limit_s(order.run_index);
+  Attempt first = attempt(member, order, limit_s);
   if (first.answer) return std::move(*first.answer);
   RunAnswer answer = repeat(member, order, first.cause.with_forker);
+  if (!came_again(first.cause, limit_s, order, answer)) answer.ended_otherwise = std::move(first.cause);
   retire(member);  // agents that ended early have cleared nothing away
   return answer;
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "campaign/run/case_run.hpp"
 #include "campaign/workers/case_text.hpp"
+#include "campaign/workers/cause_of_death.hpp"
 #include "core/engine/run_watch.hpp"
 
 namespace fleetproof {
@@ -29,6 +31,8 @@ struct RunAnswer {
   bool failed = false;
   bool declined = false;  // this worker hosts no more runs; another one has to take the order
   bool explained = true;  // not sent: false if no worker brought the run to its end, and nobody knows why
+  // Not sent: how the run ended in a worker before, if that did not come again.
+  std::optional<CauseOfDeath> ended_otherwise{};
   std::string message;
   std::uint64_t cpu_ns = 0;  // used by the worker process for this run
   std::uint64_t scenario_digest = 0;

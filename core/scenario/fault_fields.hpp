@@ -52,7 +52,7 @@ void visit_fields(Scanner& scanner, Visit&& visit) {
   auto& [on, reaction_s, margin_m, resume_s, range_m] = scanner;
   visit(Field{.key = "on",
               .text = "every AGV has a scanner; a campaign's [scanner] switches it on",
-              .lenient = Lenient::up(Weight::Load)},
+              .lenient = Lenient::up(Weight::Judgement)},
         on);
   visit(Field{.key = "reaction_s",
               .text = "time from seeing a body to braking; the scanner looks as often",
@@ -83,7 +83,7 @@ void visit_fields(Help& help, Visit&& visit) {
   auto& [on, least_s, most_s, battery] = help;
   visit(Field{.key = "on",
               .text = "an operator helps; a campaign's [operator] switches it on",
-              .lenient = Lenient::up(Weight::Load)},
+              .lenient = Lenient::up(Weight::Judgement)},
         on);
   visit(Field{.key = "least_s",
               .text = "shortest time from a call to the help",

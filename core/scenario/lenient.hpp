@@ -62,6 +62,8 @@ class Lenient {
   constexpr Way way() const { return way_; }
   constexpr Weight weight() const { return weight_; }
 
+  // Beyond it a number is named.
+  constexpr double bound(double usual) const { return beyond_.value_or(usual); }
   bool names(double value, double usual) const;
   bool names(std::string_view word, std::string_view usual) const;
   // "above 120 (judgement)", "below the default (load)", "any but the default (load)"; of none, the reason.

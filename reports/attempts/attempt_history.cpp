@@ -118,6 +118,11 @@ std::string trouble_sentences(const AttemptHistory& history) {
   std::string text;
   if (!history.has_session_log)
     text += " There is no session log beside the results file: who made it, when, and by which ledger is not known.";
+  if (history.disturbed_runs > 0)
+    text += fmt::format(
+        " The worker process of {} was killed or waited too long, and another worker brought {} to an end: if nobody "
+        "else did that, this software ends its process now and then.",
+        count_text(history.disturbed_runs, "run"), history.disturbed_runs == 1 ? "it" : "them");
   if (history.ledger_lost_line)
     text +=
         " The session log names a line of a ledger that is not there: the ledger is missing, or was changed or "

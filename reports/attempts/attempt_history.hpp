@@ -27,6 +27,7 @@ struct AttemptHistory {
   bool has_session_log = true;
   bool ledger_lost_line = false;  // the ledger has not the line that the session log names: it is gone or another one
   std::optional<std::uint64_t> looks{};  // at the results; absent: not known
+  std::uint64_t disturbed_runs = 0;      // whose first worker was killed or waited too long, and whose second was not
   std::string overrides{};               // options of a session that changed the plan, as typed
 };
 

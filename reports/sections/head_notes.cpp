@@ -17,6 +17,14 @@ bool has_gate_on_progress(const Evidence& evidence, const std::string& agent) {
   });
 }
 
+// On all cells of the contract region that the agent has.
+bool has_whole_gate_on(const Evidence& evidence, const std::string& agent, EndPoint end_point) {
+  return std::ranges::any_of(evidence.gates(), [&](const GateRecord& gate) {
+    return gate.agent == agent && gate.decides && gate.end_point == end_point && gate.region != Region::WorstCase &&
+           gate.where == CellFilter{};
+  });
+}
+
 }  // namespace
 
 std::vector<Remark> stall_notes(const ReportInput& input) {
@@ -31,6 +39,23 @@ std::vector<Remark> stall_notes(const ReportInput& input) {
         printable(row.key.agent, 40), row.stalled, row.violations.worlds.units);
     if (!has_gate_on_progress(input.evidence, row.key.agent)) text += " No gate judges that.";
     notes.emplace_back().text = std::move(text);
+  }
+  return notes;
+}
+
+std::vector<Remark> crash_notes(const ReportInput& input) {
+  std::vector<Remark> notes;
+  for (const BreakdownRow& row : input.breakdown.rows()) {
+    const bool of_all = row.key.layout.empty() && row.key.fleet_size == 0;
+    if (!of_all || !row.key.in_contract || !is_under_test(input.evidence.plan(), row.key.agent)) continue;
+    const auto told = [&](std::uint64_t runs, EndPoint end_point, std::string_view what) {
+      if (runs == 0 || has_whole_gate_on(input.evidence, row.key.agent, end_point)) return;
+      notes.emplace_back().text =
+          fmt::format("{} {} in {} of {} runs of the contract region. No gate judges that in all of the region.",
+                      printable(row.key.agent, 40), what, runs, row.tally.runs);
+    };
+    told(row.tally.crash_runs, EndPoint::Crash, "crashed");
+    told(row.tally.hang_runs, EndPoint::Hang, "hung");
   }
   return notes;
 }

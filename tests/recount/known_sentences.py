@@ -165,6 +165,15 @@ def stalled(archive, found):
     return (archive.stalled_worlds(cells), archive.replicates) == (int(found[2]), int(found[3]))
 
 
+def crashed(archive, found):
+    """"A crashed in 12 of 32 runs of the contract region"."""
+    cells = [str(cell["cell"]) for cell in archive.cells if cell["agent"] == found[1] and archive.inside(cell)]
+    kind = "crash" if found[2] == "crashed" else "hang"
+    row = archive.one(f"SELECT coalesce(sum({kind}), 0) AS n, count(*) AS runs FROM runs WHERE run_index < ? AND cell IN "
+                      f"({','.join(cells)})", archive.runs)
+    return (row["n"], row["runs"]) == (int(found[3]), int(found[4]))
+
+
 def soundness(archive, found):
     row = archive.one("SELECT (SELECT count(*) FROM audits WHERE run_index < ?) AS n, (SELECT coalesce(sum(engine_error), "
                       "0) FROM runs WHERE run_index < ?) AS errors, (SELECT count(*) FROM audits a JOIN runs r USING "
@@ -277,6 +286,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"\bin ([0-9]+) runs? of agent (.+) within the contract region, all that AGVs came too close to were fallen loads",
      foreign_body_runs),
     (r"^(.+) stalled in ([0-9]+) of ([0-9]+) worlds of the contract region: ", stalled),
+    (r"^(.+) (crashed|hung) in ([0-9]+) of ([0-9]+) runs of the contract region\. No gate judges", crashed),
     (r"^No run ended in an error of the simulator\. ([0-9]+) runs? w(?:as|ere) simulated once more", soundness),
     (r"^Plan digest ([0-9a-f]{16}) was fixed before run 0, at ", plan_time),
     (r"^When plan digest ([0-9a-f]{16}) was fixed is not known", plan_time),

@@ -7,6 +7,8 @@ UNITS = (("_radps2", "rad/s2"), ("_radps", "rad/s"), ("_mps2", "m/s2"), ("_mps",
          ("_per_byte_s", "s per byte"), ("_per_s", "per s"), ("_per_agv_hour", "per AGV and hour"),
          ("_per_hour", "per hour"), ("_per_transport", "per transport"), ("_ppm", "ppm"), ("_m", "m"), ("_s", "s"))
 HEAVIEST = 8
+FAR = 1.25  # times the bound; what is closer comes last
+ORDER = ("judgement", "plant", "load")
 
 
 def rules():
@@ -77,6 +79,18 @@ def is_easier(value, usual, named):
     return reach(amount(value)) > limit if way == "above" else reach(amount(value)) < limit
 
 
+def bound_of(usual, named):
+    found = re.match(r"(?:above|below) ([-+0-9.e]+)", named)
+    return float(found[1]) if found else amount(usual)
+
+
+def distance(value, usual, named):
+    """As a factor from the bound; what is no number is far."""
+    if isinstance(value, str) or named.startswith("any") or bound_of(usual, named) <= 0.0 or amount(value) <= 0.0:
+        return float("inf")
+    return max(amount(value) / bound_of(usual, named), bound_of(usual, named) / amount(value))
+
+
 def shown_value(value, key):
     if isinstance(value, list):
         return "[" + ", ".join(value) + "]"
@@ -87,16 +101,16 @@ def waived(plan):
     """The conditions as pages write them, the heaviest first."""
     found = []
     for key, shown, named, weight in rules():
-        usual, easier = usual_of(key, shown, plan), []
+        usual, easier, farthest = usual_of(key, shown, plan), [], 0.0
         for value in stated(plan, key):
             words = shown_value(value, key)
-            if is_easier(value, usual, named) and words not in easier:
-                easier.append(words)
+            if is_easier(value, usual, named):
+                farthest = max(farthest, distance(value, usual, named))
+                easier += [words] * (words not in easier)
         if easier:
             told = shown_value(usual, key) if usual != [] else "none"
-            found.append((weight, f"{key.replace('[]', '')} = {', '.join(easier)} (usual: {told})"))
-    order = ("judgement", "plant", "load")
-    return [words for weight in order for its, words in found if its == weight]
+            found.append(((farthest < FAR, ORDER.index(weight), -farthest), f"{key.replace('[]', '')} = {', '.join(easier)} (usual: {told})"))
+    return [words for _, words in sorted(found, key=lambda each: each[0])]
 
 
 def sentence(plan):

@@ -1,13 +1,17 @@
 // An agent that drives like `reckless` but does not always do the same: what its thinking costs depends on something
 // that no run should depend on. Its parameters say on what, see cost_ns. Otherwise it always does the same. With
-// "coin-", what it is depends on that: `reckless`, or `hull-lock`.
+// "coin-", what it is depends on that: `reckless`, or `hull-lock`. With "worn-" it is hull-lock and does not bear the
+// second run of its process.
 #include <sys/auxv.h>
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -68,10 +72,21 @@ std::int64_t cost_ns(const Unsteady& agent) {
 }
 
 bool falls_on_its_head(const std::string& kind) {
+  if (kind.starts_with("worn-")) return false;
   if (kind == "coin-place") return ((::getauxval(AT_ENTRY) >> 12) & 1U) != 0;
   if (kind == "coin-process") return (::getpid() & 1) != 0;
   if (kind == "coin-heap") return (unwritten_heap() & 1U) != 0;
   return true;
+}
+
+void bear(const std::string& kind) {
+  static int runs = 0;
+  if (!kind.starts_with("worn-") || ++runs == 1) return;
+  if (kind == "worn-abort") std::abort();
+  if (kind == "worn-exit") ::_exit(0);
+  if (kind == "worn-kill") ::kill(::getpid(), SIGKILL);
+  if (kind == "worn-throw") throw std::runtime_error("worn");
+  for (;;) asm volatile("");
 }
 
 void* create(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
@@ -90,6 +105,7 @@ void* create(const fp_host* host, fp_controller* controller, const fp_briefing* 
     agent->neighbours.insert(agent->owned.back().get());
   }
   if (briefing->self == 0) {
+    bear(agent->kind);
     drawn_in_run_before = drawn_in_this_run;
     drawn_in_this_run = host->random(controller, kPurpose, 0);
   }
@@ -98,7 +114,7 @@ void* create(const fp_host* host, fp_controller* controller, const fp_briefing* 
 
 void on_event(void* instance, const fp_event* event) {
   auto& agent = *static_cast<Unsteady*>(instance);
-  if (!agent.kind.starts_with("coin-")) {
+  if (!agent.kind.starts_with("coin-") && !agent.kind.starts_with("worn-")) {
     agent.host->declare_cost_ns(agent.controller, cost_ns(agent));
     agent.host->declare_state(agent.controller, event->kind == FP_EVENT_START ? "fresh" : "unsteady");
   }

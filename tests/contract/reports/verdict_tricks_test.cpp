@@ -157,6 +157,46 @@ TEST_F(VerdictTricks, ACoinThatFallsOnceForTheNightIsNoVerdict) {
   }
 }
 
+// It does not bear the second run of a process. The engine runs it again in a fresh one, and there it passes.
+TEST_F(VerdictTricks, ARunThatEndsItsWorkerIsNotForgottenBecauseASecondAttemptPasses) {
+  for (const char* kind : {"worn-abort", "worn-exit", "worn-loop"}) {
+    write("c.toml", fmt::format(fmt::runtime(kPlain), test::unsteady(kind), 0.01, kind, 0.99, "violation") +
+                        "[limits]\ncpu_s = 0.1\n");
+    const auto finished = run("run c.toml --db c.db -j 1 --overwrite --replicates 24");
+    EXPECT_EQ(finished.exit_code, 4) << kind << finished.out;
+    const json report = json::parse(run("report c.db --format json --exit-zero").out);
+    EXPECT_GE(report.at("audits").at(0).at("judged_otherwise"), 5) << kind;
+    EXPECT_THAT(finished.out, HasSubstr("not deterministic | agent " + std::string(kind)));
+  }
+}
+
+// Another program may have killed the worker: that is no verdict, and it is told.
+TEST_F(VerdictTricks, WorkersThatAreKilledNowAndThenAreNamed) {
+  write("c.toml", fmt::format(fmt::runtime(kPlain), test::unsteady("worn-kill"), 0.01, "worn-kill", 0.99, "violation"));
+  (void)run("run c.toml --db c.db -j 1 --replicates 24");
+  const std::string page = std::regex_replace(run("report c.db --exit-zero").out, std::regex("\\s+"), " ");
+  EXPECT_THAT(page, testing::ContainsRegex("The worker process of [0-9]+ runs was killed or waited too long"));
+  EXPECT_THAT(page, HasSubstr("this software ends its process now and then"));
+}
+
+// An exception ends no worker: it is the crash of that run.
+TEST_F(VerdictTricks, AnExceptionInAUsedProcessIsACrash) {
+  write("c.toml", fmt::format(fmt::runtime(kPlain), test::unsteady("worn-throw"), 0.01, "worn-throw", 0.2, "crash"));
+  EXPECT_NE(run("run c.toml --db c.db -j 1 --replicates 24").exit_code, 0);
+}
+
+// The only gate looks away from the cells in which it crashes.
+TEST_F(VerdictTricks, CrashesInCellsWithoutAGateAreTold) {
+  std::string text =
+      fmt::format(fmt::runtime(kPlain), "{ file = \"failing.so\", name = \"one\", config = \"abort 2\" }", 0.0, "one",
+                  0.9, "violation");
+  write("c.toml",
+        std::regex_replace(text, std::regex("fleet_sizes = \\[3\\]"), "fleet_sizes = [2, 3]") + "fleet_size = 2\n");
+  (void)run("run c.toml --db c.db -j 2 --replicates 12");
+  const std::string page = std::regex_replace(run("report c.db --exit-zero").out, std::regex("\\s+"), " ");
+  EXPECT_THAT(page, testing::ContainsRegex("one crashed in [0-9]+ of 24 runs of the contract region. No gate judges"));
+}
+
 // ---- the seam to foreign code
 
 std::string untidy(const std::string& kind, const std::string& name) {

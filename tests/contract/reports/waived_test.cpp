@@ -114,10 +114,28 @@ TEST_F(Waived, TheHeadHasTheEightHeaviestAndCountsTheOthers) {
   tables["gate"] += "min_transports_per_agv_hour = 0\n";
   EXPECT_EQ(waived(tables).size(), 11U);
   const std::string page = std::regex_replace(run("report c.db --exit-zero").out, std::regex("\\s+"), " ");
-  EXPECT_THAT(page, HasSubstr("waived | what is easier here than usual: stuck_after_s = 1000000 s (usual: 120 s); "
-                              "coverage.probes = [] (usual: [encounter, negotiation?]); audit.share = 0"));
+  EXPECT_THAT(
+      page,
+      HasSubstr("waived | what is easier here than usual: coverage.probes = [] (usual: [encounter, negotiation?]); "
+                "audit.share = 0 (usual: 0.01); gate.min_transports_per_agv_hour = 0"));
   EXPECT_THAT(page, HasSubstr("; and 3 more, under Conditions."));
   EXPECT_THAT(page, HasSubstr("radio.range_m = 1000000 m (usual: 1000 m)"));
+}
+
+TEST_F(Waived, ManySmallStepsHideNoLargeOne) {
+  Tables tables = usual();
+  tables[""] = "horizon_s = 599\nstuck_after_s = 120.1\n";
+  tables["law"] = "safety_distance_m = 0.0999\nreaction_s = 10.1\n";
+  tables["limits"] = "memory_mb = 4097\ncpu_s = 10.1\n";
+  tables["audit"] = "share = 0.0099\n";
+  tables["gate"] += "confidence = 0.9499\n";
+  tables["vehicle"] = "length_m = 0.29\n";
+  tables["scanner"] = "";
+  tables["world"] = "transports_per_agv_hour = 2\n";
+  (void)waived(tables);
+  const std::string page = std::regex_replace(run("report c.db --exit-zero").out, std::regex("\\s+"), " ");
+  EXPECT_THAT(page, HasSubstr("waived | what is easier here than usual: scanner.on = true (usual: false); "
+                              "world.transports_per_agv_hour = 2"));
 }
 
 // "a number from 0 to 1", "a whole number above 0, at most 10 s"; those above a number begin a little above it.
