@@ -67,6 +67,11 @@ struct EngineIdentity {
   std::string version, program_sha256, compiler, flags, libraries;
   friend bool operator==(const EngineIdentity&, const EngineIdentity&) = default;
 };
+// In `libraries`, before the identity of each program that made runs of the file before this one.
+inline constexpr std::string_view kEngineBegun = "; begun by ";
+inline bool has_several_programs(const EngineIdentity& engine) {
+  return engine.libraries.find(kEngineBegun) != std::string::npos;
+}
 
 inline constexpr std::uint64_t kChunkRuns = 4096;
 

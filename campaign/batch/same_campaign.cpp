@@ -13,18 +13,17 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kDifferencesTold = 5;
-constexpr std::string_view kBegun = "; begun by ";
 
 // What the engine of this session is, without the engines before it.
 std::string_view own_libraries(const EngineIdentity& engine) {
   const std::string_view libraries = engine.libraries;
-  return libraries.substr(0, libraries.find(kBegun));
+  return libraries.substr(0, libraries.find(kEngineBegun));
 }
 
 std::string begun_by(const EngineIdentity& engine) {
   const std::string_view libraries = engine.libraries;
-  const auto earlier = libraries.find(kBegun);
-  return fmt::format("{}fleetproof {} sha256 {} ({}; {}){}", kBegun, engine.version, engine.program_sha256,
+  const auto earlier = libraries.find(kEngineBegun);
+  return fmt::format("{}fleetproof {} sha256 {} ({}; {}){}", kEngineBegun, engine.version, engine.program_sha256,
                      engine.compiler, own_libraries(engine),
                      earlier == std::string_view::npos ? "" : libraries.substr(earlier));
 }
@@ -82,7 +81,7 @@ std::string engine_differences(const EngineIdentity& stored, const EngineIdentit
 }
 
 bool has_one_engine(const EngineIdentity& stored, const EngineIdentity& now) {
-  return engine_differences(stored, now).empty() && stored.libraries.find(kBegun) == std::string::npos;
+  return engine_differences(stored, now).empty() && !has_several_programs(stored);
 }
 
 void require_same_campaign(const std::string& path, const CampaignRecord& stored, CampaignRecord& now,

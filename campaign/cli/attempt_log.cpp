@@ -90,6 +90,8 @@ void add_history(ReportInput& input, const std::string& ledger) {
     if (!ledger.empty()) throw;  // nobody named it: a foreign file of this name tells nothing, and stops no report
   }
   input.attempts.has_session_log = std::filesystem::exists(session_log_path(input.archive_path));
+  input.attempts.names_no_ledger = begins.empty() && input.campaign.kind == name_of(CampaignKind::Claim);
+  input.attempts.was_merged = !remembered_shard(input.archive_path).empty();
   input.attempts.looks = looks_at(input.archive_path);
   input.sensitivity = sensitivity_beside(input.archive_path, input.campaign);
   input.findings = findings_beside(input.archive_path, input.campaign.plan_hash, input.stored_runs);

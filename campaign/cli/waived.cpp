@@ -179,11 +179,11 @@ std::vector<LenientCondition> waived_conditions(const CampaignPlan& plan) {
   return list;
 }
 
-void add_waived(ReportInput& input) {
+LenientConditions lenient_conditions(const std::string& plan_json) {
   try {
-    input.waived.list = waived_conditions(parse_plan(input.campaign.plan_json, PlanCells::MayBeNone));
+    return {waived_conditions(parse_plan(plan_json, PlanCells::MayBeNone)), ""};
   } catch (const EngineError& error) {
-    input.waived.trouble = error.what();
+    return {{}, error.what()};
   }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "campaign/plan/plan.hpp"
-#include "reports/sections/lenient_conditions.hpp"
-#include "reports/sections/report_input.hpp"
+#include "reports/page/lenient_conditions.hpp"
 
 namespace fleetproof::cli {
 
@@ -10,7 +12,7 @@ namespace fleetproof::cli {
 // quarter of their bound come last; of the others, those with more weight first, and of one weight the farther ones.
 std::vector<LenientCondition> waived_conditions(const CampaignPlan& plan);
 
-// Adds those of the plan in the results file.
-void add_waived(ReportInput& input);
+// Those of a plan as a results file has it, or why they are not known.
+LenientConditions lenient_conditions(const std::string& plan_json);
 
 }  // namespace fleetproof::cli

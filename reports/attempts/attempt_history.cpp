@@ -118,6 +118,9 @@ std::string trouble_sentences(const AttemptHistory& history) {
   std::string text;
   if (!history.has_session_log)
     text += " There is no session log beside the results file: who made it, when, and by which ledger is not known.";
+  if (history.has_session_log && history.names_no_ledger)
+    text += " The session log names no line of a ledger: it was changed, or an older program wrote it.";
+  if (history.was_merged) text += " Shards write into no ledger: what was run in shards, and not merged, is not known.";
   if (history.disturbed_runs > 0)
     text += fmt::format(
         " The worker process of {} was killed or waited too long, and another worker brought {} to an end: if nobody "

@@ -25,6 +25,8 @@ struct AttemptHistory {
   std::optional<std::uint64_t> first_foreign_line{};  // of the ledger, which somebody has changed
   // The session log beside the results file tells these; a caller adds them.
   bool has_session_log = true;
+  bool names_no_ledger = false;   // the session log of a claim, although each of them writes into one
+  bool was_merged = false;        // from shards, which write into no ledger
   bool ledger_lost_line = false;  // the ledger has not the line that the session log names: it is gone or another one
   std::optional<std::uint64_t> looks{};  // at the results; absent: not known
   std::uint64_t disturbed_runs = 0;      // whose first worker was killed or waited too long, and whose second was not

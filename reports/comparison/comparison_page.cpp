@@ -99,6 +99,8 @@ std::string comparison_text(const Comparison& comparison, const ReleaseRuns& old
   std::string text = fmt::format("fleetproof comparison\n  old: {}\n  new: {}\n", release_text(old_release),
                                  release_text(new_release));
   text += worlds_text(comparison) + "\n";
+  for (const Headline& waived : lenient_headlines(comparison.waived))
+    text += fmt::format("{}: {}\n", waived.word, waived.text);
   for (const std::string& doubt : comparison.doubts)
     text += fmt::format("doubt: {}: neither is said to be as good as the other\n", doubt);
   text += fmt::format("worlds that failed, old -> new; margin {}; not adjusted for the number of end points:\n",
@@ -120,6 +122,7 @@ std::string comparison_json(const Comparison& comparison, const ReleaseRuns& old
                {"same_worlds", comparison.same_worlds},
                {"other_conditions", comparison.other_conditions},
                {"doubts", comparison.doubts},
+               {"waived", waived_json(comparison.waived)},
                {"worlds", comparison.worlds},
                {"margin", rule.margin},
                {"confidence", rule.confidence},

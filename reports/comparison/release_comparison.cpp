@@ -61,6 +61,13 @@ void doubt(std::vector<std::string>& doubts, const char* which, const ReleaseRun
   if (release.differing > 0)
     doubts.push_back(fmt::format("{} of {} audited runs of the {} release came out differently", release.differing,
                                  release.audited, which));
+  if (has_several_programs(release.campaign.engine))
+    doubts.push_back(fmt::format("more than one program made the runs of the {} release", which));
+  const auto delivered = [](const Replicate& replicate) {
+    return std::ranges::any_of(replicate, [](const ComparedRun& run) { return run.transports_done > 0; });
+  };
+  if (!release.replicates.empty() && std::ranges::none_of(release.replicates, delivered))
+    doubts.push_back(fmt::format("the {} release completed no transport: a parked fleet is safe and useless", which));
   if (release.has_unplaced_repeats)
     doubts.push_back(fmt::format(
         "the file of the {} release does not say which of its runs repeat others; run it with this version", which));

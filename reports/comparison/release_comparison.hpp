@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reports/comparison/release_runs.hpp"
+#include "reports/page/lenient_conditions.hpp"
 
 namespace fleetproof {
 
@@ -51,6 +52,8 @@ struct Comparison {
   double old_transports_per_agv_hour = 0.0, new_transports_per_agv_hour = 0.0;
   std::vector<CellChange> cells;                            // in the same worlds: those with a change
   std::vector<std::uint64_t> newly_failing, newly_passing;  // in the same worlds: run indices in the new release
+
+  LenientConditions waived{};  // of the plan of the new release; a caller adds them
 
   bool any(Change change) const;
 };

@@ -202,7 +202,9 @@ GateResult Evidence::judge(std::size_t index) const {
   counts.planned = planned_replicates();
   counts.failing_runs = pool.failing_runs;
   counts.failing_audits = pool.failing_audits;
-  if (!pool.cells.empty()) counts.audit_doubt = audit_doubt(audits_.of(gate.agent));
+  if (!pool.cells.empty()) counts.doubt = audit_doubt(audits_.of(gate.agent));
+  if (counts.doubt.empty() && has_several_programs(plan_.campaign.engine))
+    counts.doubt = "its runs are those of more than one program";
   counts.transports_per_agv_hour = progress.transports_per_agv_hour();
   counts.counts_only = counts_only();
   const bool asks_for_encounters =

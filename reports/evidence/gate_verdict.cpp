@@ -71,7 +71,7 @@ std::string missing_for_demonstration(const GateRecord& gate, GateResult& result
                     counts.replicates, counts.planned));
   }
   if (!meets_limit(gate, *result.claim)) add_sentence_part(missing, bound_too_high(gate, result));
-  if (!counts.audit_doubt.empty()) add_sentence_part(missing, counts.audit_doubt);
+  if (!counts.doubt.empty()) add_sentence_part(missing, counts.doubt);
   if (counts.met_nobody)
     add_sentence_part(missing, "no run met an encounter of two AGVs: what this gate claims was never put to the test");
   if (!asks_for_progress(gate)) return missing;

@@ -41,7 +41,8 @@ struct GateCounts : UnitCount {
   std::uint64_t planned = 0;         // replicates: the bounds of the method Fixed hold for this number only
   std::uint64_t failing_runs = 0;    // known failures among all runs read so far, complete replicate or not
   std::uint64_t failing_audits = 0;  // runs that failed when they were simulated once more
-  std::string audit_doubt;           // why audits leave no claim about the agent (audit_tally.hpp)
+  std::string
+      doubt;  // why there is no claim about the agent: its audits (audit_tally.hpp), or runs of several programs
   std::optional<double> transports_per_agv_hour;
   std::size_t due_cells = 0;   // cells in which progress is due: those of the contract region, or all if it has none
   std::size_t idle_cells = 0;  // of these, cells in which no transport was done

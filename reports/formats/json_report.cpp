@@ -210,7 +210,7 @@ Json gate_json(const ReportInput& input, std::size_t index) {
                {"verdict", name_of(result.verdict)},
                {"reason", result.reason},
                {"unit", result.unit},
-               {"weak", !result.missing.empty() || !result.counts.audit_doubt.empty()},
+               {"weak", !result.missing.empty() || !result.counts.doubt.empty()},
                {"worlds", result.counts.units},
                {"distinct_worlds", result.counts.distinct},
                {"missing_probes", missing_json(result.missing)},
@@ -264,13 +264,6 @@ Json one_cell_json(const ReportInput& input, const CellRecord& cell) {
     json["optimistic"] = estimate_json(estimate(rule, tally.violating_runs, tally.runs), rule.unit);
   }
   return json;
-}
-
-Json waived_json(const LenientConditions& waived) {
-  auto list = Json::array();
-  for (const auto& [field, value, usual] : waived.list)
-    list.push_back({{"field", field}, {"value", value}, {"usual", usual.empty() ? Json(nullptr) : Json(usual)}});
-  return list;
 }
 
 Json campaign_json(const ReportInput& input) {

@@ -64,7 +64,7 @@ std::string shortfall_of(const GateRecord& gate, const GateResult& result) {
     if (result.units_needed) return "too few " + std::string(result.unit);
     return counts.failing == 0 && counts.failing_or_unknown > 0 ? "unknown outcomes" : "too many failures";
   }
-  if (!counts.audit_doubt.empty()) return "audits";
+  if (!counts.doubt.empty()) return "audits";
   return counts.met_nobody ? "not tested" : "too little progress";
 }
 

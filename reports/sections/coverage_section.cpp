@@ -70,7 +70,7 @@ bool is_weak(const ReportInput& input) {
   const auto& gates = input.evidence.gates();
   for (std::size_t i = 0; i < input.gates.size(); ++i) {
     if (!is_under_test(input.evidence.plan(), gates[i].agent)) continue;
-    if (!input.gates[i].missing.empty() || !input.gates[i].counts.audit_doubt.empty()) return true;
+    if (!input.gates[i].missing.empty() || !input.gates[i].counts.doubt.empty()) return true;
   }
   if (!unjudged_agents(input.evidence).empty()) return true;
   return !weak_headlines(input).empty();

@@ -11,7 +11,7 @@
 #include "reports/evidence/evidence.hpp"
 #include "reports/evidence/failure_groups.hpp"
 #include "reports/findings/mechanism_record.hpp"
-#include "reports/sections/lenient_conditions.hpp"
+#include "reports/page/lenient_conditions.hpp"
 #include "reports/sensitivity/sensitivity_record.hpp"
 #include "storage/archive_reader.hpp"
 

@@ -194,6 +194,14 @@ std::vector<Headline> reservations(const ReportInput& input) {
                                 held_world(input.evidence)),
                     {}});
   }
+  if (has_several_programs(campaign.engine)) {
+    std::string programs = printable(campaign.engine.libraries, 2000);
+    list.push_back({"drift",
+                    fmt::format("more than one program made the runs of this file (--allow-drift), so that they are no "
+                                "evidence for any of them: {}.",
+                                programs),
+                    {}});
+  }
   if (const auto recorded = recorded_radio(campaign.plan_json)) {
     list.push_back({"recorded",
                     fmt::format("the radio of {} of sender and receiver is a recording: the loss and delay that are "

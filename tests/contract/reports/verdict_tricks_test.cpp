@@ -293,6 +293,40 @@ TEST_F(LedgerTricks, WhatIsMissingStandsAtTheHead) {
   EXPECT_THAT(head(), HasSubstr("There is no session log beside the results file"));
 }
 
+TEST_F(LedgerTricks, ASessionLogThatNamesNoLedgerIsTold) {
+  try_as("one");
+  std::string log = read(path("c.sessions.jsonl"));
+  ASSERT_THAT(log, HasSubstr("ledger_line"));
+  log = std::regex_replace(log, std::regex(R"x("(attempt|ledger_line|ledger_hash)":("[^"]*"|[0-9]+),?)x"), "");
+  write("c.sessions.jsonl", log);
+  EXPECT_THAT(head(), HasSubstr("The session log names no line of a ledger"));
+  write("c.sessions.jsonl", "");
+  EXPECT_THAT(head(), HasSubstr("The session log names no line of a ledger"));
+}
+
+TEST_F(LedgerTricks, ShardsAreToldToWriteIntoNoLedger) {
+  try_as("one");
+  ASSERT_EQ(run("run c.toml --shard 1/1 --out s").exit_code, 0);
+  ASSERT_EQ(run("merge s --db m.db").exit_code, 0);
+  EXPECT_THAT(in_one_line(run("report m.db").out), HasSubstr("what was run in shards, and not merged, is not known"));
+}
+
+// The object under a name is exchanged, and the campaign goes on.
+TEST_F(VerdictTricks, RunsOfTwoProgramsAreNoEvidenceForOne) {
+  const std::string text =
+      fmt::format(fmt::runtime(kPlain), "{ file = \"it.so\", name = \"it\" }", 0.1, "it", 0.5, "crash") +
+      "[[gate]]\nname = \"h\"\nagent = \"it\"\nlimit = 0.99\n"
+      "min_transports_per_agv_hour = 0\n";
+  write("c.toml", text);
+  std::filesystem::copy_file(path("unsteady.so"), path("it.so"));
+  ASSERT_EQ(run("run c.toml --db c.db --replicates 30").exit_code, 0);
+  write("it.so", read(path("it.so")) + "another byte");
+  EXPECT_EQ(run("run c.toml --db c.db --replicates 31").exit_code, 2);
+  EXPECT_EQ(run("run c.toml --db c.db --replicates 31 --allow-drift").exit_code, 4);
+  EXPECT_THAT(run("report c.db").out, HasSubstr("drift | more than one program made the runs of this file"));
+  EXPECT_THAT(run("compare c.db c.db").out, HasSubstr("doubt: more than one program made the runs of the new release"));
+}
+
 TEST_F(LedgerTricks, TheBeginOfAFileThatWasMovedIsKnown) {
   try_as("one");
   const std::string begun = "was fixed before run 0, at 20";
@@ -344,6 +378,9 @@ INSTANTIATE_TEST_SUITE_P(
         Trick{"ANewReleaseThatAlwaysCrashes", kSound, kCrashes, 1, "crash       worse: 0 -> 90"},
         Trick{"AReleaseThatIsWorse", kSound, kReckless, 1, "violation   worse: 0 -> "},
         Trick{"AFleetThatIsParked", "agent = \"hull-lock\"|horizon_s = 300", kParked, 1, "throughput  worse: 0 -> "},
+        Trick{"TwoFleetsThatAreParked", kParked, kParked, 4, "doubt: the new release completed no transport"},
+        Trick{"RunsTooShortForATransport", "agent = \"hull-lock\"|horizon_s = 3", "agent = \"reckless\"|horizon_s = 3",
+              4, "waived: what is easier here than usual: horizon_s = 3 s"},
         Trick{"AShorterRun", kSound, "agent = \"hull-lock\"|horizon_s = 50", 4, "the campaigns differ in horizon_s"},
         Trick{"AnotherSeedAndAShorterRun", kSound, "agent = \"hull-lock\"|horizon_s = 50\nseed = 2", 4,
               "the campaigns differ in horizon_s"},

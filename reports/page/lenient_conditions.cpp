@@ -1,6 +1,8 @@
-#include "reports/sections/lenient_conditions.hpp"
+#include "reports/page/lenient_conditions.hpp"
 
 #include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
 
 #include "reports/page/wording.hpp"
 
@@ -25,6 +27,13 @@ std::vector<Headline> lenient_headlines(const LenientConditions& conditions) {
   if (conditions.list.size() > kMostNamed)
     text += fmt::format("; and {} more, under Conditions", conditions.list.size() - kMostNamed);
   return {{"waived", text + ".", {}}};
+}
+
+Json waived_json(const LenientConditions& waived) {
+  auto list = Json::array();
+  for (const auto& [field, value, usual] : waived.list)
+    list.push_back({{"field", field}, {"value", value}, {"usual", usual.empty() ? Json(nullptr) : Json(usual)}});
+  return list;
 }
 
 }  // namespace fleetproof

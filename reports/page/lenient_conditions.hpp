@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/json_text.hpp"
 #include "reports/page/page.hpp"
 
 namespace fleetproof {
@@ -22,6 +23,8 @@ struct LenientConditions {
 
 // At the head: the eight heaviest, and how many more there are. Empty if there is none.
 std::vector<Headline> lenient_headlines(const LenientConditions& conditions);
+
+Json waived_json(const LenientConditions& waived);
 
 // "stuck_after_s = 1000000 s (usual: 120 s)".
 std::string lenient_text(const LenientCondition& condition);
