@@ -5,8 +5,8 @@ file(GLOB engine_tests CONFIGURE_DEPENDS core/*_test.cpp)
 list(FILTER engine_tests EXCLUDE REGEX "detector|clearance|geometry|piece|curve|motion_profile|swept_region")
 if(FLEETPROOF_SANITIZE MATCHES thread)
   set(sanitized_sources campaign/task_pool_test.cpp campaign/trials_test.cpp campaign/findings_test.cpp
-    campaign/failure_needs_test.cpp campaign/workers_test.cpp campaign/untidy_software_test.cpp
-    campaign/audit_finding_test.cpp storage/archive_test.cpp)
+    campaign/failure_needs_test.cpp campaign/workers_test.cpp campaign/audit_finding_test.cpp
+    storage/archive_test.cpp)
   set(planted planted_race)
   set(report "ThreadSanitizer: data race")
 else()
