@@ -241,7 +241,8 @@ Action prepare_run(Options& options) {
                  "ledger of the attempts to make a claim (default: attempts.jsonl beside the results file)");
   add_shard_options(options, words->shard);
   options.flag("--overwrite", words->overwrite, "begin again, and replace an existing results file");
-  options.flag("--allow-drift", words->allow_drift, "go on in a file of another build or plug-in; then nothing is demonstrated");
+  options.flag("--allow-drift", words->allow_drift,
+               "go on in a file of another build or plug-in; then nothing is demonstrated");
   options.flag("--exit-zero", words->exit_zero, "end with exit code 0 whatever the verdict is; 3 stays 3");
   options.flag("--json", words->json, "print the report as JSON");
   return [words] { return run(*words); };
