@@ -48,7 +48,7 @@ std::string remembered_plugin(const std::string& archive_path, const std::string
 std::string remembered_ledger(const std::string& archive_path);
 // The attempt of the last session that names one; empty: none does.
 std::string remembered_attempt(const std::string& archive_path);
-// The lines with which the attempts of all sessions began, in the ledger of the last one.
+// For each session that wrote to the ledger of the last one: the ledger line of its attempt.
 std::vector<LogLine> remembered_ledger_lines(const std::string& archive_path);
 // The shard of the last session, as "3/8"; empty: it was none.
 std::string remembered_shard(const std::string& archive_path);
@@ -57,7 +57,7 @@ std::string remembered_release(const std::string& archive_path);
 bool remembers_fresh_seed(const std::string& archive_path);
 // The options with which the last session changed the plan of the campaign file, as typed. Empty: there were none.
 std::string remembered_overrides(const std::string& archive_path);
-// The runs of all sessions whose worker somebody else may have ended, and which came to their end in another one.
+// How many runs lost a worker that another program may have killed, and then passed in a second worker. All sessions.
 std::uint64_t remembered_disturbed(const std::string& archive_path);
 
 }  // namespace fleetproof

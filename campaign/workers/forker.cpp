@@ -316,7 +316,7 @@ namespace {
 [[noreturn]] void serve_forker(int control, const std::vector<std::string>& words) {
   // It ends when its socket closes, not with a signal: then it can kill what the workers have started.
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(number, SIG_IGN);
-  ::signal(SIGCHLD, SIG_DFL);  // whoever started this program may ignore it; then no worker would leave its end behind
+  ::signal(SIGCHLD, SIG_DFL);  // ignored, as a caller may have left it, it would hide how workers end
   WorkerProgram program;
   program.logs = numbers_in(words[3]);
   program.descriptors = numbers_in(words[4]);

@@ -13,7 +13,7 @@ namespace fleetproof {
 // no foreign body explains.
 std::vector<Remark> stall_notes(const ReportInput& input);
 
-// The agents under test that crashed or hung within the contract region, where no gate of the whole region judges that.
+// Crashes and hangs of the agents under test in the contract region, if no gate over the whole region judges them.
 std::vector<Remark> crash_notes(const ReportInput& input);
 
 // That nothing casts doubt on the simulator: errors of its own, and audits. Empty if something does: then a headline

@@ -30,7 +30,7 @@ TEST(Channel, CarriesFramesOfAnySizeInOrder) {
   EXPECT_EQ(here.wait(kNow), Wait::NotYet);
 }
 
-// A worker may be stopped, or read nothing: whoever posts looks after it meanwhile.
+// A worker may be stopped, or never read. The sender does not block, so that it can watch the worker.
 TEST(Channel, PostsToAnEndThatDoesNotRead) {
   auto [here, there] = Channel::make_pair();
   const std::string large(3'000'000, 'x');

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 class Waived : public test::ProgramTest {
  protected:
-  // The tables of a campaign file: lines by the name of their table.
+  // A campaign file: name of a table -> its lines.
   using Tables = std::map<std::string, std::string>;
 
   // Every table has its lines; nothing in it is easier than usual but what is added.
@@ -34,7 +34,7 @@ class Waived : public test::ProgramTest {
     return text;
   }
 
-  // The fields that the report on a campaign of one world names, with what it says of them.
+  // Runs one world. Field -> value, as the report names what is waived.
   std::map<std::string, std::string> waived(const Tables& tables) {
     write("c.toml", text_of(tables));
     const auto ran = run("run c.toml --db c.db --overwrite --jobs 1");
