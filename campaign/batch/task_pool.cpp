@@ -11,6 +11,7 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -27,6 +28,9 @@ std::atomic<std::uint64_t> handed_over{0};
 // stays flat. Enough for the 50 ms of a commit at 10 000 runs a second.
 constexpr std::size_t kMostUntaken = 512;
 
+// The caller is woken for so many results, or when it has waited for this time: to wake it takes longer than a short
+// run.
+constexpr std::size_t kAtOnce = 32;
 constexpr std::chrono::milliseconds kPatience{10};
 
 }  // namespace
@@ -36,7 +40,7 @@ struct AnyTaskPool::Impl {
   const Task task;
 
   mutable std::mutex mutex;
-  std::condition_variable room, results;
+  std::condition_variable room, results, ended;
   std::uint64_t end;                             // of the tasks to do: a stop brings it nearer
   std::uint64_t next_index;                      // the next group begins here
   std::map<std::uint64_t, std::uint64_t> open;   // by number of a group that was begun: its next task to hand out
@@ -45,7 +49,9 @@ struct AnyTaskPool::Impl {
   std::deque<std::pair<std::uint64_t, std::any>> done;
   std::set<std::thread::id> threads;
   std::exception_ptr failure;
-  std::size_t tasks = 0;  // in the pool's queue or running
+  const std::size_t most_untaken = std::min<std::size_t>(range.window, kMostUntaken);
+  const std::size_t at_once = std::min(kAtOnce, most_untaken);
+  int working = range.workers;  // threads that have not come to their end
   bool stopping = false, crew_gone = false;
   std::thread crew;
 
@@ -62,23 +68,25 @@ struct AnyTaskPool::Impl {
     Impl* pool;
     void operator()() const {
       (void)handed_over.load(std::memory_order_acquire);
-      pool->run_one();
+      pool->work();
     }
   };
 
   // The feeder occupies one slot of the arena but does no task, so exactly `workers` threads do, however many cores
-  // there are.
+  // there are. group.wait() would lend it to the pool as one more worker; so it waits until nothing is left to lend it
+  // for.
   void feed() {
     const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(range.workers) + 1);
     tbb::task_arena arena(range.workers + 1, 1);
     tbb::task_group group;
     arena.initialize();
-    while (wait_for_room()) {
-      handed_over.fetch_add(1, std::memory_order_release);
-      arena.execute([&] { group.run(ForwardToPool{this}); });
+    handed_over.fetch_add(1, std::memory_order_release);
+    for (int worker = 0; worker < range.workers; ++worker) arena.execute([&] { group.run(ForwardToPool{this}); });
+    {
+      std::unique_lock lock(mutex);
+      ended.wait(lock, [&] { return working == 0; });
     }
-    wait_for_tasks();
     arena.execute([&] { group.wait(); });
     const std::lock_guard lock(mutex);
     crew_gone = true;
@@ -125,55 +133,43 @@ struct AnyTaskPool::Impl {
     return index;
   }
 
-  bool wait_for_room() {
+  // What TBB calls a task is one of the threads: it does tasks of ours until none is left. To hand each over by itself
+  // would wake three threads for it.
+  void work() {
     std::unique_lock lock(mutex);
-    room.wait(lock, [&] {
-      const bool slot_free = tasks < 4 * static_cast<std::size_t>(range.workers);
-      return !more_to_do() || (slot_free && done.size() < std::min<std::size_t>(range.window, kMostUntaken));
-    });
-    if (!more_to_do()) return false;
-    ++tasks;
-    return true;
+    while (const auto index = next_task(lock)) {
+      lock.unlock();
+      std::any result;
+      std::exception_ptr error;
+      try {
+        result = task(*index);
+      } catch (...) {
+        error = std::current_exception();
+      }
+      lock.lock();
+      finish(*index, std::move(result), error);
+    }
+    --working;
+    ended.notify_all();
   }
 
-  // group.wait() would lend the feeder to the pool as one more worker; so it waits until nothing is left to lend it
-  // for.
-  void wait_for_tasks() {
-    std::unique_lock lock(mutex);
-    room.wait(lock, [&] { return tasks == 0; });
+  std::optional<std::uint64_t> next_task(std::unique_lock<std::mutex>& lock) {
+    auto from = open.end();
+    room.wait(lock, [&] { return !more_to_do() || (done.size() < most_untaken && (from = choose()) != open.end()); });
+    if (!more_to_do()) return std::nullopt;
+    const std::uint64_t index = hand_out(from);
+    under_way.emplace(index, std::chrono::steady_clock::now());
+    threads.insert(std::this_thread::get_id());
+    return index;
   }
 
-  // Takes the index from our own queue rather than from the task: the task itself carries no data.
-  void run_one() {
-    std::uint64_t index = 0;
-    {
-      std::unique_lock lock(mutex);
-      auto from = open.end();
-      room.wait(lock, [&] { return !more_to_do() || (from = choose()) != open.end(); });
-      if (!more_to_do()) return task_ends();
-      index = hand_out(from);
-      under_way.emplace(index, std::chrono::steady_clock::now());
-      threads.insert(std::this_thread::get_id());
-    }
-    std::any result;
-    std::exception_ptr error;
-    try {
-      result = task(index);
-    } catch (...) {
-      error = std::current_exception();
-    }
-    const std::lock_guard lock(mutex);
+  void finish(std::uint64_t index, std::any result, const std::exception_ptr& error) {
     under_way.erase(index);
     if (result.has_value()) done.emplace_back(index, std::move(result));
     if (error && !failure) failure = error;
     if (error) stopping = true;
-    task_ends();
-  }
-
-  void task_ends() {  // with the lock held
-    --tasks;
+    if (done.size() >= at_once) results.notify_all();
     room.notify_all();
-    results.notify_all();
   }
 };
 
@@ -201,7 +197,10 @@ void AnyTaskPool::stop_after_group(std::uint64_t length) {
 void AnyTaskPool::take_all(const Take& take, const std::function<void()>& meanwhile) {
   std::unique_lock lock(impl_->mutex);
   while (!impl_->crew_gone || !impl_->done.empty()) {
-    impl_->results.wait_for(lock, kPatience, [&] { return !impl_->done.empty() || impl_->crew_gone; });
+    if (impl_->done.empty()) {
+      impl_->results.wait_for(lock, kPatience,
+                              [&] { return impl_->done.size() >= impl_->at_once || impl_->crew_gone; });
+    }
     std::optional<std::pair<std::uint64_t, std::any>> next;
     if (!impl_->done.empty()) {
       next = std::move(impl_->done.front());

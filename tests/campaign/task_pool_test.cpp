@@ -86,7 +86,7 @@ TEST(TaskPool, OneSlowRunStallsNothingButTheWindow) {
 }
 
 TEST(TaskPool, ResultsThatNobodyTakesStopTheRuns) {
-  constexpr int kHandedOver = 8;  // tasks of two workers that may be on their way when the window is full
+  constexpr int kHandedOver = 1;  // of two workers: the task of the other when the window is full
   std::atomic<int> simulated{0};
   Pool pool({.workers = 2, .end = 1000, .window = 50}, [&](std::uint64_t index) {
     ++simulated;
@@ -99,7 +99,7 @@ TEST(TaskPool, ResultsThatNobodyTakesStopTheRuns) {
 }
 
 TEST(TaskPool, AtMost512ResultsAreUntakenHoweverLargeTheWindowIs) {
-  constexpr int kHandedOver = 8;  // tasks of two workers that may be on their way when no more results are wanted
+  constexpr int kHandedOver = 1;  // of two workers: the task of the other when no more results are wanted
   std::atomic<int> simulated{0};
   Pool pool({.workers = 2, .end = 3000, .window = 65'536}, [&](std::uint64_t index) {
     ++simulated;
