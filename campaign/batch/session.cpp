@@ -125,6 +125,7 @@ void Session::tick_if_due(SessionPolicy& policy, const UnderWay& under_way) {
   Progress& progress = result_.progress;
   progress.elapsed_s = elapsed_s();
   progress.audits_open = audits_.open_count();
+  progress.repeats = runs_.repeats();
   listener_.tick(progress);
   if (listener_.wants_status()) listener_.status(progress, under_way());
 }

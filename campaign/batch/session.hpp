@@ -39,6 +39,7 @@ struct Progress {
   std::uint64_t audited = 0, audits_open = 0;  // open: still to do
   std::uint64_t disturbed = 0;                 // runs whose worker somebody else may have ended
   double elapsed_s = 0.0;
+  std::vector<RunRepeat> repeats{};  // of runs beyond their limit, under way
 };
 
 struct CampaignResult {

@@ -15,6 +15,16 @@ namespace fleetproof::cli {
 namespace {
 
 constexpr double kLineEvery_s = 30.0;
+constexpr std::size_t kMostRepeatsTold = 10;
+
+// What is under way, and for how long at most: without it, a hang looks like a campaign that stands still.
+std::string repeat_words(const RunRepeat& repeat) {
+  if (repeat.hangs == 0)
+    return fmt::format("run {} did not end within {:.3g} s of CPU time: it is repeated, for {:.3g} s at most",
+                       repeat.run_index, repeat.limit_s, repeat.at_most_s);
+  return fmt::format("run {} is repeated without {} that {}: {:.3g} s at most for each further one", repeat.run_index,
+                     count_text(repeat.hangs, "call"), repeat.hangs == 1 ? "hangs" : "hang", repeat.at_most_s);
+}
 
 bool is_terminal() {
   const char* term = std::getenv("TERM");
@@ -63,17 +73,29 @@ void ProgressTalk::run_finished(const RunRecord& record) {
 
 std::string ProgressTalk::counter_line(const Progress& progress) const {
   const double rate = progress.elapsed_s > 0.0 ? static_cast<double>(progress.simulated) / progress.elapsed_s : 0.0;
-  const double left_s = rate > 0.0 ? static_cast<double>(progress.planned - progress.done) / rate : 0.0;
+  const std::string left =
+      rate > 0.0 ? duration_text(static_cast<double>(progress.planned - progress.done) / rate) : "not known";
   return fmt::format("{}/{} runs  {:.0f} %  {:.0f} runs/s  ETA {} | violating {}{}", progress.done, progress.planned,
-                     100.0 * static_cast<double>(progress.done) / static_cast<double>(progress.planned), rate,
-                     duration_text(left_s), progress.violating,
+                     100.0 * static_cast<double>(progress.done) / static_cast<double>(progress.planned), rate, left,
+                     progress.violating,
                      progress.engine_errors == 0 ? "" : fmt::format("  engine errors {}", progress.engine_errors)) +
          (progress.done == progress.planned && progress.audits_open > 0
               ? fmt::format("  {} audits to do", progress.audits_open)
-              : "");
+              : "") +
+         (progress.repeats.empty() ? "" : " | " + repeat_words(progress.repeats.front()));
+}
+
+void ProgressTalk::tell_repeats(const Progress& progress) {
+  for (const RunRepeat& repeat : progress.repeats) {
+    if (told_repeats_.size() >= kMostRepeatsTold || !told_repeats_.insert(repeat.run_index).second) continue;
+    clear_line();
+    talk("{}\n", repeat_words(repeat));
+    if (told_repeats_.size() == kMostRepeatsTold) talk("further runs that are repeated are not told one by one\n");
+  }
 }
 
 void ProgressTalk::tick(const Progress& progress) {
+  tell_repeats(progress);
   if (terminal_) {
     steer_terminal("\r\033[K" + counter_line(progress), kNoPatience_ms);
     line_open_ = true;

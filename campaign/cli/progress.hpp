@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -9,7 +11,7 @@ namespace fleetproof::cli {
 
 // The progress of a running campaign, on stderr. A terminal shows one line that is rewritten at most ten times a
 // second; otherwise there is one line every 30 s. The first failure of each agent is printed at once, with its replay
-// line.
+// line, and so is each run that is beyond its limit of CPU time and is repeated.
 class ProgressTalk {
  public:
   // `plugins`: the agents that come from shared objects. `archive_path` empty: there is none, and no replay line.
@@ -25,6 +27,7 @@ class ProgressTalk {
   void run_finished(const RunRecord& record);
   void tick(const Progress& progress);
   void status(const Progress& progress, const std::vector<RunUnderWay>& under_way);
+  void tell_repeats(const Progress& progress);
   std::string counter_line(const Progress& progress) const;
   void clear_line();
 
@@ -34,6 +37,7 @@ class ProgressTalk {
   const std::string archive_path_;
   const bool terminal_;
   std::vector<std::string> told_agents_;
+  std::set<std::uint64_t> told_repeats_;  // runs
   double last_line_s_ = 0.0;
   bool line_open_ = false;
 };

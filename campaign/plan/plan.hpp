@@ -83,7 +83,7 @@ constexpr const char* name_of(CampaignKind kind) {
 // What one run of a plug-in may use. What goes beyond it is filed as a crash or hang.
 struct LimitSetup {
   std::uint64_t memory_mb = 4096;  // addresses that a plug-in may map; 0: no limit
-  double cpu_s = 10.0;             // at least; 20 times the slowest run so far if that is more
+  double cpu_s = 5.0;              // at least; 20 times the slowest run so far if that is more
 
   // CPU time in which a plug-in has to be loaded: an interpreter takes longer than a run.
   double loading_s() const { return std::max(cpu_s, 10.0); }

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "campaign/workers/worker.hpp"
-#include "campaign/workers/worker_watch.hpp"
 #include "core/base/error.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 #include "storage/checksum.hpp"
@@ -18,7 +17,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLookEvery{100};
 constexpr double kTimesSlowest = 20.0;  // the CPU time that a run may use, in times of the slowest run so far
-constexpr double kRepeatFactor = 10.0;  // a run that went beyond it gets so much more in the repeat
+constexpr double kRepeatFactor = 4.0;   // a run that went beyond it gets so much more in the repeat
 constexpr int kKillsFromOutside = 3;    // of one run; then the run itself is the reason
 
 // Whether what ended the first attempt of a run ended a later one, too. A run that is only slow needs its time again.
@@ -69,6 +68,33 @@ class IsolatedRuns::Turn {
  private:
   IsolatedRuns& runs_;
   bool alone_;
+};
+
+class IsolatedRuns::ToldRepeat {
+ public:
+  ToldRepeat(IsolatedRuns& runs, std::uint64_t run_index, double limit_s)
+      : runs_(runs), told_{run_index, limit_s, kRepeatFactor * limit_s, 0} {
+    const std::lock_guard lock(runs_.mutex_);
+    runs_.repeats_.push_back(told_);
+  }
+  ~ToldRepeat() {
+    const std::lock_guard lock(runs_.mutex_);
+    std::erase(runs_.repeats_, told_);
+  }
+  ToldRepeat(const ToldRepeat&) = delete;
+  ToldRepeat& operator=(const ToldRepeat&) = delete;
+
+  void call_hangs() {
+    const std::lock_guard lock(runs_.mutex_);
+    const auto place = std::ranges::find(runs_.repeats_, told_);
+    told_.at_most_s = told_.limit_s;
+    ++told_.hangs;
+    *place = told_;
+  }
+
+ private:
+  IsolatedRuns& runs_;
+  RunRepeat told_;
 };
 
 IsolatedRuns::IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting)
@@ -122,11 +148,14 @@ RunAnswer IsolatedRuns::answer_of(RunOrder& order, HostProcess process) {
   }
 }
 
+// A worker that hosted nothing before and crashes is what a repeat would show.
 RunAnswer IsolatedRuns::answer_of(Member& member, RunOrder& order) {
   const double limit_s = cpu_limit_s(order.run_index);
-  Attempt first = attempt(member, order, limit_s);
+  Attempt first = attempt(member, order, {limit_s});
   if (first.answer) return std::move(*first.answer);
-  RunAnswer answer = repeat(member, order, first.cause.with_forker);
+  if (first.in_fresh_worker && !first.cause.hang && !first.cause.maybe_outside && first.cause.call > 0)
+    order.known_ends.push_back({first.cause.call, false, first.cause.message});
+  RunAnswer answer = repeat(member, order, first.cause);
   if (!came_again(first.cause, limit_s, order, answer)) answer.ended_otherwise = std::move(first.cause);
   retire(member);  // agents that ended early have cleared nothing away
   return answer;
@@ -135,19 +164,25 @@ RunAnswer IsolatedRuns::answer_of(Member& member, RunOrder& order) {
 // Each attempt happens in a worker that has hosted nothing before, and learns at which calls agents ended the attempts
 // before it. Every such call is later than the one before, or the software does not do the same thing twice.
 // If the forker died in an attempt, any run that was under way may have killed it: from then on the run is alone.
-RunAnswer IsolatedRuns::repeat(Member& member, RunOrder& order, bool alone) {
-  const double limit_s = kRepeatFactor * cpu_limit_s(order.run_index);
+// Once a call was found to hang, another one has shown enough when it takes the limit by itself.
+RunAnswer IsolatedRuns::repeat(Member& member, RunOrder& order, const CauseOfDeath& first) {
+  const double limit_s = cpu_limit_s(order.run_index);
+  WorkerWatch::Limits limits{kRepeatFactor * limit_s};
+  bool alone = first.with_forker;
+  std::optional<ToldRepeat> told;
+  if (first.hang) told.emplace(*this, order.run_index, limit_s);
   for (int killed = 0;;) {
-    Attempt again = attempt(member, order, limit_s, alone);
+    Attempt again = attempt(member, order, limits, alone);
     if (again.answer) return std::move(*again.answer);
     if (again.cause.with_forker && !std::exchange(alone, true)) continue;
     if (again.cause.from_outside && ++killed < kKillsFromOutside) continue;
     const std::uint64_t last = order.known_ends.empty() ? 0 : order.known_ends.back().call;
-    if (again.cause.call > last) {
-      order.known_ends.push_back({again.cause.call, again.cause.hang, again.cause.message});
-      continue;
-    }
-    return unexplained(order, again.cause);
+    if (again.cause.call <= last) return unexplained(order, again.cause);
+    order.known_ends.push_back({again.cause.call, again.cause.hang, again.cause.message});
+    if (!again.cause.hang) continue;
+    limits.call_s = limit_s;
+    if (!told) told.emplace(*this, order.run_index, limit_s);
+    told->call_hangs();
   }
 }
 
@@ -164,7 +199,8 @@ RunAnswer IsolatedRuns::unexplained(const RunOrder& order, const CauseOfDeath& c
   return answer;
 }
 
-IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& order, double cpu_limit_s, bool alone) {
+IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& order, WorkerWatch::Limits limits,
+                                            bool alone) {
   const Turn turn(*this, alone);
   for (;;) {
     if (abandoned_) throw RunAbandoned();
@@ -172,14 +208,14 @@ IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& orde
     if (const auto state = start(member)) return lost(member, order.run_index, *state);
     member.worker.channel.post(encode(order));
     RunAnswer answer;
-    if (const auto state = take_answer(member, cpu_limit_s, answer)) return lost(member, order.run_index, *state);
+    if (const auto state = take_answer(member, limits, answer)) return lost(member, order.run_index, *state);
     if (answer.declined && !member.fresh) {
       retire(member);
       continue;
     }
     member.fresh = false;
     expect_cpu_ns(answer.cpu_ns);
-    return {std::move(answer), {}};
+    return {std::move(answer), {}, false};
   }
 }
 
@@ -195,7 +231,7 @@ std::optional<WorkerState> IsolatedRuns::start(Member& member) {
   member.worker = forker_.start(member.slot);
   member.worker.channel.post(setup_);
   RunAnswer ready;
-  return take_answer(member, plan_.limits.loading_s(), ready);
+  return take_answer(member, {plan_.limits.loading_s()}, ready);
 }
 
 void IsolatedRuns::retire(Member& member) {
@@ -206,9 +242,9 @@ void IsolatedRuns::retire(Member& member) {
   member.fresh = true;
 }
 
-std::optional<WorkerState> IsolatedRuns::take_answer(Member& member, double cpu_limit_s, RunAnswer& answer) {
+std::optional<WorkerState> IsolatedRuns::take_answer(Member& member, WorkerWatch::Limits limits, RunAnswer& answer) {
   Channel& channel = member.worker.channel;
-  WorkerWatch watch(member.worker.pid, cpu_limit_s);
+  WorkerWatch watch(member.worker.pid, limits, slots_[member.slot].call.number);
   for (;;) {
     switch (channel.wait(kLookEvery)) {
       case Channel::Wait::Arrived:
@@ -239,15 +275,15 @@ IsolatedRuns::Attempt IsolatedRuns::lost(Member& member, std::uint64_t run_index
   if (WIFSIGNALED(loss.death.status) && WTERMSIG(loss.death.status) != SIGKILL)
     loss.stack = logs_.last_stack(member.slot);
   loss.in_fresh_worker = member.fresh;
+  const bool was_fresh = std::exchange(member.fresh, true);
   member.worker = {};
-  member.fresh = true;
   // Software may end its process with any code, but only once that runs.
   if (slots_[member.slot].started == 0 && WIFEXITED(loss.death.status) &&
       WEXITSTATUS(loss.death.status) == kCannotStartExit)
     throw EngineError("the program of a worker cannot be started");
   const std::lock_guard lock(mutex_);
   losses_.push_back(std::move(loss));
-  return {std::nullopt, cause};
+  return {std::nullopt, cause, was_fresh};
 }
 
 // Reference agents have no limit: in a campaign they run in the main process.
@@ -278,6 +314,11 @@ void IsolatedRuns::give_back(Member member) {
 std::vector<WorkerLoss> IsolatedRuns::take_losses() {
   const std::lock_guard lock(mutex_);
   return std::exchange(losses_, {});
+}
+
+std::vector<RunRepeat> IsolatedRuns::repeats() const {
+  const std::lock_guard lock(mutex_);
+  return repeats_;
 }
 
 }  // namespace fleetproof

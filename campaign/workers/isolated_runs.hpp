@@ -17,6 +17,7 @@
 #include "campaign/workers/run_order.hpp"
 #include "campaign/workers/shared_slots.hpp"
 #include "campaign/workers/worker_logs.hpp"
+#include "campaign/workers/worker_watch.hpp"
 
 namespace fleetproof {
 
@@ -27,6 +28,15 @@ struct WorkerLoss {
   std::vector<std::string> stack;  // of a worker that ended with a signal, as its log has it
   bool in_fresh_worker = false;
   WorkerDeath death;
+};
+
+// A run that did not end within its limit, and is repeated.
+struct RunRepeat {
+  std::uint64_t run_index = 0;
+  double limit_s = 0.0;     // of CPU time, beyond which it was
+  double at_most_s = 0.0;   // the CPU time of the next attempt
+  std::uint64_t hangs = 0;  // calls of it that were found to hang
+  friend bool operator==(const RunRepeat&, const RunRepeat&) = default;
 };
 
 // How runs are hosted.
@@ -64,6 +74,7 @@ class IsolatedRuns {
   void expect_cpu_ns(std::uint64_t cpu_ns);
   // The losses since the last call.
   std::vector<WorkerLoss> take_losses();
+  std::vector<RunRepeat> repeats() const;  // that are under way
 
  private:
   struct Member {
@@ -74,20 +85,23 @@ class IsolatedRuns {
   struct Attempt {
     std::optional<RunAnswer> answer;
     CauseOfDeath cause;
+    bool in_fresh_worker = false;
   };
 
   // Attempts happen beside each other. One that must tell whether it kills the forker happens alone.
   class Turn;
+  // Tells of a repeat as long as it lives.
+  class ToldRepeat;
 
   Member take_member();
   void give_back(Member member);
-  Attempt attempt(Member& member, const RunOrder& order, double cpu_limit_s, bool alone = false);
+  Attempt attempt(Member& member, const RunOrder& order, WorkerWatch::Limits limits, bool alone = false);
   // Of these two, empty: the worker may take an order, or has answered. Throws EngineError if it says that it cannot.
   std::optional<WorkerState> start(Member& member);
-  std::optional<WorkerState> take_answer(Member& member, double cpu_limit_s, RunAnswer& answer);
+  std::optional<WorkerState> take_answer(Member& member, WorkerWatch::Limits limits, RunAnswer& answer);
   void retire(Member& member);
   Attempt lost(Member& member, std::uint64_t run_index, WorkerState state);
-  RunAnswer repeat(Member& member, RunOrder& order, bool alone);
+  RunAnswer repeat(Member& member, RunOrder& order, const CauseOfDeath& first);
   RunAnswer answer_of(Member& member, RunOrder& order);
   // Leaves in it the ends that were found.
   RunAnswer answer_of(RunOrder& order, HostProcess process = HostProcess::Shared);
@@ -106,11 +120,12 @@ class IsolatedRuns {
   std::atomic<bool> abandoned_ = false;
   std::atomic<std::uint64_t> slowest_ns_ = 0;
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable member_back_, turn_over_;
   int turns_ = 0, wait_to_be_alone_ = 0;
   std::vector<Member> idle_;
   std::vector<WorkerLoss> losses_;
+  std::vector<RunRepeat> repeats_;
 };
 
 }  // namespace fleetproof

@@ -25,6 +25,8 @@ void RunHost::abandon() {
   if (isolated_) isolated_->abandon();
 }
 
+std::vector<RunRepeat> RunHost::repeats() const { return isolated_ ? isolated_->repeats() : std::vector<RunRepeat>(); }
+
 std::vector<WorkerLoss> RunHost::take_losses() {
   return isolated_ ? isolated_->take_losses() : std::vector<WorkerLoss>();
 }

@@ -32,6 +32,7 @@ class RunHost {
   std::uint64_t slowest_cpu_ns() const { return isolated_ ? isolated_->slowest_cpu_ns() : 0; }
   // Of worker processes, since the last call.
   std::vector<WorkerLoss> take_losses();
+  std::vector<RunRepeat> repeats() const;  // that are under way
 
  private:
   RunOne run_one_;

@@ -2,6 +2,9 @@
 
 #include <sys/types.h>
 
+#include <atomic>
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "campaign/workers/cause_of_death.hpp"
@@ -15,8 +18,13 @@ char process_state(pid_t process);
 // Only a worker that sleeps, waits or is stopped is measured by the clock on the wall.
 class WorkerWatch {
  public:
-  // The run may use `limit_s` of CPU time, and may sleep for as long in a row.
-  WorkerWatch(pid_t worker, double limit_s);
+  // CPU time, and sleep in a row.
+  struct Limits {
+    double run_s = 0.0;
+    double call_s = std::numeric_limits<double>::infinity();  // of one call into an agent
+  };
+  // `call`: the number of the call into an agent that is under way.
+  WorkerWatch(pid_t worker, Limits limits, const std::atomic<std::uint64_t>& call);
 
   // Call this about every `period_s`. Empty: the worker may go on.
   std::optional<WorkerState> look(double period_s);
@@ -25,7 +33,10 @@ class WorkerWatch {
   std::optional<double> cpu_s() const;  // of the worker so far; empty: it is dead
 
   pid_t worker_;
-  double limit_s_, begin_s_, last_s_;
+  Limits limits_;
+  const std::atomic<std::uint64_t>& call_;
+  std::uint64_t last_call_;
+  double begin_s_, call_begin_s_, last_s_;
   double asleep_s_ = 0.0;
 };
 

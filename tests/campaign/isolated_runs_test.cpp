@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -167,7 +168,7 @@ TEST(IsolatedRuns, TheLossOfAWorkerHasTheStackOfTheCrash) {
     IsolatedRuns runs(plan, programs, {.workers = 1, .log_prefix = prefix});
     runs(0);
     const auto losses = runs.take_losses();
-    ASSERT_EQ(losses.size(), 2U) << "the run and its repeat";
+    ASSERT_EQ(losses.size(), 1U);
     for (const WorkerLoss& loss : losses) EXPECT_THAT(loss.stack, testing::Contains(HasSubstr("failing_agent")));
   }
   std::filesystem::remove(prefix + ".worker-0.log");
@@ -287,6 +288,46 @@ TEST(IsolatedRuns, AnAbandonedRunTakesItsWorkerWithIt) {
   caller.join();
   for (int i = 0; i < 1000 && has_living_worker(); ++i) ::usleep(1000);
   EXPECT_FALSE(has_living_worker());
+}
+
+// The first AGV that hangs costs the limit, and four times as much in the repeat; each further one the limit once.
+TEST(IsolatedRuns, ARunBeyondItsLimitIsToldWhileItIsRepeated) {
+  CampaignPlan plan = failing_plan("every-loop 1");
+  plan.limits.cpu_s = 0.2;
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, Hosting{});
+  std::atomic<bool> ended = false;
+  std::vector<RunRepeat> told;
+  std::thread watcher([&] {
+    for (; !ended; ::usleep(2000)) {
+      for (const RunRepeat& repeat : runs.repeats()) {
+        if (told.empty() || told.back() != repeat) told.push_back(repeat);
+      }
+    }
+  });
+  const Outcome outcome = runs(3).outcome;
+  ended = true;
+  watcher.join();
+  EXPECT_TRUE(outcome.hang);
+  ASSERT_EQ(told.size(), 1 + outcome.agv_count);
+  EXPECT_EQ(told.front(), (RunRepeat{3, 0.2, 4 * 0.2, 0}));
+  for (std::size_t hangs = 1; hangs < told.size(); ++hangs) EXPECT_EQ(told[hangs], (RunRepeat{3, 0.2, 0.2, hangs}));
+  EXPECT_TRUE(runs.repeats().empty());
+  EXPECT_EQ(runs.take_losses().size(), 1 + outcome.agv_count) << "no call is tried twice but the first";
+}
+
+// What a fresh worker does needs no second one: of two that crash in one run, each costs a start.
+TEST(IsolatedRuns, ACrashInAFreshWorkerIsNotTriedAgain) {
+  const CampaignPlan plan = failing_plan("every-abort 1");
+  AgentPrograms programs;
+  programs.know(FLEETPROOF_FAILING_AGENT);
+  IsolatedRuns runs(plan, programs, Hosting{});
+  const Outcome outcome = runs(0).outcome;
+  EXPECT_TRUE(outcome.crash);
+  const auto losses = runs.take_losses();
+  EXPECT_EQ(losses.size(), outcome.agv_count);
+  EXPECT_TRUE(std::ranges::all_of(losses, &WorkerLoss::in_fresh_worker));
 }
 
 TEST(AgentInspection, HasTheMemoryOfARun) {
