@@ -21,6 +21,7 @@
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/scenario/field.hpp"
+#include "generators/formats/vehicles.hpp"
 #include "generators/map/permitted_types.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -66,6 +67,14 @@ void warn_of_foreign_types(CampaignFile& file) {
   file.warnings.insert(file.warnings.begin(), sentences.begin(), sentences.end());
 }
 
+void warn_of_units(CampaignFile& file) {
+  for (std::size_t i = 0; i < file.plan.vehicles.size(); ++i) {
+    for (const std::string& question : vehicle_questions(file.plan.vehicles[i].type))
+      file.warnings.push_back(fmt::format("{}: vehicle {}: {}", file.places.of(fmt::format("vehicle.{}", i)),
+                                          in_quotes(file.plan.vehicles[i].type.name), question));
+  }
+}
+
 void warn_of_idle_gates(CampaignFile& file) {
   if (file.plan.kind != CampaignKind::Search || file.plan.gates.empty()) return;
   file.warnings.insert(file.warnings.begin(),
@@ -107,6 +116,7 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   check_plan(file.plan, file.places);
   warn_of_foreign_types(file);
   warn_of_idle_gates(file);
+  warn_of_units(file);
   std::vector<bool> is_plugin;
   for (const std::string& path_of_object : file.agent_files) is_plugin.push_back(!path_of_object.empty());
   for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i].program, place_of(i) + ": factors.agents");

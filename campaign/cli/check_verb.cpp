@@ -12,6 +12,7 @@
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/case_file.hpp"
 #include "generators/formats/importer.hpp"
+#include "generators/formats/vehicles.hpp"
 #include "generators/map/permitted_types.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/worlds/world_maker.hpp"
@@ -82,6 +83,10 @@ void check_scenario(const std::string& path) {
   for (const auto& problem : problems_of(scenario))
     talk("warning: {}: {}: {}\n", path, problem.pointer, problem.sentence);
   warn_of_foreign_types(scenario, path);
+  for (const VehicleType& type : scenario.vehicle_types) {
+    for (const std::string& question : vehicle_questions(type))
+      talk("warning: {}: vehicle {}: {}\n", path, in_quotes(type.name), question);
+  }
   put("{}: ok, {} stations, {} segments, {} AGVs, {:g} s\n", path, scenario.map->station_count(),
       scenario.map->segment_count(), scenario.agvs.size(), to_seconds(scenario.horizon));
 }

@@ -16,7 +16,9 @@
 #include "core/base/tolerances.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/map/layout_check.hpp"
+#include "generators/map/plant_size.hpp"
 #include "generators/text/csv_fields.hpp"
+#include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/text/text_lines.hpp"
 #include "generators/text/xml_text.hpp"
@@ -82,7 +84,8 @@ std::vector<std::string_view> words_of(std::string_view text, char separator) {
 
 class TableReader {
  public:
-  TableReader(std::string_view text, std::string_view source) : lines_(text), source_(source) {}
+  TableReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings)
+      : lines_(text), source_(source), warnings_(warnings) {}
 
   Layout read() {
     layout_.name = std::filesystem::path(source_).stem().string();
@@ -101,7 +104,10 @@ class TableReader {
       throw InputError(source_, "has no nodes; expected a line id,x,y,purposes and one line for each node");
     if (layout_.segments.empty())
       throw InputError(source_, "has no edges; expected a line from,to,bidirectional and one line for each edge");
-    if (!has_floor_) fit_floor(layout_, kFloorMargin_m);
+    if (!has_floor_) {
+      shift_far_plant(layout_, source_, warnings_);
+      fit_floor(layout_, kFloorMargin_m);
+    }
     refuse_problems();
     return std::move(layout_);
   }
@@ -111,11 +117,31 @@ class TableReader {
     throw InputError(at_line(source_, lines_.number()), sentence);
   }
 
+  // What is missing, or that the line is no heading at all.
+  static std::string headings_hint(const std::vector<std::string>& fields) {
+    std::vector<std::string> missing;
+    for (const char* name : {"id", "x", "y"}) {
+      if (std::ranges::find(fields, name) == fields.end()) missing.emplace_back(name);
+    }
+    return "missing here: " + name_list(missing);
+  }
+
   // Spreadsheets of many countries write other separators.
   [[noreturn]] void refuse_first_line(const std::vector<std::string>& fields) const {
     const bool other = fields.size() == 1 && fields[0].find_first_of(";\t") != std::string::npos;
-    refuse(fmt::format("expected a line with the names of the columns first: id,x,y,purposes{}",
-                       other ? "; the separator is a comma, no semicolon and no tabulator" : ""));
+    const std::string line = fmt::format("{}", fmt::join(fields, ","));
+    refuse(
+        fmt::format("the first line is {}; expected the names of the columns first, as in \"id,x,y,purposes\" (id, "
+                    "x and y are needed; {}){}",
+                    in_quotes(line), headings_hint(fields),
+                    other ? "; the separator is a comma, no semicolon and no tabulator" : ""));
+  }
+
+  // In their order in the file.
+  std::string columns_text() const {
+    std::vector<std::string> names(columns_.size());
+    for (const auto& [name, place] : columns_) names[place] = name;
+    return fmt::format("{}", fmt::join(names, ","));
   }
 
   // Each table has its header at its top. In the rows below, stations may have the names "from" and "to".
@@ -131,7 +157,9 @@ class TableReader {
   void add_row(const std::vector<std::string>& fields) {
     if (table_ == Table::None) refuse_first_line(fields);
     if (fields.size() > columns_.size())
-      refuse(fmt::format("the line has {} fields, its table {} columns", fields.size(), columns_.size()));
+      refuse(fmt::format(
+          "the line {} has {} fields, its table {} columns ({}); a field with a comma stands in double quotes",
+          in_quotes(fmt::format("{}", fmt::join(fields, ","))), fields.size(), columns_.size(), columns_text()));
     if (table_ == Table::Layout) return take_layout(fields);
     if (table_ == Table::Nodes) return add_node(fields);
     return table_ == Table::Blocks ? add_block(fields) : add_edge(fields);
@@ -312,6 +340,7 @@ class TableReader {
 
   TextLines lines_;
   std::string_view source_;
+  std::vector<std::string>& warnings_;
   Table table_ = Table::None;
   bool is_named_ = false, has_floor_ = false;
   std::map<std::string, std::size_t, std::less<>> columns_;
@@ -328,8 +357,8 @@ Layout read_csv_layout(const std::string& path, std::vector<std::string>& warnin
 
 Layout parse_csv_layout(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
                         TwinPaths twins) {
-  refuse_utf16(text, source);
-  Layout layout = TableReader(text, source).read();
+  require_utf8(text, source);
+  Layout layout = TableReader(text, source, warnings).read();
   settle_twins(layout, twins, source, warnings);
   return layout;
 }

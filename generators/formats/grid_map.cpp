@@ -148,7 +148,7 @@ Layout read_grid_map(const std::string& path, std::vector<std::string>& warnings
 
 Layout parse_grid_map(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
                       double pitch_m) {
-  refuse_utf16(text, source);
+  require_utf8(text, source);
   return MapReader(text, source, warnings, pitch_m).read();
 }
 

@@ -11,6 +11,10 @@
 namespace fleetproof {
 namespace {
 
+// Beyond these, a number is probably in another unit: AGVs are up to 10 m long, and drive up to 3 m/s; tyres brake with
+// the weight of the vehicle at most.
+constexpr double kLongest_m = 12.0, kQuickest_mps = 10.0, kHardest_mps2 = 15.0, kQuickest_radps = 10.0;
+
 std::string in_toml(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -59,6 +63,23 @@ std::string name_as_permitted(const ForeignVehicle& vehicle, const Layout& layou
     }
   }
   return alike.size() == 1 ? *alike.begin() : series;
+}
+
+std::vector<std::string> vehicle_questions(const VehicleType& type) {
+  std::vector<std::string> questions;
+  const auto ask = [&](std::string_view key, double value, double low, double high, std::string_view question) {
+    if (value > 0.0 && (value < low || value > high))
+      questions.push_back(fmt::format("{} is {:g}: is that in {}?", key, value, question));
+  };
+  const auto& body = type.footprint;
+  ask("length_m", body.length_m, 0.1, kLongest_m, "millimetres, centimetres or decimetres, and not in metres");
+  ask("width_m", body.width_m, 0.1, kLongest_m, "millimetres, centimetres or decimetres, and not in metres");
+  ask("speed_mps", type.drive.speed_mps, 0.0, kQuickest_mps, "km/h, m/min or mm/s, and not in m/s");
+  ask("reverse_speed_mps", type.reverse_speed_mps, 0.0, kQuickest_mps, "km/h, m/min or mm/s, and not in m/s");
+  ask("acceleration_mps2", type.drive.acceleration_mps2, 0.0, kHardest_mps2, "mm/s2, and not in m/s2");
+  ask("deceleration_mps2", type.drive.deceleration_mps2, 0.0, kHardest_mps2, "mm/s2, and not in m/s2");
+  ask("turn_speed_radps", type.turn.speed_radps, 0.0, kQuickest_radps, "degrees/s, and not in rad/s");
+  return questions;
 }
 
 std::string fleet_text(const std::vector<ForeignVehicle>& vehicles, std::string_view source) {

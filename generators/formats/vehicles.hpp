@@ -29,6 +29,10 @@ std::vector<ForeignVehicle> joined(const std::vector<ForeignVehicle>& vehicles);
 // series alone. If the manufacturer is not known, one type with such an end is meant; two may be others.
 std::string name_as_permitted(const ForeignVehicle& vehicle, const Layout& layout);
 
+// Questions about the units of a vehicle that is larger or faster than any that carries loads in a plant. Empty for
+// others.
+std::vector<std::string> vehicle_questions(const VehicleType& type);
+
 // As [[vehicle]] tables of a campaign file, with the fields that the file gave. `source`: the name of that file.
 std::string fleet_text(const std::vector<ForeignVehicle>& vehicles, std::string_view source);
 

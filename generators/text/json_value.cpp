@@ -170,7 +170,7 @@ const JsonValue* JsonValue::find(std::string_view key) const {
 
 JsonValue parse_json(std::string_view text, std::string_view source) {
   if (text.empty()) throw InputError(source, "is empty; expected a JSON object");
-  refuse_utf16(text, source);
+  require_utf8(text, source);
   const char* reached = text.data();
   TreeBuilder builder(text, source, &reached);
   nlohmann::json::sax_parse(CountingIterator(text.data(), &reached),

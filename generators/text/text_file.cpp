@@ -84,6 +84,34 @@ void sync_folder_of(const std::string& path) {
   if (opened.is_open()) (void)::fsync(opened.number());
 }
 
+struct Packing {
+  std::string_view beginning, sentence;
+};
+constexpr Packing kPackings[] = {
+    {"\x1f\x8b", "is packed with gzip; unpack it with gunzip, and name the file that comes out"},
+    {"PK\x03\x04", "is a ZIP archive, as spreadsheets (.xlsx) are, too; unpack it, or save the sheet as CSV"},
+    {"BZh", "is packed with bzip2; unpack it with bunzip2, and name the file that comes out"},
+    {"\xfd\x37zXZ", "is packed with xz; unpack it with unxz, and name the file that comes out"},
+    {"\x28\xb5\x2f\xfd", "is packed with zstd; unpack it with unzstd, and name the file that comes out"},
+};
+
+// How many bytes the character has that begins here; 0: none of UTF-8 does.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xc2 ? 0
+                             : first < 0xe0 ? 2
+                             : first < 0xf0 ? 3
+                             : first < 0xf5 ? 4
+                                            : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80U) return 0;
+  }
+  return length;
+}
+
 }  // namespace
 
 std::string_view what_else_stands_at(const std::string& path) {
@@ -132,12 +160,29 @@ std::string read_text_file(const std::string& path) {
   std::string text = read_beginning(path, kLargestFile + 1);
   if (text.size() > kLargestFile)
     throw InputError(path, "is larger than 64 MiB, which no layout or scenario is; check the file name");
+  for (const auto& [beginning, sentence] : kPackings) {
+    if (text.starts_with(beginning)) throw InputError(path, sentence);
+  }
   return text;
 }
 
-void refuse_utf16(std::string_view text, std::string_view source) {
+void require_utf8(std::string_view text, std::string_view source) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw InputError(source, "is in UTF-16; save it as UTF-8");
+  refuse_latin1(text, source);
+}
+
+void refuse_latin1(std::string_view text, std::string_view source) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text.substr(at));
+    if (length == 0)
+      throw InputError(
+          at_line(source, position_in(text, at).line),
+          fmt::format("the byte 0x{:02x} is none of UTF-8; if the file is in Latin-1 or Windows-1252, save it as UTF-8 "
+                      "(iconv -f WINDOWS-1252 -t UTF-8)",
+                      static_cast<unsigned char>(text[at])));
+    at += length;
+  }
 }
 
 void write_text_file(const std::string& path, std::string_view text, std::string_view remedy) {

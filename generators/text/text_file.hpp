@@ -13,13 +13,17 @@ namespace fleetproof {
 // for ever.
 std::string_view what_else_stands_at(const std::string& path);
 
-// The whole file. InputError if there is no such regular file, if it cannot be read, or if it is larger than 64 MiB.
+// The whole file. InputError if there is no such regular file, if it cannot be read, if it is packed (gzip, ZIP, ...),
+// or if it is larger than 64 MiB.
 std::string read_text_file(const std::string& path);
 // Its first bytes, `most` of them if it has so many. InputError as above, but of no size.
 std::string read_beginning(const std::string& path, std::size_t most);
 
-// Throws InputError if a text that has to be UTF-8 begins as UTF-16 does.
-void refuse_utf16(std::string_view text, std::string_view source);
+// Throws InputError if a text that has to be UTF-8 begins as UTF-16 does, or has a byte that is none of UTF-8, as texts
+// in Latin-1 have.
+void require_utf8(std::string_view text, std::string_view source);
+// The same of such a byte alone. `source` with the line of the byte is in the error.
+void refuse_latin1(std::string_view text, std::string_view source);
 
 // Writes `text` to `path`, whole or not at all. The text goes into a new file in the same folder and is brought to the
 // disk. Then the new file takes the name at one instant. A link stays, and the file behind it is replaced. InputError,

@@ -131,15 +131,21 @@ TEST(CsvLayoutErrors, NamePlaceValueAndRemedy) {
   EXPECT_EQ(break_at("id,x,y,purposes", "id,x,y,purpose"),
             "l.csv:2: \"purpose\" is not a column of nodes; did you mean \"purposes\"?");
   EXPECT_EQ(break_at("id,x,y,purposes", "x,y"),
-            "l.csv:2: expected a line with the names of the columns first: id,x,y,purposes");
+            "l.csv:2: the first line is \"x,y\"; expected the names of the columns first, as in \"id,x,y,purposes\" "
+            "(id, x and y are needed; missing here: \"id\")");
   EXPECT_EQ(
       break_at("id,x,y,purposes", "id;x;y;purposes"),
-      "l.csv:2: expected a line with the names of the columns first: id,x,y,purposes; the separator is a comma, no "
+      "l.csv:2: the first line is \"id;x;y;purposes\"; expected the names of the columns first, as in "
+      "\"id,x,y,purposes\" (id, x and y are needed; missing here: \"id\", \"x\", \"y\"); the separator is a comma, no "
       "semicolon and no tabulator");
   EXPECT_EQ(break_at("6.5 0 7 3", "6.5 0 7"), "l.csv:9: control_points are 3 numbers; expected x y x y ...");
   EXPECT_EQ(break_at("\"end, of it\",9,3", "\"end, of it,9,3"),
             "l.csv:5: a double quote is not closed; close it on the same line");
-  EXPECT_EQ(break_at("storage parking", std::string(96, ',')), "l.csv:3: the line has 100 fields, its table 4 columns");
+  EXPECT_EQ(break_at("storage parking", "a, b"),
+            "l.csv:3: the line \"dock,0,0,a, b\" has 5 fields, its table 4 columns (id,x,y,purposes); a field with a "
+            "comma stands in double quotes");
+  EXPECT_NE(break_at("storage parking", std::string(96, ',')).find("has 100 fields, its table 4 columns"),
+            std::string::npos);
   EXPECT_EQ(break_at("storage parking", std::string(97, ',') + "\""), "l.csv:3: the line has more than 100 fields");
   EXPECT_EQ(independent::refusal(import, ""),
             "l.csv: has no nodes; expected a line id,x,y,purposes and one line for each node");

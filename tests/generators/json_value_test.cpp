@@ -36,7 +36,7 @@ TEST(JsonValue, SyntaxErrorsNameLineAndColumn) {
   EXPECT_TRUE(refusal("{\n  \"a\": tru\n}").starts_with("f.json:2:11: not JSON: ")) << refusal("{\n  \"a\": tru\n}");
   EXPECT_TRUE(refusal("[1, 2").starts_with("f.json:1:6: not JSON: ")) << refusal("[1, 2");
   EXPECT_EQ(refusal(""), "f.json: is empty; expected a JSON object");
-  EXPECT_TRUE(refusal("\xff{").starts_with("f.json:1:1: not JSON: ")) << refusal("\xff{");
+  EXPECT_TRUE(refusal("\xff{").starts_with("f.json:1: the byte 0xff is none of UTF-8; ")) << refusal("\xff{");
   EXPECT_EQ(refusal("\xff\xfe{"), "f.json: is in UTF-16; save it as UTF-8");
   EXPECT_NE(refusal("[1e999]").find("f.json:1:"), std::string::npos) << refusal("[1e999]");
   EXPECT_NE(refusal("[NaN]").find("f.json:1:2: not JSON: "), std::string::npos) << refusal("[NaN]");
