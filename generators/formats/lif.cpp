@@ -28,9 +28,11 @@
 #include "generators/formats/lif_trajectories.hpp"
 #include "generators/formats/lif_travel.hpp"
 #include "generators/formats/lif_types.hpp"
+#include "generators/formats/opentcs_purposes.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/map/antiparallel.hpp"
 #include "generators/map/layout_check.hpp"
+#include "generators/map/plant_size.hpp"
 #include "generators/text/json_value.hpp"
 #include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
@@ -211,6 +213,8 @@ ChosenLayout choose_layout(const JsonReader& root, const std::string& wanted) {
   return found;
 }
 
+constexpr double kGuideTolerance = 0.02;  // share by which a stored length may be wrong
+
 constexpr Topic kElsewhere{"{0} edges lead to another layout and are left out ({1})"};
 constexpr Topic kForNobody{
     "no AGV may drive {0} edges ({1}), because no type of vehicle has a rule at them and at both of their nodes, "
@@ -220,6 +224,8 @@ constexpr Topic kTwoLimits{
 constexpr Topic kNodeElsewhere{"{0} nodes of stations are in another layout and are left out ({1})"};
 constexpr Topic kTakenForStorage{
     "no action says what {0} nodes are for, which belong to stations ({1}); they are taken to be for storage"};
+constexpr Topic kStationTypes{
+    "{0} types of stations say nothing that is known here ({1}); name what they are for (--purposes \"TYPE=storage\")"};
 constexpr Topic kWithoutTransfer{
     "no action says what {0} nodes are for, which belong to stations ({1}); they forbid to pick or drop, so AGVs only "
     "pass"};
@@ -252,9 +258,11 @@ class LifReader {
     note_left_out(JsonReader(root_, source_), layout, choice_.purposes, warnings_);
     note_types(layout);
     spots_.join(layout_, nodes_, warnings_);
+    shift_far_plant(layout_, source_, warnings_);
     fit_floor(layout_, kFloorMargin_m);
     refuse_problems(layout);
     note_headings(layout);
+    compare_guides(layout);
     reunite_ways_back();
     settle_twins(layout_, choice_.twins, source_, warnings_);
     return std::move(layout_);
@@ -380,6 +388,11 @@ class LifReader {
                              layout_.stations[to->index()].position_m, segment);
     limit_speed(types, segment);
     segment.width_m = corridor_width_m(types);
+    for (const auto& type : types) {
+      const auto guide = type.find("physicalLineGuidedProperty");
+      const auto length = guide ? guide->find("length") : std::nullopt;
+      if (length) told_.guides.push_back({layout_.segments.size(), length->number()});
+    }
     rules_.turns.add(edge, segment.from, segment.to, rules_.travel.add(types, straight_way(segment), segment));
     if (acts.has(Purpose::Storage) || acts.has(Purpose::Charging)) told_.act.push_back(segment.name);
     layout_.segments.push_back(std::move(segment));
@@ -418,8 +431,35 @@ class LifReader {
     told_.of_types += lowest < highest ? 1 : 0;
   }
 
+  // A line on the floor may bend where nothing is drawn.
+  void compare_guides(const JsonReader& layout) {
+    std::vector<std::string> names;
+    std::string example;
+    for (const auto& [segment, length_m] : told_.guides) {
+      const double drawn_m = segment_curve(layout_, layout_.segments[segment]).length_m();
+      if (std::abs(length_m - drawn_m) <= kGuideTolerance * drawn_m) continue;
+      if (names.empty()) example = fmt::format("{:.3f} m instead of {:.3f} m", length_m, drawn_m);
+      names.push_back(layout_.segments[segment].name);
+    }
+    if (!names.empty())
+      warn(layout, fmt::format("{} lines that guide AGVs have another length than is drawn, which counts ({}; the "
+                               "first with {}); does the line bend? Then draw it with a trajectory",
+                               names.size(), name_list(names), example));
+  }
+
+  // What the type of a station says. None: nothing that is known.
+  std::optional<Purposes> purposes_of_type(const JsonReader& station) {
+    const auto type = station.find("stationType");
+    if (!type) return std::nullopt;
+    const auto said = purpose_of({.name = type->text(), .operations = {}, .symbol = {}}, choice_.purposes);
+    if (said.source != nullptr) return said.purposes;
+    changed_.add(kStationTypes, type->place(), type->text());
+    return std::nullopt;
+  }
+
   void note_station(const JsonReader& station) {
     if (const auto id = station.find("stationId"); id && !id->text().empty()) name_in(*id, ids_.stations);
+    const auto by_type = purposes_of_type(station);
     for (const auto& id : station.at("interactionNodeIds").items()) {
       const auto node = station_in(id);
       if (!node) {
@@ -427,11 +467,15 @@ class LifReader {
         continue;
       }
       const auto index = node->index();
+      const bool forbids = forbid_transfers(rules_by_type(nodes_[index]));
+      if (by_type && !(forbids && by_type->has(Purpose::Storage))) {
+        add_purposes(index, *by_type);
+        continue;
+      }
       const bool is_known = purposes_.stated.contains(index) || purposes_.by_actions.contains(index);
       if (is_known || layout_.stations[index].purposes != Purposes(Purpose::Routing)) continue;
-      const bool may_transfer = !forbid_transfers(rules_by_type(nodes_[index]));
-      if (may_transfer) add_purposes(index, Purpose::Storage);
-      changed_.add(may_transfer ? kTakenForStorage : kWithoutTransfer, id.place(), id.text());
+      if (!forbids) add_purposes(index, Purpose::Storage);
+      changed_.add(forbids ? kWithoutTransfer : kTakenForStorage, id.place(), id.text());
     }
   }
 
@@ -488,9 +532,14 @@ class LifReader {
     LifTurns turns;
   } rules_;
   LifSpots spots_;
+  struct Guide {
+    std::size_t segment = 0;
+    double length_m = 0.0;  // as the file gives it
+  };
   struct {
     std::size_t of_types = 0;            // edges
     std::vector<std::string> torn, act;  // names of nodes, and of edges
+    std::vector<Guide> guides;
   } told_;
 };
 

@@ -1,6 +1,7 @@
 #include "generators/formats/lif_left_out.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 
 #include "generators/formats/left_out.hpp"
@@ -23,7 +24,10 @@ constexpr Topic kCorridors{
 constexpr Topic kDrawn{
     "{0} edges have corridors ({1}); leaving the lane is not modelled: an AGV stays on it, and the floor is drawn as "
     "wide, at most 100 m"};
-constexpr Topic kGuides{"{0} edges are lines on the floor that guide AGVs ({1}); here this changes nothing"};
+constexpr Topic kGuides{
+    "{0} edges are lines on the floor that guide AGVs ({1}); here AGVs drive them as drawn, and need no direction at "
+    "junctions"};
+constexpr Topic kMaps{"nodes lie on {0} maps ({1}); here all of them lie on one floor"};
 constexpr Topic kPlaces{"{0} stations stand beside the nodes ({1}); here an AGV serves them at their nodes"};
 constexpr Topic kForbidden{"{0} nodes and edges forbid types of actions ({1}); here AGVs pick, drop and charge alone"};
 constexpr Topic kOtherVersion{"the file says that it is LIF {1}; it is read as LIF 2.0"};
@@ -51,7 +55,7 @@ constexpr LifRule kLifRules[] = {
     {"nodes/nodeName", &kNotes, Named::ByKey},
     {"nodes/nodeDescription", &kNotes, Named::ByKey},
     {"nodes/nodeDescriptor", &kNotes, Named::ByKey},
-    {"nodes/mapId", &kNotes, Named::ByKey},
+    {"nodes/mapId"},
     {"nodes/nodePosition"},
     {"nodes/nodePosition/x"},
     {"nodes/nodePosition/y"},
@@ -116,6 +120,9 @@ constexpr LifRule kLifRules[] = {
     {"edges/types/trajectory/controlPoints/y"},
     {"edges/types/trajectory/controlPoints/weight"},
     {"edges/types/reentryAllowed", &kReentry, Named::ByOwner, "true"},
+    {"edges/types/allowedDeviationXY", &kCorridors},
+    {"edges/types/allowedDeviationTheta", &kCorridors},
+    {"edges/types/maximumAllowedDeviation", &kCorridors},
     {"edges/types/corridor", &kDrawn},
     {"edges/types/physicalLineGuidedProperty", &kGuides},
     {"stations"},
@@ -124,7 +131,7 @@ constexpr LifRule kLifRules[] = {
     {"stations/stationName", &kNotes, Named::ByKey},
     {"stations/stationDescription", &kNotes, Named::ByKey},
     {"stations/stationDescriptor", &kNotes, Named::ByKey},
-    {"stations/stationType", &kNotes, Named::ByKey},
+    {"stations/stationType"},
     {"stations/stationHeight", &kLifts},
     {"stations/stationPosition", &kPlaces},
 };
@@ -139,7 +146,7 @@ std::string spelled(std::string_view key) {
   return std::string(key);
 }
 
-std::string text_of(const JsonValue& value) {
+std::string scalar_text(const JsonValue& value) {
   if (const auto* text = std::get_if<std::string>(&value.scalar)) return *text;
   if (const auto* truth = std::get_if<bool>(&value.scalar)) return *truth ? "true" : "false";
   if (const auto* number = std::get_if<double>(&value.scalar)) return *number == 0.0 ? "0" : "number";
@@ -174,7 +181,7 @@ class LifWalk {
   }
 
   void left_out(const LifRule& rule, const JsonReader& value, const std::string& key, const std::string& owner) {
-    const auto text = text_of(value.value());
+    const auto text = scalar_text(value.value());
     if (!rule.says_nothing.empty() && text == rule.says_nothing) return;
     // The importer reads what it wrote itself.
     if (rule.path == "nodes/nodeDescription" && text.starts_with(kPurposesMark)) return;
@@ -197,6 +204,16 @@ class LifWalk {
   LeftOutThings& things_;
   const PurposeWords& own_;
 };
+
+// The name of one map says nothing more than the layout.
+void note_maps(const JsonReader& layout, LeftOutThings& things) {
+  std::map<std::string, std::string> places;  // of maps
+  for (const auto& node : layout.at("nodes").items()) {
+    if (const auto map = node.find("mapId"); map && map->is_text()) places.emplace(map->text(), map->place());
+  }
+  for (const auto& [map, place] : places)
+    things.add(places.size() > 1 ? kMaps : kNotes, place, places.size() > 1 ? map : "mapId");
+}
 
 void note_version(const JsonReader& root, LeftOutThings& things) {
   const auto meta = root.find("metaInformation");
@@ -227,6 +244,7 @@ void note_left_out(const JsonReader& root, const JsonReader& layout, const Purpo
   if (const auto origins = root.find("origins")) {
     for (const auto& origin : origins->items()) note_origin(origin, things);
   }
+  note_maps(layout, things);
   LifWalk(things, own).members(layout, "", "");
   things.tell(warnings);
 }
