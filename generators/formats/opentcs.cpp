@@ -12,6 +12,7 @@
 
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/letter_case.hpp"
 #include "core/base/tolerances.hpp"
 #include "core/geometry/rotation.hpp"
 #include "generators/formats/heading.hpp"
@@ -22,6 +23,7 @@
 #include "generators/formats/opentcs_shapes.hpp"
 #include "generators/formats/opentcs_speeds.hpp"
 #include "generators/map/layout_check.hpp"
+#include "generators/map/plant_size.hpp"
 #include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/text/xml_text.hpp"
@@ -73,12 +75,13 @@ class ModelReader {
     note_operations(model);
     for (const auto block : model.children("block")) add_block(block);
     changed_.tell(warnings_);
+    shift_far_plant(layout_, source_, warnings_);
     fit_floor(layout_, kFloorMargin_m);
     refuse_problems(model);
     compare_lengths(model);
     for (const auto& sentence : speeds_.sentences(layout_)) warn(model, sentence);
     note_headings(model);
-    note_left_out(xml_, model, warnings_);
+    note_left_out(xml_, model, choice_.takes_vehicles, warnings_);
     settle_twins(layout_, choice_.twins, source_, warnings_);
     return std::move(layout_);
   }
@@ -152,7 +155,7 @@ class ModelReader {
   // In degrees, counterclockwise from the x axis; NaN: none.
   std::optional<Vec2> heading_of(const pugi::xml_node& point) const {
     const std::string_view angle = point.attribute("vehicleOrientationAngle").as_string("NaN");
-    if (angle == "NaN") return std::nullopt;
+    if (same_letters(angle, "NaN") || angle.find_first_not_of(" \t\r\n") == std::string_view::npos) return std::nullopt;
     double angle_deg = 0.0;
     if (!read_number(angle, angle_deg) || !(std::abs(angle_deg) <= kLargestAngle_deg))
       xml_.refuse(point, fmt::format("vehicleOrientationAngle is {}; expected degrees or NaN", in_quotes(angle)));
@@ -201,7 +204,7 @@ class ModelReader {
   }
 
   void note_shapes(const pugi::xml_node& model) {
-    const auto moved = settle_positions(layout_, drawing_.points_m);
+    const auto moved = settle_positions(layout_, drawing_.points_m, choice_.positions);
     shapes_.redraw(layout_);
     auto sentences = shapes_.sentences(layout_);
     sentences.insert(sentences.end(), {moved, detours_of(layout_)});

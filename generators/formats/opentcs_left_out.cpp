@@ -19,8 +19,8 @@ constexpr Topic kDevices{
     "{0} elements operate doors, lifts or other devices ({1}); these are not modelled: an AGV drives on without them"};
 constexpr Topic kMembers{"{0} members of blocks are no paths ({1}); here a block holds paths alone"};
 constexpr Topic kVehicles{
-    "{0} vehicles and types of vehicles are left out ({1}); a campaign has its own fleet, which import --vehicles "
-    "writes from them"};
+    "{0} vehicles are left out ({1}); a campaign has its own fleet, which import --vehicles writes from them"};
+constexpr Topic kVehicleTypes{"{0} elements describe types of vehicles ({1}); they are left out"};
 constexpr Topic kByType{"{0} paths have rules for types of vehicles ({1}); they are left out"};
 constexpr Topic kRoutes{"{0} static routes are left out ({1})"};
 constexpr Topic kGroups{"{0} groups are left out ({1})"};
@@ -87,7 +87,7 @@ constexpr OpentcsRule kOpentcsRules[] = {
     {"path/pathLayout/controlPoint", "x"},
     {"path/pathLayout/controlPoint", "y"},
     {"vehicle", "*", &kVehicles},
-    {"vehicleType", "*", &kVehicles},
+    {"vehicleType", "*", &kVehicleTypes},
     {"locationType", "name"},
     {"locationType", "id", &kElementIds},
     {"locationType", "locationNamePrefix", &kEditor},
@@ -151,7 +151,8 @@ bool is_read(std::string_view element) {
 
 class LeftOut {
  public:
-  LeftOut(const XmlText& xml, const pugi::xml_node& model) : xml_(xml), model_(model) {
+  LeftOut(const XmlText& xml, const pugi::xml_node& model, bool takes_vehicles)
+      : xml_(xml), model_(model), takes_vehicles_(takes_vehicles) {
     for (const auto child : model.children()) names_.insert(child.attribute("name").value());
     for (const auto path : model.children("path")) {
       starts_.emplace(path.attribute("sourcePoint").value(), path.attribute("name").value());
@@ -187,6 +188,7 @@ class LeftOut {
 
   void left_out(const OpentcsRule& rule, const pugi::xml_node& node, const std::string& owner) {
     const std::string key = node.attribute("name").value();
+    if (takes_vehicles_ && rule.element == "vehicle") return;
     if (rule.topic != &kProperties) return add(*rule.topic, node, owner.empty() ? node.name() : owner);
     if (std::ranges::find(kReadProperties, key) == std::end(kReadProperties)) add(kProperties, node, key);
   }
@@ -222,6 +224,7 @@ class LeftOut {
 
   const XmlText& xml_;
   const pugi::xml_node model_;
+  const bool takes_vehicles_;
   std::set<std::string> names_, paths_;
   std::set<std::pair<std::string, std::string>> starts_;  // point and path that starts there
   LeftOutThings things_;
@@ -229,8 +232,9 @@ class LeftOut {
 
 }  // namespace
 
-void note_left_out(const XmlText& xml, const pugi::xml_node& model, std::vector<std::string>& warnings) {
-  LeftOut(xml, model).tell(warnings);
+void note_left_out(const XmlText& xml, const pugi::xml_node& model, bool takes_vehicles,
+                   std::vector<std::string>& warnings) {
+  LeftOut(xml, model, takes_vehicles).tell(warnings);
 }
 
 }  // namespace fleetproof

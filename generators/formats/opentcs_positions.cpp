@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/outside_text.hpp"
 #include "core/base/tolerances.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/text/name_list.hpp"
@@ -20,7 +21,7 @@ constexpr double kDetour = 4.0;
 
 struct CurveExtent {
   double curves_m = 0.0;
-  bool has_spots = false;  // a segment without length
+  const Segment* spot = nullptr;  // the first segment without length
 };
 
 CurveExtent extent_of(const Layout& layout) {
@@ -29,7 +30,7 @@ CurveExtent extent_of(const Layout& layout) {
     const Vec2 chord_m =
         layout.stations[segment.to.index()].position_m - layout.stations[segment.from.index()].position_m;
     if (segment.control_points_m.empty()) {
-      extent.has_spots |= chord_m.norm() < kShortestSegment_m;
+      if (extent.spot == nullptr && chord_m.norm() < kShortestSegment_m) extent.spot = &segment;
     } else {
       extent.curves_m += segment_curve(layout, segment).length_m();
     }
@@ -50,7 +51,7 @@ bool has_curves(const Layout& layout) {
 
 }  // namespace
 
-std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& drawn_m) {
+std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& drawn_m, Positions wish) {
   if (!is_sound(layout)) return "";
   Layout drawing = layout;
   std::set<std::ptrdiff_t> on_a_path;
@@ -75,6 +76,12 @@ std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& 
       fmt::format("{} of {} points stand elsewhere in the drawing than in the plant, by up to {:.2f} m; {}", elsewhere,
                   layout.stations.size(), farthest_m,
                   apart == 0 ? "" : fmt::format("{} points on no path are not drawn and keep the plant's; ", apart));
+  const std::string undrawn_text = undrawn == 0 ? "" : fmt::format("{} points are not drawn; ", undrawn);
+  if (wish == Positions::Plant) return begin + "all have their positions of the plant, as was asked for";
+  if (wish == Positions::Drawing) {
+    layout.stations = std::move(drawing.stations);
+    return begin + undrawn_text + "all that are drawn have their positions of the drawing, as was asked for";
+  }
   if (undrawn > 0)
     return begin + fmt::format("{} points are not drawn, so all have their positions of the plant{}", undrawn,
                                has_curves(layout)
@@ -84,10 +91,16 @@ std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& 
   if (!is_sound(drawing)) return begin + "the drawing is too large, so all have their positions of the plant";
   const CurveExtent plant = extent_of(layout), drawn = extent_of(drawing);
   if (!has_curves(layout)) {
-    if (!plant.has_spots || drawn.has_spots)
+    if (plant.spot == nullptr || drawn.spot != nullptr)
       return begin + "no path is curved, so all have their positions of the plant";
+    const auto name = [&](StationId end) { return in_quotes(layout.stations[end.index()].name); };
+    const auto reason = fmt::format(
+        "in the plant, the points {} and {} of path {} are on one spot, so all have their positions of the "
+        "drawing; correct these two, or ask for positions of the plant (import --positions plant, "
+        "positions = \"plant\" in a campaign)",
+        name(plant.spot->from), name(plant.spot->to), in_quotes(plant.spot->name));
     layout.stations = std::move(drawing.stations);
-    return begin + "in the plant, two points of a path are on one spot, so all have their positions of the drawing";
+    return begin + reason;
   }
   const bool keep = drawn.curves_m > kMuchLonger * plant.curves_m;
   if (!keep) layout.stations = std::move(drawing.stations);

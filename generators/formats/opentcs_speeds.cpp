@@ -19,7 +19,7 @@ constexpr double kLongDrive_s = 600.0;  // an AGV that drives along one path for
 
 std::optional<double> velocity_mps(const XmlText& xml, const pugi::xml_node& path, const char* name) {
   const auto velocity = path.attribute(name);
-  if (!velocity) return std::nullopt;
+  if (!xml.has(path, name)) return std::nullopt;
   double velocity_mmps = 0.0;
   if (!read_number(velocity.value(), velocity_mmps) || !(velocity_mmps >= 0.0))
     xml.refuse(path, fmt::format("{} is {}; expected a whole number of mm/s, or 0", name, in_quotes(velocity.value())));

@@ -27,7 +27,7 @@ constexpr Topic kBeside{
     "{0} vehicles have their reference point beside their middle line ({1}); here it is on the line"};
 constexpr Topic kNoReverse{"{0} vehicles cannot drive backward ({1}); here an AGV may where a segment allows it"};
 constexpr Topic kEnvelopeKeys{"{0} vehicles have an envelope key ({1}); it is left out, because the body is followed"};
-constexpr Topic kOtherVehicleDetails{"{0} kinds of details of vehicles are left out ({1})"};
+constexpr Topic kOtherVehicleDetails{"{0} kinds of vehicle details are left out ({1})"};
 
 constexpr std::string_view kVehicleKeysRead[] = {"name", "length", "maxVelocity", "maxReverseVelocity", "envelopeKey"};
 

@@ -116,7 +116,7 @@ void XmlText::refuse(const pugi::xml_node& node, std::string_view sentence) cons
 }
 
 bool XmlText::has(const pugi::xml_node& node, const char* attribute) const {
-  return !node.attribute(attribute).empty();
+  return *node.attribute(attribute).value() != '\0';
 }
 
 std::string XmlText::text(const pugi::xml_node& node, const char* attribute) const {
@@ -134,7 +134,7 @@ double XmlText::number(const pugi::xml_node& node, const char* attribute) const 
 }
 
 bool XmlText::truth(const pugi::xml_node& node, const char* attribute) const {
-  const std::string_view word = node.attribute(attribute).as_string("false");
+  const std::string_view word = has(node, attribute) ? node.attribute(attribute).value() : "false";
   if (word != "true" && word != "1" && word != "false" && word != "0")
     refuse(node, fmt::format("{} of <{}> is {}; expected true or false", attribute, node.name(), in_quotes(word)));
   return word == "true" || word == "1";

@@ -23,6 +23,7 @@ class XmlText {
   std::string place(const pugi::xml_node& node) const;  // "file:line"
   [[noreturn]] void refuse(const pugi::xml_node& node, std::string_view sentence) const;
 
+  // An attribute without a text is none.
   bool has(const pugi::xml_node& node, const char* attribute) const;
   // Throws InputError if the attribute is missing or, for a number, not finite.
   std::string text(const pugi::xml_node& node, const char* attribute) const;

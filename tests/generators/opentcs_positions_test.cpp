@@ -93,9 +93,11 @@ struct Import {
   Layout layout;
   std::string sentences;  // those on positions and detours
 
-  explicit Import(const std::string& text) {
+  explicit Import(const std::string& text, Positions wish = Positions::ByFile) {
     std::vector<std::string> warnings;
-    layout = parse_opentcs(text, "m.xml", warnings);
+    ReadChoice choice;
+    choice.positions = wish;
+    layout = parse_opentcs(text, "m.xml", warnings, choice);
     for (const auto& warning : warnings) {
       if (warning.find("drawing") != std::string::npos) sentences += warning + "\n";
     }
@@ -167,8 +169,25 @@ TEST(OpenTcsPositions, StraightModelsKeepThePlant) {
   for (const auto& text : spellings(m)) {
     const Import import(text);
     EXPECT_NEAR(import.length_m(0), 10.0, 1e-9);
-    EXPECT_NE(import.sentences.find("two points of a path are on one spot, so all have"), std::string::npos);
+    EXPECT_NE(import.sentences.find("in the plant, the points \"a\" and \"b\" of path \"road\" are on one spot, so all "
+                                    "have their positions of the drawing; correct these two, or ask for"),
+              std::string::npos)
+        << import.sentences;
   }
+}
+
+TEST(OpenTcsPositions, TheUserChooses) {
+  for (const auto& text : spellings(shifted(25'000, -15'000, 0.9))) {
+    const Import plant(text, Positions::Plant), drawing(text, Positions::Drawing);
+    EXPECT_EQ(plant.layout.stations[0].position_m, Vec2(25.0, -15.0));
+    EXPECT_NE(plant.sentences.find("all have their positions of the plant, as was asked for"), std::string::npos);
+    EXPECT_EQ(drawing.layout.stations[0].position_m, Vec2(0.0, 0.0));
+    EXPECT_NE(drawing.sentences.find("their positions of the drawing, as was asked for"), std::string::npos);
+  }
+  auto straight = shifted(500, 700, 1.1);
+  straight.bends = false;
+  EXPECT_NEAR(Import(newer_spelling(straight, true), Positions::Drawing).length_m(0), 10.0, 1e-9);
+  EXPECT_EQ(Import(newer_spelling(Model{}, true), Positions::Drawing).sentences, "") << "there is no choice";
 }
 
 TEST(OpenTcsPositions, APointThatIsNotDrawnKeepsAllInThePlant) {

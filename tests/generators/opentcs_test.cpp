@@ -226,6 +226,23 @@ TEST(OpenTcs, NamesVelocitiesThatAreNoLimitOrTakeVeryLong) {
   EXPECT_EQ(told("maxReverseVelocity=\"1\""), slow) << "forward without a limit";
 }
 
+TEST(OpenTcs, AnAttributeWithoutATextIsNone) {
+  const auto read = [](const std::string& of_point, const std::string& of_path) {
+    std::vector<std::string> warnings;
+    return parse_opentcs(fmt::format(R"(<model version="6.0.0" name="m"><point name="a" positionX="0" positionY="0"/>
+<point name="b" positionX="4000" positionY="0" type="PARK_POSITION" {}/>
+<path name="ab" sourcePoint="a" destinationPoint="b" {}/></model>)",
+                                     of_point, of_path),
+                         "m.xml", warnings);
+  };
+  for (const std::string angle : {"", " ", "NaN", "nan"})
+    EXPECT_FALSE(read("vehicleOrientationAngle=\"" + angle + "\"", "").stations[1].heading) << angle;
+  EXPECT_EQ(read("vehicleOrientationAngle=\"0\"", "").stations[1].heading, Vec2(1.0, 0.0));
+  EXPECT_EQ(read("", R"(maxVelocity="")").segments[0].speed_limit_mps, 0.0);
+  EXPECT_FALSE(read("", R"(maxVelocity="500" maxReverseVelocity="")").segments[0].bidirectional);
+  EXPECT_EQ(read("", R"(locked="")").segments.size(), 1U);
+}
+
 TEST(OpenTcs, NamesThePathsWithoutAVelocity) {
   const auto told = [](const std::string& there, const std::string& back) {
     std::vector<std::string> warnings;
