@@ -24,8 +24,10 @@
 #include "generators/formats/rmf_words.hpp"
 #include "generators/map/antiparallel.hpp"
 #include "generators/map/layout_check.hpp"
+#include "generators/map/plant_size.hpp"
 #include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
+#include "generators/text/text_lines.hpp"
 #include "generators/text/yaml_text.hpp"
 
 namespace fleetproof {
@@ -67,11 +69,25 @@ std::vector<std::size_t> JoinedVertices::members_of(std::size_t first) const {
   return found == members_.end() ? std::vector{first} : found->second;
 }
 
-struct RmfScale {
+// How a level lies on the floor: a pixel (with the y axis up) is turned, scaled and shifted.
+struct RmfFrame {
   double m_per_pixel = 1.0;
+  Vec2 heading = Vec2(1.0, 0.0);  // of the x axis of the level
+  Vec2 shift_m = Vec2::Zero();
   bool by_fiducials = false;
-  std::string sentence{};  // if something else decides than the measurements of the level
+  std::vector<std::string> sentences{};  // if something else decides than measurements that agree
+
+  Vec2 on_the_floor_m(const Vec2& pixel) const { return turned(pixel) * m_per_pixel + shift_m; }
+  Vec2 turned(const Vec2& pixel) const {
+    return {heading.x() * pixel.x() - heading.y() * pixel.y(), heading.y() * pixel.x() + heading.x() * pixel.y()};
+  }
 };
+
+constexpr double kAgree = 0.02;       // measurements may differ by this share without a word
+constexpr double kNoHeading = 1e-12;  // below this, fiducials say nothing of a turn, or there is none
+
+// The y axis of an image points down. 0.0 - y, because -y would turn 0 into -0.
+Vec2 upright(const Vec2& pixel) { return {pixel.x(), 0.0 - pixel.y()}; }
 
 Vec2 pixel_of(const YamlText& yaml, const YAML::Node& list, const std::string& what) {
   return {yaml.number(yaml.item(list, 0, what), "x of " + what), yaml.number(yaml.item(list, 1, what), "y of " + what)};
@@ -100,17 +116,32 @@ double scale_of_measurement(const YamlText& yaml, const YAML::Node& vertices, co
   return metres / pixels;
 }
 
-// The mean of the measurements of a level; none: it has none.
-std::optional<double> measured_scale(const YamlText& yaml, const YAML::Node& level) {
+// The mean of the measurements of a level; none: it has none. `sentences` receives one if they disagree.
+std::optional<double> measured_scale(const YamlText& yaml, const YAML::Node& level,
+                                     std::vector<std::string>& sentences) {
   const auto measurements = level["measurements"];
   if (!measurements.IsDefined() || !measurements.IsSequence() || measurements.size() == 0) return std::nullopt;
   const auto vertices = yaml.list(level, "vertices", "the level");
+  std::vector<double> scales;
   double sum = 0.0;
-  for (const auto measurement : measurements) sum += scale_of_measurement(yaml, vertices, measurement);
-  return sum / static_cast<double>(measurements.size());
+  for (const auto measurement : measurements) {
+    scales.push_back(scale_of_measurement(yaml, vertices, measurement));
+    sum += scales.back();
+  }
+  const double mean = sum / static_cast<double>(scales.size());
+  const auto [low, high] = std::ranges::minmax_element(scales);
+  if (*high - *low > kAgree * mean) {
+    const auto line = [&](auto scale) {
+      return yaml.place(measurements[static_cast<std::size_t>(scale - scales.begin())]);
+    };
+    sentences.push_back(fmt::format(
+        "{} measurements disagree by {:.1f} %: a pixel has {:.5g} m ({}) to {:.5g} m ({}); their mean counts, {:.5g} m",
+        scales.size(), (*high - *low) / mean * 100.0, *low, line(low), *high, line(high), mean));
+  }
+  return mean;
 }
 
-// Of the fiducials [X, Y, NAME] that two levels have: where each is on one and on the other.
+// Of the fiducials [X, Y, NAME] that two levels have: where each is on one and on the other, with the y axis up.
 std::vector<std::pair<Vec2, Vec2>> shared_fiducials(const YamlText& yaml, const YAML::Node& reference,
                                                     const YAML::Node& level) {
   std::vector<std::pair<Vec2, Vec2>> shared;
@@ -120,21 +151,24 @@ std::vector<std::pair<Vec2, Vec2>> shared_fiducials(const YamlText& yaml, const 
     const auto name = yaml.item(fiducial, 2, "a fiducial");
     return name.IsScalar() ? name.Scalar() : "";
   };
+  const auto place_of = [&](const YAML::Node& fiducial) { return upright(pixel_of(yaml, fiducial, "a fiducial")); };
   std::multimap<std::string, Vec2> named;
   for (const auto a : there) {
-    if (!name_of(a).empty()) named.emplace(name_of(a), pixel_of(yaml, a, "a fiducial"));
+    if (!name_of(a).empty()) named.emplace(name_of(a), place_of(a));
   }
   for (const auto b : here) {
     const auto [begin, end] = named.equal_range(name_of(b));
-    for (auto a = begin; a != end; ++a) shared.emplace_back(a->second, pixel_of(yaml, b, "a fiducial"));
+    for (auto a = begin; a != end; ++a) shared.emplace_back(a->second, place_of(b));
   }
   return shared;
 }
 
-// Pixels of the level for one of the reference level: the mean over all pairs of fiducials.
-std::optional<double> relative_scale(const YamlText& yaml, const YAML::Node& reference, const YAML::Node& level) {
+// How the pixels of a level lie on those of the reference level: the means over all pairs of fiducials.
+std::optional<RmfFrame> relative_frame(const YamlText& yaml, const YAML::Node& reference, const YAML::Node& level,
+                                       double reference_m_per_pixel) {
   const auto shared = shared_fiducials(yaml, reference, level);
   double sum = 0.0;
+  Vec2 heading = Vec2::Zero();
   std::size_t pairs = 0;
   for (std::size_t a = 0; a < shared.size(); ++a) {
     for (std::size_t b = a + 1; b < shared.size(); ++b, ++pairs) {
@@ -145,9 +179,21 @@ std::optional<double> relative_scale(const YamlText& yaml, const YAML::Node& ref
           yaml.refuse(of["fiducials"], "two fiducials are on one spot, and give no scale; correct them");
       }
       sum += here / there;
+      const Vec2 is = (shared[b].second - shared[a].second) / here, seen = (shared[b].first - shared[a].first) / there;
+      heading += Vec2(is.dot(seen), cross(is, seen));
     }
   }
-  return pairs == 0 ? std::nullopt : std::optional(sum / static_cast<double>(pairs));
+  if (pairs == 0) return std::nullopt;
+  RmfFrame frame;
+  frame.by_fiducials = true;
+  frame.m_per_pixel = reference_m_per_pixel / (sum / static_cast<double>(pairs));
+  if (heading.norm() > kNoHeading) frame.heading = heading.normalized();
+  if (std::abs(frame.heading.y()) < kNoHeading && frame.heading.x() > 0.0) frame.heading = Vec2(1.0, 0.0);
+  Vec2 shift_m = Vec2::Zero();
+  for (const auto& [there, here] : shared)
+    shift_m += there * reference_m_per_pixel - frame.turned(here) * frame.m_per_pixel;
+  frame.shift_m = shift_m / static_cast<double>(shared.size());
+  return frame;
 }
 
 std::string reference_of(const YamlText& yaml, const YAML::Node& root) {
@@ -159,30 +205,64 @@ std::string reference_of(const YamlText& yaml, const YAML::Node& root) {
   return named.Scalar();
 }
 
-// The scale of a level that is drawn on an image, as Open-RMF computes it. The measurements of the reference level
-// decide (reference_level_name, or the first level), and for another level the distances of the fiducials that both
-// have. A level that shares less than two fiducials has its own measurements here. Throws InputError at a measurement
-// or fiducial that gives no scale.
-RmfScale scale_of_level(const YamlText& yaml, const YAML::Node& root, const std::string& level_name) {
+// How a level that is drawn on an image lies on the floor, as Open-RMF computes it. The measurements of the reference
+// level decide (reference_level_name, or the first level), and for another level the fiducials that both have: they
+// scale, turn and shift it. A level that shares less than two fiducials has its own measurements here. Throws
+// InputError at a measurement or fiducial that gives no scale.
+RmfFrame frame_of_level(const YamlText& yaml, const YAML::Node& root, const std::string& level_name) {
   const auto level = level_of(root, level_name);
-  const auto own = measured_scale(yaml, level);
+  std::vector<std::string> sentences;
+  const auto own = measured_scale(yaml, level, sentences);
   const std::string unmeasured = "there are no measurements; a pixel is taken as 1 m";
   const auto reference_name = reference_of(yaml, root);
-  if (reference_name == level_name) return {own.value_or(1.0), false, own ? "" : unmeasured};
+  const auto by_own = [&](const std::string& sentence) {
+    RmfFrame frame;
+    frame.m_per_pixel = own.value_or(1.0);
+    frame.sentences = std::move(sentences);
+    if (!sentence.empty()) frame.sentences.push_back(sentence);
+    return frame;
+  };
+  if (reference_name == level_name) return by_own(own ? "" : unmeasured);
   const auto reference = level_of(root, reference_name);
-  const auto relative = relative_scale(yaml, reference, level);
-  if (!relative)
-    return {own.value_or(1.0), false,
-            own ? fmt::format("the level shares no two fiducials with reference level {}; its measurements count",
-                              in_quotes(reference_name))
-                : unmeasured};
-  const auto measured = measured_scale(yaml, reference);
-  const double scale = measured.value_or(1.0) / *relative;
-  return {scale, true,
-          fmt::format("by the fiducials that the level shares with reference level {}, a pixel has {:.5g} m{}{}",
-                      in_quotes(reference_name), scale,
-                      measured ? "" : " (there are no measurements on that level; a pixel of it is taken as 1 m)",
-                      own ? fmt::format("; by its measurements, which do not count, {:.5g} m", *own) : "")};
+  std::vector<std::string> of_reference;
+  const auto measured = measured_scale(yaml, reference, of_reference);
+  auto frame = relative_frame(yaml, reference, level, measured.value_or(1.0));
+  if (!frame)
+    return by_own(own ? fmt::format("the level shares no two fiducials with reference level {}; its measurements count",
+                                    in_quotes(reference_name))
+                      : unmeasured);
+  frame->sentences = std::move(of_reference);
+  frame->sentences.push_back(
+      fmt::format("by the fiducials that the level shares with reference level {}, a pixel has {:.5g} m{}{}; they "
+                  "shift the level by "
+                  "({:.3f}, {:.3f}) m{}",
+                  in_quotes(reference_name), frame->m_per_pixel,
+                  measured ? "" : " (there are no measurements on that level; a pixel of it is taken as 1 m)",
+                  own ? fmt::format("; by its measurements, which do not count, {:.5g} m", *own) : "",
+                  frame->shift_m.x(), frame->shift_m.y(),
+                  frame->heading.y() == 0.0 && frame->heading.x() > 0.0
+                      ? ""
+                      : fmt::format(", and turn it: its x axis then points to ({:.4f}, {:.4f})", frame->heading.x(),
+                                    frame->heading.y())));
+  return *frame;
+}
+
+// The line at which a second document of the file begins; 0: it has one. Its parser reads the first.
+std::size_t second_document(std::string_view text) {
+  TextLines lines(text);
+  bool has_first = false;
+  std::size_t marker = 0;
+  while (const auto line = lines.next()) {
+    const bool marks = line->starts_with("---") && (line->size() == 3 || line->substr(3).starts_with(' '));
+    if (marks && has_first && marker == 0) marker = lines.number();
+    const auto rest = marks ? line->substr(3) : *line;
+    const auto first = rest.find_first_not_of(" \t");
+    const bool says =
+        first != std::string_view::npos && rest[first] != '#' && !rest.starts_with("...") && !rest.starts_with('%');
+    if (says && marker > 0) return marker;
+    has_first = has_first || says;
+  }
+  return 0;
 }
 
 constexpr std::size_t kLevelsListed = 50;  // levels in a sentence
@@ -191,7 +271,10 @@ class LevelReader {
  public:
   LevelReader(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
               const RmfChoice& choice)
-      : yaml_(source), warnings_(warnings), choice_(choice), root_(YAML::Load(std::string(text))) {}
+      : yaml_(source), warnings_(warnings), choice_(choice), root_(YAML::Load(std::string(text))) {
+    if (const std::size_t line = second_document(text); line > 0)
+      warnings.push_back(at_line(source, line) + ": a second document of this file begins; the first alone is read");
+  }
 
   Layout read() {
     if (!root_.IsMap() || !root_["levels"].IsDefined())
@@ -229,6 +312,7 @@ class LevelReader {
                               name_list(told_.in_lifts)));
     if (told_.other_graphs > 0) warn(lanes, fmt::format("{} lanes of other graphs are left out", told_.other_graphs));
     note_left_out(yaml_, root_, level, read_, warnings_);
+    shift_far_plant(layout_, yaml_.source(), warnings_);
     fit_floor(layout_, kFloorMargin_m);
     refuse_problems(level);
     settle_twins(layout_, choice_.twins, yaml_.source(), warnings_);
@@ -324,10 +408,9 @@ class LevelReader {
       yaml_.refuse(system, fmt::format("coordinate_system is {}; here it is reference_image or cartesian_meters",
                                        in_quotes(name)));
     down_ = true;
-    const auto scale = scale_of_level(yaml_, root_, read_.name);
-    scale_m_ = scale.m_per_pixel;
-    read_.by_fiducials = scale.by_fiducials;
-    if (!scale.sentence.empty()) warn(level, scale.sentence);
+    frame_ = frame_of_level(yaml_, root_, read_.name);
+    read_.by_fiducials = frame_.by_fiducials;
+    for (const auto& sentence : frame_.sentences) warn(level, sentence);
   }
 
   Vec2 raw_position(std::size_t vertex) const {
@@ -360,8 +443,7 @@ class LevelReader {
       warn(node, fmt::format("a second vertex is named {}; it becomes {}", in_quotes(station.name), in_quotes(other)));
       station.name = std::move(other);
     }
-    const Vec2 position = raw_position(vertex) * scale_m_;
-    station.position_m = {position.x(), down_ ? 0.0 - position.y() : position.y()};
+    station.position_m = down_ ? frame_.on_the_floor_m(upright(raw_position(vertex))) : raw_position(vertex);
     for (const std::size_t member : joined_.members_of(vertex)) {
       add_purposes(vertices_[member], station);
       const auto name = given_name(vertices_[member], read_.is_nav_graph);
@@ -398,7 +480,7 @@ class LevelReader {
   void join_ends(const YAML::Node& lane) {
     const auto from = vertex_index(lane, 0, "a lane"), to = vertex_index(lane, 1, "a lane");
     if (from == to || is_of_other_graph(parameter(words_of_lane(lane), "graph_idx"))) return;
-    if ((raw_position(from) - raw_position(to)).norm() * scale_m_ <= kOnTheNode_m) joined_.join(from, to);
+    if ((raw_position(from) - raw_position(to)).norm() * frame_.m_per_pixel <= kOnTheNode_m) joined_.join(from, to);
   }
 
   // `place`: in the list of lanes.
@@ -416,7 +498,7 @@ class LevelReader {
     segment.from = station_of(joined_.first_of(from));
     segment.to = station_of(joined_.first_of(to));
     if (segment.from == segment.to) return void(read_.lanes_of_no_length.insert(place));
-    segment.bidirectional = is_set(words, "bidirectional");
+    segment.bidirectional = is_set(words, "bidirectional") || is_set(words, "is_bidirectional");
     segment.name = fmt::format("lane {}", lanes_.size());
     if (const auto limit = parameter(words, "speed_limit"); limit.IsDefined()) {
       segment.speed_limit_mps = speed_limit_mps(limit);
@@ -493,7 +575,7 @@ class LevelReader {
   const YAML::Node root_;
   std::vector<YAML::Node> vertices_, lanes_;  // as in the file; by segment
   bool down_ = false;
-  double scale_m_ = 1.0;
+  RmfFrame frame_;
   Layout layout_;
   JoinedVertices joined_;
   std::map<std::size_t, StationId> stations_;  // by the first of joined vertices
@@ -519,6 +601,8 @@ Layout read_rmf(const std::string& path, std::vector<std::string>& warnings, con
 
 Layout parse_rmf(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
                  const RmfChoice& choice) {
+  // yaml-cpp reads UTF-16, too, but takes every byte for UTF-8 otherwise.
+  if (!text.starts_with("\xff\xfe") && !text.starts_with("\xfe\xff")) refuse_latin1(text, source);
   try {
     return LevelReader(text, source, warnings, choice).read();
   } catch (const YAML::Exception& error) {

@@ -23,6 +23,7 @@ constexpr Topic kVertexHeights{"{0} vertices lie above or below the floor ({1});
 constexpr Topic kMutexes{"{0} mutex groups of vertices are left out ({1}); here a block holds lanes alone"};
 constexpr Topic kDocks{"{0} docking manoeuvres are left out ({1})"};
 constexpr Topic kRobots{"{0} robots of the fleet are left out ({1}); a campaign has its own fleet"};
+constexpr Topic kRobotTypes{"{0} types of robots are left out ({1})"};
 constexpr Topic kHolding{"is_holding_point of {0} vertices ({1}) is left out; here an AGV may wait at every station"};
 constexpr Topic kPassing{
     "is_passthrough_point of {0} vertices ({1}) is left out; here an AGV may stop at every station"};
@@ -39,6 +40,7 @@ struct RmfRule {
   NamedBy named = NamedBy::ByOwner;
 };
 constexpr RmfRule kLaneRules[] = {{"bidirectional"},
+                                  {"is_bidirectional"},
                                   {"graph_idx"},
                                   {"speed_limit"},
                                   {"orientation"},
@@ -60,7 +62,7 @@ constexpr RmfRule kVertexRules[] = {{"name"},
                                     {"mutex", &kMutexes, NamedBy::ByValue},
                                     {"dock_name", &kDocks, NamedBy::ByValue},
                                     {"spawn_robot_name", &kRobots, NamedBy::ByValue},
-                                    {"spawn_robot_type", &kRobots, NamedBy::ByValue},
+                                    {"spawn_robot_type", &kRobotTypes, NamedBy::ByValue},
                                     {"is_holding_point", &kHolding},
                                     {"is_passthrough_point", &kPassing},
                                     {"is_cleaning_zone", &kMarks, NamedBy::ByKey},

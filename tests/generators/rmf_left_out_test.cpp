@@ -77,7 +77,7 @@ const Thing kThings[] = {
     {"VERTEX", "mutex: [1, narrow], ", "\"narrow\""},
     {"VERTEX", "dock_name: [1, pier], ", "\"pier\""},
     {"VERTEX", "spawn_robot_name: [1, tim], ", "\"tim\""},
-    {"VERTEX", "spawn_robot_type: [1, mule], ", "\"mule\""},
+    {"VERTEX", "spawn_robot_type: [1, mule], ", "1 types of robots are left out (\"mule\")"},
     {"VERTEX", "whatever: [1, x], ", "\"whatever\""},
     {"LANE", "orientation: [1, backward], ", ""},
     {"LANE", "orientation_constraint: backward, ", ""},

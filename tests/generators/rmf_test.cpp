@@ -78,7 +78,9 @@ TEST(Rmf, ABuildingIsScaledAndTurnedUp) {
   EXPECT_EQ(layout.segments[0].speed_limit_mps, 0.0) << "0 means none";
   EXPECT_EQ(layout.segments[1].speed_limit_mps, 0.5);
   EXPECT_EQ(layout.segments[1].back_speed_limit_mps, 0.0);
-  EXPECT_EQ(warnings, (std::vector<std::string>{"b.yaml:15: a second vertex is named \"dock\"; it becomes \"v2\"",
+  EXPECT_EQ(warnings, (std::vector<std::string>{"b.yaml:5: 2 measurements disagree by 100.0 %: a pixel has 0.05 m "
+                                                "(b.yaml:10) to 0.15 m (b.yaml:11); their mean counts, 0.1 m",
+                                                "b.yaml:15: a second vertex is named \"dock\"; it becomes \"v2\"",
                                                 "b.yaml:6: 1 lanes of other graphs are left out",
                                                 "b.yaml:16: 2 vertices lie on no lane that is read and are left out "
                                                 "(\"v3\", \"v4\")"}));
@@ -160,10 +162,17 @@ TEST(Rmf, ALevelIsScaledByTheFiducialsThatItSharesWithTheReference) {
   };
   const std::string twice = "[[10, 10, b], [90, 70, a]]";
   const auto [layout, warnings] = read(plant("", twice), "L2");
-  EXPECT_NEAR(layout.stations[1].position_m.x(), 5.0, 1e-12);
+  // Fiducial a is the origin of both, and b is turned by the angle whose cosine is -0.96.
+  EXPECT_NEAR((layout.stations[0].position_m - Vec2(3.34, -4.62)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((layout.stations[1].position_m - Vec2(-1.46, -3.22)).norm(), 0.0, 1e-12);
   EXPECT_EQ(warnings[1],
             "b.yaml:9: by the fiducials that the level shares with reference level \"L1\", a pixel has 0.05 m; by its "
-            "measurements, which do not count, 1 m");
+            "measurements, which do not count, 1 m; they shift the level by (3.340, -4.620) m, and turn it: its x axis "
+            "then points to (-0.9600, 0.2800)");
+  const auto moved = read(plant("", "[[100, 60, b], [40, -20, a]]"), "L2");
+  EXPECT_NEAR((moved.layout.stations[0].position_m - Vec2(-2.0, -1.0)).norm(), 0.0, 1e-12) << "shifted alone";
+  EXPECT_NEAR((moved.layout.stations[1].position_m - Vec2(3.0, -1.0)).norm(), 0.0, 1e-12);
+  EXPECT_EQ(moved.warnings[1].find("turn it"), std::string::npos) << moved.warnings[1];
   EXPECT_EQ(warnings.size(), 2U) << "fiducials are not left out";
   EXPECT_NEAR(read(plant("reference_level_name: L2\n", twice), "L2").layout.stations[1].position_m.x(), 100.0, 1e-12);
   const auto alone = read(plant("", "[[10, 10, b]]"), "L2");
@@ -180,6 +189,46 @@ TEST(Rmf, ALevelIsScaledByTheFiducialsThatItSharesWithTheReference) {
   EXPECT_NE(read(unmeasured, "L2").warnings[1].find("a pixel has 0.5 m (there are no measurements on that level"),
             std::string::npos);
   EXPECT_NE(refused(plant("", "[[10, 10, b], [10]]")).find("b.yaml:9"), std::string::npos);
+}
+
+TEST(Rmf, MeasurementsThatDisagreeAreToldWithTheirSpread) {
+  EXPECT_EQ(import(kBuilding).warnings[0],
+            "b.yaml:5: 2 measurements disagree by 100.0 %: a pixel has 0.05 m (b.yaml:10) to 0.15 m (b.yaml:11); their "
+            "mean counts, 0.1 m");
+  const auto told = [](const std::string& metres) {
+    const auto warnings =
+        import(replaced(replaced(kBuilding, "[3, 5]}", "[3, 10]}"), "[3, 15]", "[3, " + metres + "]")).warnings;
+    return std::ranges::any_of(warnings, [](const auto& w) { return w.find("disagree") != std::string::npos; });
+  };
+  EXPECT_FALSE(told("10"));
+  EXPECT_FALSE(told("10.1"));
+  EXPECT_TRUE(told("10.3"));
+}
+
+TEST(Rmf, ASecondDocumentIsTold) {
+  const auto [layout, warnings] = import("---\n" + kNavGraph + "---\nlevels: {}\n");
+  EXPECT_EQ(layout.stations.size(), 3U);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings[0].find("b.yaml:13: a second document of this file begins; the first alone is read"),
+            std::string::npos);
+  EXPECT_EQ(import("---\n" + kNavGraph + "...\n").warnings, import(kNavGraph).warnings);
+}
+
+TEST(Rmf, LanesMaySayIsBidirectional) {
+  const auto text = replaced(kNavGraph, "      - [1, 2, {}]", "      - [1, 2, {is_bidirectional: true}]");
+  EXPECT_TRUE(import(text).layout.segments.back().bidirectional);
+  EXPECT_EQ(import(text).warnings, import(kNavGraph).warnings) << "it is known";
+  const auto building = replaced(kBuilding, "{bidirectional: [4, false]", "{is_bidirectional: [4, true]");
+  EXPECT_TRUE(import(building).layout.segments[1].bidirectional);
+  EXPECT_FALSE(import(replaced(kNavGraph, "[1, 2, {}]", "[1, 2, {is_bidirectional: false}]"))
+                   .layout.segments.back()
+                   .bidirectional);
+}
+
+TEST(Rmf, BytesThatAreNoUtf8AreRefusedWithTheRemedy) {
+  EXPECT_EQ(independent::refusal(import, replaced(kNavGraph, "name: end", "name: caf\xe9")),
+            "b.yaml:11: the byte 0xe9 is none of UTF-8; if the file is in Latin-1 or Windows-1252, save it as UTF-8 "
+            "(iconv -f WINDOWS-1252 -t UTF-8)");
 }
 
 TEST(Rmf, TheFirstLevelWithLanesIsRead) {
@@ -342,7 +391,10 @@ TEST(RmfErrors, WhatHidesTheAttributesIsNamed) {
 
 TEST(RmfErrors, CanBePrintedWhateverTheFileHolds) {
   EXPECT_EQ(independent::refusal(import, "levels: \"\\\x80\"\n"),
-            "b.yaml:1:12: not YAML: unknown escape character: \\x80");
+            "b.yaml:1: the byte 0x80 is none of UTF-8; if the file is in Latin-1 or Windows-1252, save it as UTF-8 "
+            "(iconv -f WINDOWS-1252 -t UTF-8)");
+  EXPECT_EQ(independent::refusal(import, "levels: \"\\\x01\"\n"),
+            "b.yaml:1:12: not YAML: unknown escape character: \\x01");
   EXPECT_LT(independent::refusal(import, "levels: *" + std::string(5000, 'x') + "\n").size(), 300U);
 }
 

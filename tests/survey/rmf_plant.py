@@ -1,4 +1,5 @@
 """Open-RMF buildings of the traffic editor, and nav graphs, by the names that its source uses."""
+import cmath
 from itertools import combinations
 from math import dist
 
@@ -26,16 +27,24 @@ def measured(level):
     return mean(shares) if shares else 1.0
 
 
-def scale_of(root, level, is_graph):
+def frame_of(root, level, is_graph):
+    """The metres of a pixel, and a function from a vertex to its place as a complex number."""
     if is_graph or root.get("coordinate_system") == "cartesian_meters":
-        return 1.0, 1.0
+        return 1.0, lambda vertex: complex(vertex[0], vertex[1])
     levels = root["levels"]
     reference = levels[root.get("reference_level_name", next(iter(levels)))]
     pairs = [(there[:2], here[:2]) for there in reference.get("fiducials") or []
              for here in level.get("fiducials") or [] if there[2] == here[2]]
     shares = [dist(a[1], b[1]) / dist(a[0], b[0]) for a, b in combinations(pairs, 2)]
-    metres = measured(level) if reference is level or not shares else measured(reference) / mean(shares)
-    return metres, -metres
+    if reference is level or not shares:
+        metres = measured(level)
+        return metres, lambda vertex: complex(vertex[0], -vertex[1]) * metres
+    metres = measured(reference) / mean(shares)
+    upright = [tuple(complex(place[0], -place[1]) for place in pair) for pair in pairs]
+    bearings = [cmath.phase((a[0] - b[0]) / (a[1] - b[1])) for a, b in combinations(upright, 2)]
+    turn = cmath.rect(metres, cmath.phase(sum(cmath.rect(1.0, bearing) for bearing in bearings)))
+    shift = mean([there * measured(reference) - here * turn for there, here in upright])
+    return metres, lambda vertex: complex(vertex[0], -vertex[1]) * turn + shift
 
 
 def read(path, level=None, graph=0):
@@ -45,9 +54,9 @@ def read(path, level=None, graph=0):
     chosen = levels[level or next((name for name in levels if levels[name].get("lanes")), next(iter(levels)))]
     vertices = chosen["vertices"]
     is_graph = isinstance(vertices[0][2] if len(vertices[0]) > 2 else {}, dict)
-    scale = scale_of(root, chosen, is_graph)
+    metres, place_of = frame_of(root, chosen, is_graph)
     lanes = [lane for lane in chosen["lanes"] if is_graph or int(words_of(lane).get("graph_idx", 0)) == graph]
-    spot_of = spots(vertices, lanes, abs(scale[0]))
+    spot_of = spots(vertices, lanes, metres)
     plant, names = Plant(), {}
 
     def name_of(index):
@@ -68,7 +77,8 @@ def read(path, level=None, graph=0):
             vertex, words = vertices[spot[0]], [words_of(vertices[member]) for member in spot]
             name = next((str(name_of(member)) for member in spot if name_of(member)), free_name(spot[0]))
             names[spot[0]] = name if name not in plant.stations else free_name(spot[0])
-            plant.add(Station(names[spot[0]], vertex[0] * scale[0], vertex[1] * scale[1],
+            place = place_of(vertex)
+            plant.add(Station(names[spot[0]], place.real, place.imag,
                               {purpose for key, purpose in PURPOSES.items() if any(word.get(key) for word in words)}))
         return plant.stations[names[spot[0]]]
 
@@ -99,6 +109,6 @@ def add_lane(plant, start, end, words):
     limit = limit if limit and limit > 0.0 else None
     blocks = [words["mutex"]] if words.get("mutex") else []
     plant.drives.append(Drive(start.name, end.name, length, first, limit, blocks=blocks))
-    if words.get("bidirectional"):
+    if words.get("bidirectional") or words.get("is_bidirectional"):
         back = OTHER[first] if asks else FORWARD
         plant.drives.append(Drive(end.name, start.name, length, back, limit, blocks=blocks))
