@@ -324,11 +324,7 @@ class WorldCheck {
       add(ProblemKind::WeakCore, "/layout",
           fmt::format("only {}, less than 90 %; {}",
                       rules ? core_under_rules() : reachability_text(scenario_.map->layout()),
-                      rules && Reachability(*scenario_.map).core_share() >= kSmallestCoreShare
-                          ? "give the fleet the types that the segments are for, or lift these permissions (any_type)"
-                      : reachability_.core().size() < 2
-                          ? "no two stations can reach each other; add segments that lead back"
-                          : "add segments that lead back, or leave these stations out (core_only)"));
+                      rules ? remedy_under_rules() : remedy_without_rules()));
     }
     starts();
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) transports(i);
@@ -338,6 +334,37 @@ class WorldCheck {
  private:
   void add(ProblemKind kind, std::string pointer, std::string sentence) {
     problems_.push_back({kind, std::move(pointer), std::move(sentence)});
+  }
+
+  std::string remedy_without_rules() const {
+    return reachability_.core().size() < 2 ? "no two stations can reach each other; add segments that lead back"
+                                           : "add segments that lead back, or leave these stations out (core_only)";
+  }
+
+  // Where more ways lead back if a rule is lifted, the rule is the cause.
+  std::string remedy_under_rules() const {
+    const std::size_t of_all_types = Reachability(*scenario_.map).core().size(), all = scenario_.map->station_count();
+    const bool strong = static_cast<double>(of_all_types) >= kSmallestCoreShare * static_cast<double>(all);
+    const std::string lift = "give the fleet the types that the segments are for, or lift these permissions (any_type)";
+    if (of_all_types > reachability_.core().size())
+      return lift + (strong ? ""
+                            : fmt::format("; then {} of {} stations remain, and core_only leaves the others out",
+                                          of_all_types, all));
+    const std::size_t by_segments = strong_core_size(scenario_.map->layout());
+    return by_segments > of_all_types ? "turns, headings, loads or the end that goes first keep AGVs from ways that "
+                                        "lead back; lift such rules, "
+                                        "or leave these stations out (core_only)"
+                                      : remedy_without_rules();
+  }
+
+  // By the segments alone.
+  static std::size_t strong_core_size(const Layout& layout) {
+    std::vector<Arrow> arrows;
+    for (const auto& segment : layout.segments) {
+      arrows.push_back({segment.from.value, segment.to.value});
+      if (segment.bidirectional) arrows.push_back({segment.to.value, segment.from.value});
+    }
+    return strong_components(layout.stations.size(), arrows).largest_size;
   }
 
   std::string core_under_rules() const {
@@ -408,7 +435,8 @@ class WorldCheck {
         if (reachability_.reaches(from, to, loaded, agv.type)) return;
         const auto name = [&](StationId id) { return in_quotes(scenario_.map->station(id).name); };
         add(ProblemKind::Unreachable, fmt::format("/agvs/{}/transports/{}{}", i, k, field),
-            fmt::format("no way leads from {} to {}{}", name(from), name(to), loads(loaded)));
+            fmt::format("no way leads from {} to {}{}{}", name(from), name(to), loads(loaded),
+                        foreign_types_hint(scenario_.map->layout(), types_of(scenario_))));
       };
       need(agv.start, order.from, "/from", false);
       need(order.from, order.to, "/to", true);
