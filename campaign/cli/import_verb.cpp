@@ -14,12 +14,13 @@
 #include "generators/formats/opentcs_vehicles.hpp"
 #include "generators/map/core_only.hpp"
 #include "generators/map/layout_svg.hpp"
+#include "generators/map/plant_size.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
 struct ImportWords {
-  std::string format, file, out, picture, level, purposes, vehicles, factsheet;
+  std::string format, file, out, picture, level, purposes, positions, vehicles, factsheet;
   std::optional<std::uint64_t> graph;
   std::optional<double> cell_pitch_m;
   bool keep_antiparallel = false, core_only = false, any_type = false;
@@ -35,7 +36,8 @@ void expect_format(const ImportWords& words, bool given, std::string_view option
 ImportChoice choice_of(const ImportWords& words) {
   expect_format(words, words.keep_antiparallel, "--keep-antiparallel", kFormatsWithTwins);
   expect_format(words, !words.purposes.empty(), "--purposes", kFormatsWithWords);
-  expect_format(words, words.graph.has_value(), "--graph", {"rmf"});
+  expect_format(words, words.graph.has_value(), "--graph", kFormatsWithGraphs);
+  expect_format(words, !words.positions.empty(), "--positions", {"opentcs"});
   expect_format(words, !words.level.empty(), "--level", kFormatsWithLevels);
   expect_format(words, words.cell_pitch_m.has_value(), "--cell-pitch", {"grid"});
   ImportChoice choice;
@@ -46,15 +48,17 @@ ImportChoice choice_of(const ImportWords& words) {
   if (words.graph.value_or(0) > std::numeric_limits<std::uint32_t>::max())
     throw InputError("--graph", fmt::format("is {}; graphs count from 0", *words.graph));
   choice.level = words.level;
+  if (!words.positions.empty()) choice.positions = positions_of(words.positions, "--positions");
+  choice.takes_vehicles = !words.vehicles.empty() && words.factsheet.empty();
   choice.rmf.graph_idx = static_cast<std::int64_t>(words.graph.value_or(0));
   choice.cell_pitch_m = words.cell_pitch_m.value_or(kDefaultCellPitch_m);
   return choice;
 }
 
-// The vehicles of the model, or of the factsheet beside a layout.
+// The vehicles of the factsheet beside a layout, or else of the model.
 std::vector<ForeignVehicle> read_vehicles(const ImportWords& words, const Layout& layout,
                                           std::vector<std::string>& warnings) {
-  if (words.format == "opentcs") return read_opentcs_vehicles(words.file, warnings);
+  if (words.factsheet.empty()) return read_opentcs_vehicles(words.file, warnings);
   auto vehicle = read_factsheet(words.factsheet, warnings);
   const auto name = name_as_permitted(vehicle, layout);
   if (name != vehicle.type.name)
@@ -65,17 +69,21 @@ std::vector<ForeignVehicle> read_vehicles(const ImportWords& words, const Layout
 }
 
 void expect_vehicles(const ImportWords& words) {
-  expect_format(words, !words.vehicles.empty(), "--vehicles", {"opentcs", "lif"});
-  expect_format(words, !words.factsheet.empty(), "--factsheet", {"lif"});
   if (!words.factsheet.empty() && words.vehicles.empty())
     throw InputError("--factsheet", "is given without --vehicles; name the file to write with --vehicles");
-  if (words.format == "lif" && !words.vehicles.empty() && words.factsheet.empty())
-    throw InputError("--vehicles", "LIF has no vehicles; name their VDA 5050 factsheet with --factsheet");
+  if (words.format != "opentcs" && !words.vehicles.empty() && words.factsheet.empty())
+    throw InputError("--vehicles", fmt::format("the format \"{}\" has no vehicles; name their VDA 5050 factsheet with "
+                                               "--factsheet",
+                                               words.format));
 }
 
 void write_vehicles(const ImportWords& words, const Layout& layout) {
   std::vector<std::string> warnings;
   const auto vehicles = read_vehicles(words, layout, warnings);
+  for (const auto& vehicle : vehicles) {
+    for (const std::string& question : vehicle_questions(vehicle.type))
+      warnings.push_back(fmt::format("vehicle {}: {}", in_quotes(vehicle.type.name), question));
+  }
   for (const std::string& warning : warnings) talk("warning: {}\n", warning);
   const std::string& source = words.factsheet.empty() ? words.file : words.factsheet;
   write_whole({words.vehicles, "--vehicles", OutputKind::Fleet}, fleet_text(vehicles, source));
@@ -101,7 +109,8 @@ int import_file(ImportWords words) {
   for (const std::string& warning : warnings) talk("warning: {}\n", warning);
   talk("{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(), layout.segments.size(),
        warnings.size());
-  talk("purposes: {}\nreachability: {}\n", purposes_summary(layout), reachability_text(layout));
+  talk("size: {}\npurposes: {}\nreachability: {}\n", size_text(size_of(layout)), purposes_summary(layout),
+       reachability_text(layout));
   if (!words.vehicles.empty()) write_vehicles(words, layout);
   if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
   put_layout(layout, words.out);
@@ -112,27 +121,32 @@ int import_file(ImportWords words) {
 
 Action prepare_import(Options& options) {
   auto words = std::make_shared<ImportWords>();
-  options.positional("FORMAT", words->format,
-                     "opentcs, lif, rmf, grid, csv, layout or scenario (see: fleetproof list importers); may be left "
-                     "out if the name of the file ends as usual");
+  options.positional(
+      "FORMAT", words->format,
+      "opentcs, lif, rmf, geojson, smap, grid, csv, layout or scenario (see: fleetproof list importers); "
+      "may be left out if the name of the file ends as usual");
   options.optional_positional("FILE", words->file, "file to read");
   options.option("-o,--output", words->out, kLayoutOutputHelp);
   options.option("--svg", words->picture, "draw the layout into this file as well (SVG)");
   options.flag("--keep-antiparallel", words->keep_antiparallel,
                "two one-way segments there and back on one track stay two; left out: they become one two-way segment");
   options.option("--purposes", words->purposes,
-                 "opentcs, lif: what stations are for, by words of the file, as in \"PACK=storage,Dock 7=charging\"");
+                 "opentcs, lif, geojson, smap: what stations are for, by words of the file, as in "
+                 "\"PACK=storage,Dock 7=charging\"");
+  options.option("--positions", words->positions,
+                 "opentcs: where points stand that are drawn elsewhere than in the plant: plant or drawing (default: "
+                 "where the curves fit)");
   options.option(
       "--vehicles", words->vehicles,
-      "write [[vehicle]] tables for a campaign into this file; opentcs: of the vehicles of the model; lif: of "
-      "the factsheet");
-  options.option("--factsheet", words->factsheet, "lif: VDA 5050 factsheet (JSON) of the vehicle");
+      "write [[vehicle]] tables for a campaign into this file: of the factsheet; opentcs without one: of the vehicles "
+      "of the model");
+  options.option("--factsheet", words->factsheet, "VDA 5050 factsheet (JSON) of the vehicle");
   options.flag("--core-only", words->core_only,
                "leave out the stations that cannot be reached from all others, and name them");
   options.flag("--any-type", words->any_type, "every AGV may drive what one type of vehicle may");
-  options.option("--graph", words->graph, "rmf: graph_idx of the lanes to read (default: 0)");
+  options.option("--graph", words->graph, "rmf, geojson: graph_idx of the lanes to read (default: 0)");
   options.option("--level", words->level,
-                 "rmf: level to read (default: the first); lif: id or level of the layout to read");
+                 "rmf: level to read (default: the first); geojson: level_idx; lif: id or level of the layout to read");
   options.option("--cell-pitch", words->cell_pitch_m, "grid: distance of neighbouring cells in metres (default: 1.2)");
   return [words] { return import_file(*words); };
 }

@@ -31,8 +31,9 @@ bool is_family(const std::string& word, const std::string& place) {
   return named;
 }
 
-std::shared_ptr<const LogicalMap> read_map(const std::string& path, const ImportChoice& choice, LayoutTalk talk) {
-  Layout layout = importer(importer_of_file(path)).make(path, choice, talk.notes);
+std::shared_ptr<const LogicalMap> read_map(const std::string& path, std::string_view format, const ImportChoice& choice,
+                                           LayoutTalk talk) {
+  Layout layout = read_foreign_layout(importer(format), path, choice, talk.notes);
   const auto adapted = adapt(layout, choice, path);
   talk.warnings.insert(talk.warnings.end(), adapted.begin(), adapted.end());
   const auto core = parts_of(layout).largest_size;
@@ -43,12 +44,12 @@ std::shared_ptr<const LogicalMap> read_map(const std::string& path, const Import
 
 // The keys of the options of `fleetproof import`. A key that the format does not know is refused, because it would
 // silently change nothing.
-ImportChoice import_choice(TomlTable& table, const std::string& path, const PurposeWords& purposes) {
-  const auto format = importer_of_file(path);
+ImportChoice import_choice(TomlTable& table, std::string_view format, const PurposeWords& purposes) {
   const std::pair<std::string_view, OptionFormats> owned[] = {{"merge_antiparallel", kFormatsWithTwins},
                                                               {"cell_pitch_m", {"grid"}},
                                                               {"level", kFormatsWithLevels},
-                                                              {"graph", {"rmf"}}};
+                                                              {"graph", kFormatsWithGraphs},
+                                                              {"positions", {"opentcs"}}};
   for (const auto& [key, owners] : owned) {
     if (!table.has(key) || owners.contains(format)) continue;
     throw InputError(table.place(key), fmt::format("{} has no meaning for format \"{}\"; it belongs to {}", key, format,
@@ -62,6 +63,11 @@ ImportChoice import_choice(TomlTable& table, const std::string& path, const Purp
   table.get("merge_antiparallel", merge);
   table.get("cell_pitch_m", choice.cell_pitch_m);
   table.get("level", choice.level);
+  if (const auto positions = table.given("positions")) {
+    std::string word;
+    table.get("positions", word);
+    choice.positions = positions_of(word, positions->place + ": " + positions->path);
+  }
   if (const auto graph = table.given("graph")) {
     std::uint32_t number = 0;
     const auto sentence =
@@ -88,12 +94,14 @@ LayoutFactor layout_from_word(const std::string& place, const std::string& word,
   if (is_layout_path(word)) {
     ImportChoice choice;
     choice.purposes = purposes;
-    return {layout_name(word), read_map(beside(path, word), choice, talk)};
+    const auto at = beside(path, word);
+    return {layout_name(word), read_map(at, importer_of_file(at), choice, talk)};
   }
   if (std::error_code ignored; std::filesystem::is_regular_file(beside(path, word), ignored))
-    throw InputError(place, fmt::format("factors.layouts names {}, a file whose ending is that of no layout; known: "
-                                        ".xml .json .yaml .yml .map .csv",
-                                        in_quotes(word)));
+    throw InputError(place,
+                     fmt::format("factors.layouts names {}, a file whose ending is that of no layout; known: {}; "
+                                 "or name its format: {{ file = {}, format = \"...\" }}",
+                                 in_quotes(word), layout_endings(), in_quotes(word)));
   const auto names = names_of(layout_families());
   throw InputError(place, fmt::format("factors.layouts names \"{}\", which is neither a family nor a file{}", word,
                                       name_hint(word, names)));
@@ -102,7 +110,7 @@ LayoutFactor layout_from_word(const std::string& place, const std::string& word,
 // { file = "plant.xml" } or { mutate = "plant.xml" }, with the options of the importer.
 LayoutFactor layout_from_table(TomlTable& table, const std::string& path, const PurposeWords& purposes,
                                LayoutTalk talk) {
-  std::string word, base, name;
+  std::string word, base, name, format;
   table.get("file", word);
   table.get("mutate", base);
   take_name(table, name);
@@ -111,10 +119,17 @@ LayoutFactor layout_from_table(TomlTable& table, const std::string& path, const 
                      "a table under factors.layouts has either file = \"...\" or mutate = \"...\"");
   const bool mutate = word.empty();
   const std::string at = beside(path, mutate ? base : word);
-  const ImportChoice choice = import_choice(table, at, purposes);
+  if (const auto given = table.given("format")) {
+    table.get("format", format);
+    if (find_entry(importers(), format) == nullptr)
+      given->refuse(fmt::format("there is no such format{}", name_hint(format, names_of(importers()))));
+  } else {
+    format = importer_of_file(at);
+  }
+  const ImportChoice choice = import_choice(table, format, purposes);
   table.finish();
   if (name.empty()) name = (mutate ? std::string(kMutatedImport) + "/" : "") + layout_name(at);
-  return {name, read_map(at, choice, talk), mutate};
+  return {name, read_map(at, format, choice, talk), mutate};
 }
 
 }  // namespace

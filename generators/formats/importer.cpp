@@ -8,10 +8,14 @@
 #include "core/base/letter_case.hpp"
 #include "core/scenario/lane_rules.hpp"
 #include "generators/formats/csv_layout.hpp"
+#include "generators/formats/foreign_files.hpp"
+#include "generators/formats/geojson.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
+#include "generators/formats/smap.hpp"
 #include "generators/map/core_only.hpp"
 #include "generators/map/permitted_types.hpp"
+#include "generators/map/plant_size.hpp"
 #include "generators/text/json_value.hpp"
 #include "generators/text/name_list.hpp"
 #include "generators/text/text_file.hpp"
@@ -37,6 +41,14 @@ constexpr Entry<ReadLayout> kImporters[] = {
        rmf.level = choice.level;
        return read_rmf(path, warnings, rmf);
      }},
+    {"geojson", "route graph of Nav2 or Open-RMF (.geojson)",
+     [](const std::string& path, const ImportChoice& choice, Warnings& warnings) {
+       return read_geojson(path, warnings, {choice, choice.rmf.graph_idx});
+     }},
+    {"smap", "map of SEER robots (.smap)",
+     [](const std::string& path, const ImportChoice& choice, Warnings& warnings) {
+       return read_smap(path, warnings, choice);
+     }},
     {"grid", "grid map of Moving AI or the League of Robot Runners (.map)",
      [](const std::string& path, const ImportChoice& choice, Warnings& warnings) {
        return read_grid_map(path, warnings, choice.cell_pitch_m);
@@ -54,8 +66,8 @@ constexpr Entry<ReadLayout> kImporters[] = {
 struct Extension {
   std::string_view ending, importer;
 };
-constexpr Extension kExtensions[] = {{".xml", "opentcs"}, {".json", "layout"}, {".yaml", "rmf"},
-                                     {".yml", "rmf"},     {".map", "grid"},    {".csv", "csv"}};
+constexpr Extension kExtensions[] = {{".xml", "opentcs"},     {".json", "layout"}, {".yaml", "rmf"}, {".yml", "rmf"},
+                                     {".geojson", "geojson"}, {".smap", "smap"},   {".map", "grid"}, {".csv", "csv"}};
 
 const Extension* extension_of(std::string_view path) {
   const auto found = std::ranges::find_if(kExtensions, [&](const Extension& e) { return has_ending(path, e.ending); });
@@ -68,6 +80,8 @@ std::string_view importer_of_json(const std::string& path) {
   for (const char* key : {"metaInformation", "layouts", "origins"}) {
     if (root.find(key) != nullptr) return "lif";
   }
+  if (root.find("features") != nullptr) return "geojson";
+  if (root.find("advancedPointList") != nullptr) return "smap";
   return root.find("agvs") != nullptr ? "scenario" : "layout";
 }
 
@@ -98,8 +112,9 @@ void leave_core(Layout& layout, const std::string& path, Warnings& warnings) {
 
 }  // namespace
 
-const OptionFormats kFormatsWithTwins = {"opentcs", "lif", "rmf", "csv"}, kFormatsWithWords = {"opentcs", "lif"},
-                    kFormatsWithLevels = {"rmf", "lif"};
+const OptionFormats kFormatsWithTwins = {"opentcs", "lif", "rmf", "geojson", "smap", "csv"},
+                    kFormatsWithWords = {"opentcs", "lif", "geojson", "smap"},
+                    kFormatsWithLevels = {"rmf", "lif", "geojson"}, kFormatsWithGraphs = {"rmf", "geojson"};
 
 std::span<const Entry<ReadLayout>> importers() { return kImporters; }
 
@@ -109,16 +124,32 @@ const Entry<ReadLayout>& importer(std::string_view name) {
                    fmt::format("there is no importer {}{}", in_quotes(name), name_hint(name, names_of(importers()))));
 }
 
+Positions positions_of(std::string_view word, const std::string& place) {
+  if (const auto positions = value_of<Positions>(word)) return *positions;
+  throw InputError(place,
+                   fmt::format("there are no positions {}{}", in_quotes(word), name_hint(word, kWordsOf<Positions>)));
+}
+
 bool has_ending(std::string_view path, std::string_view ending) {
   return path.size() >= ending.size() && same_letters(path.substr(path.size() - ending.size()), ending);
 }
 
 bool is_layout_file(std::string_view path) { return extension_of(path) != nullptr; }
 
+std::string layout_endings() {
+  std::string text;
+  for (const auto& [ending, importer] : kExtensions) text += fmt::format("{}{}", text.empty() ? "" : " ", ending);
+  return text;
+}
+
 std::string_view importer_of_file(const std::string& path) {
   const auto* extension = extension_of(path);
-  if (extension == nullptr)
-    throw InputError(path, "has no extension of a layout file; known: .xml .json .yaml .yml .map .csv");
+  if (extension == nullptr) {
+    refuse_foreign(path);
+    throw InputError(path, fmt::format("has no extension of a layout file; known: {}; or name its format (fleetproof "
+                                       "import FORMAT FILE, in a campaign {{ file = ..., format = ... }})",
+                                       layout_endings()));
+  }
   return extension->importer == "layout" ? importer_of_json(path) : extension->importer;
 }
 
@@ -133,13 +164,25 @@ Warnings adapt(Layout& layout, const ImportChoice& choice, const std::string& pa
   }
   if (choice.core_only) leave_core(layout, path, warnings);
   for (const std::string& sentence : limited_uses(layout)) warnings.push_back(path + ": " + sentence);
+  if (const auto question = size_question(size_of(layout)); !question.empty())
+    warnings.push_back(path + ": " + question);
   return warnings;
+}
+
+Layout read_foreign_layout(const Entry<ReadLayout>& importer, const std::string& path, const ImportChoice& choice,
+                           Warnings& warnings) {
+  try {
+    return importer.make(path, choice, warnings);
+  } catch (const InputError&) {
+    refuse_foreign(path);
+    throw;
+  }
 }
 
 Layout import_layout(const Entry<ReadLayout>& importer, const std::string& path, const ImportChoice& choice,
                      Warnings& warnings) {
   const auto before = static_cast<std::ptrdiff_t>(warnings.size());
-  Layout layout = importer.make(path, choice, warnings);
+  Layout layout = read_foreign_layout(importer, path, choice, warnings);
   const Warnings adapted = adapt(layout, choice, path);
   warnings.insert(warnings.begin() + before, adapted.begin(), adapted.end());
   return layout;

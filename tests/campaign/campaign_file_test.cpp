@@ -182,10 +182,10 @@ TEST_F(CampaignFileTest, LayoutTablesAreRefusedByPlaceAndRemedy) {
   const auto error = [&](const std::string& layout) {
     return error_of("[factors]\nagents = [\"reckless\"]\nlayouts = [" + layout + "]\n");
   };
-  EXPECT_THAT(
-      error("{ file = \"m.map\", merge_antiparallel = true }"),
-      HasSubstr(
-          "c.toml:3:51: merge_antiparallel has no meaning for format \"grid\"; it belongs to csv, lif, opentcs, rmf"));
+  EXPECT_THAT(error("{ file = \"m.map\", merge_antiparallel = true }"),
+              HasSubstr("c.toml:3:51: merge_antiparallel has no meaning for format \"grid\"; it belongs to csv, "
+                        "geojson, lif, opentcs, "
+                        "rmf, smap"));
   EXPECT_THAT(error("{ file = \"m.map\", mutate = \"m.map\" }"),
               HasSubstr("has either file = \"...\" or mutate = \"...\""));
   EXPECT_THAT(error("{ name = \"x\" }"), HasSubstr("has either file = \"...\" or mutate = \"...\""));

@@ -74,6 +74,7 @@ TEST_F(ImportTest, TellsWhatItGuessed) {
       "warning: m.map: cells S and E are taken for storage, as in maps of the League of Robot Runners; in maps of "
       "terrain, S is swamp\n"
       "m.map: 3 stations, 2 segments, 2 warnings\n"
+      "size: 3 m x 0 m; segments of 1.5 m to 1.5 m, half of them up to 1.5 m, 3 m in all\n"
       "purposes: 1 storage, 0 charging, 0 parking\n"
       "reachability: all 3 stations can reach each other\n");
 }
@@ -107,7 +108,7 @@ TEST_F(ImportTest, TakesWordsForPurposes) {
   EXPECT_THAT(run("import opentcs m.xml --purposes 'dock 7=stor'").err,
               HasSubstr("--purposes: \"dock 7\" is said to be for \"stor\""));
   EXPECT_THAT(run("import csv x.csv --purposes a=storage").err,
-              HasSubstr("--purposes: has no meaning for format \"csv\"; it belongs to lif, opentcs"));
+              HasSubstr("--purposes: has no meaning for format \"csv\"; it belongs to geojson, lif, opentcs, smap"));
 }
 
 TEST_F(ImportTest, NamesWordsThatTheFileDoesNotHave) {
@@ -190,7 +191,7 @@ TEST_F(ImportTest, RefusesWordsThatMeanNothing) {
   };
   EXPECT_THAT(error_of("import opentsc x.xml"), HasSubstr("did you mean \"opentcs\"?"));
   EXPECT_THAT(error_of("import csv x.csv --graph 1"),
-              HasSubstr("--graph: has no meaning for format \"csv\"; it belongs to rmf"));
+              HasSubstr("--graph: has no meaning for format \"csv\"; it belongs to geojson, rmf"));
   EXPECT_THAT(error_of("import csv none.csv"), HasSubstr("none.csv: there is no such file"));
   EXPECT_THAT(error_of("import opentcs " + kCrossdock + " -o no/where.json"),
               HasSubstr("no/where.json: cannot be written"));

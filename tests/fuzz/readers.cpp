@@ -9,12 +9,14 @@
 #include "core/scenario/scenario.hpp"
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/factsheet.hpp"
+#include "generators/formats/geojson.hpp"
 #include "generators/formats/grid_map.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "generators/formats/lif.hpp"
 #include "generators/formats/opentcs.hpp"
 #include "generators/formats/opentcs_vehicles.hpp"
 #include "generators/formats/rmf.hpp"
+#include "generators/formats/smap.hpp"
 #include "generators/scenario_file/field_rules.hpp"
 #include "generators/scenario_file/radio_trace.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
@@ -53,6 +55,14 @@ bool accepts_lif(std::string_view bytes, Depth depth) {
 
 bool accepts_rmf(std::string_view bytes, Depth depth) {
   return accepts_layout(depth, [&](auto& warnings) { return parse_rmf(bytes, kFile, warnings); });
+}
+
+bool accepts_geojson(std::string_view bytes, Depth depth) {
+  return accepts_layout(depth, [&](auto& warnings) { return parse_geojson(bytes, kFile, warnings); });
+}
+
+bool accepts_smap(std::string_view bytes, Depth depth) {
+  return accepts_layout(depth, [&](auto& warnings) { return parse_smap(bytes, kFile, warnings); });
 }
 
 bool accepts_grid_map(std::string_view bytes, Depth depth) {
@@ -172,6 +182,8 @@ constexpr Reader kReaders[] = {
     {"lif", accepts_lif, lif_seeds, kJsonSpice, kJsonWords},
     {"rmf-building", accepts_rmf, rmf_building_seeds, kYamlSpice, kYamlWords},
     {"rmf-nav-graph", accepts_rmf, rmf_nav_graph_seeds, kYamlSpice, kYamlWords},
+    {"geojson", accepts_geojson, geojson_seeds, kJsonSpice, kJsonWords},
+    {"smap", accepts_smap, smap_seeds, kJsonSpice, kJsonWords},
     {"grid", accepts_grid_map, grid_map_seeds, kMapSpice, kMapWords},
     {"csv", accepts_csv_layout, csv_layout_seeds, kCsvSpice, kCsvWords},
     {"layout", accepts_layout_file, layout_seeds, kJsonSpice, kJsonWords},

@@ -201,6 +201,30 @@ std::vector<std::string> rmf_building_seeds() { return {kBuilding}; }
 
 std::vector<std::string> rmf_nav_graph_seeds() { return {kNavGraph}; }
 
+std::vector<std::string> geojson_seeds() {
+  return {R"({"type": "FeatureCollection", "features": [
+{"properties": {"id": 0, "metadata": {"name": "dock", "type": "pick"}}, "geometry": {"type": "Point", "coordinates": [0, 0]}},
+{"properties": {"id": 1}, "geometry": {"type": "Point", "coordinates": [4, 0]}},
+{"properties": {"id": 2, "startid": 0, "endid": 1, "cost": 1}, "geometry": {"type": "LineString", "coordinates": [[0, 0], [2, 2], [4, 0]]}},
+{"properties": {"id": 3, "startid": 1, "endid": 0}, "geometry": {"type": "MultiLineString", "coordinates": []}}]})",
+          R"({"type": "FeatureCollection", "site_name": "s", "features": [
+{"feature_type": "rmf_vertex", "properties": {"name": "a", "is_charger": true}, "geometry": {"type": "Point", "coordinates": [103.8, 1.3]}},
+{"feature_type": "rmf_vertex", "properties": {}, "geometry": {"type": "Point", "coordinates": [103.8001, 1.3]}},
+{"feature_type": "rmf_lane", "properties": {"bidirectional": true, "graph_idx": 0, "speed_limit": 0.5, "level_idx": 0},
+ "geometry": {"type": "LineString", "coordinates": [[103.8, 1.3], [103.8001, 1.3]]}}]})"};
+}
+
+std::vector<std::string> smap_seeds() {
+  return {R"({"header": {"mapName": "m"}, "normalPosList": [{"x": 1}], "advancedPointList": [
+{"className": "ActionPoint", "instanceName": "AP1", "pos": {}, "property": [{"key": "allowrotate", "value": "ZmFsc2U="}]},
+{"className": "ChargePoint", "instanceName": "CP2", "pos": {"x": 4}, "dir": 1.5, "ignoreDir": true}],
+"binLocationsList": [{"binLocationList": [{"instanceName": "b", "pointName": "CP2"}]}], "advancedCurveList": [
+{"className": "BezierPath", "instanceName": "AP1-CP2", "startPos": {"instanceName": "AP1"}, "endPos": {"instanceName": "CP2"},
+ "controlPos1": {"x": 1, "y": 1}, "controlPos2": {"x": 3, "y": 1}, "property": [{"key": "maxspeed", "doubleValue": 0.5}]},
+{"className": "StraightPath", "instanceName": "AP1-CP2", "startPos": {"instanceName": "CP2"}, "endPos": {"instanceName": "AP1"},
+ "property": [{"key": "direction", "int32Value": 1}]}]})"};
+}
+
 std::vector<std::string> grid_map_seeds() {
   return {"type octile\nheight 3\nwidth 4\nmap\n..@.\n.TS.\n@...\n", "width 2\nheight 1\nmap\r\nEG\r\n"};
 }

@@ -63,14 +63,25 @@ TEST_F(ImporterTest, TheExtensionChooses) {
   EXPECT_EQ(read(file("g.yml", nav_graph)).segments.size(), 1U);
   EXPECT_EQ(read(file("D.CSV", to_csv(crossdock_))).segments.size(), 31U);
   EXPECT_EQ(read(file("A.LIF.json", to_lif(crossdock_))).segments.size(), 31U);
+  const std::string graph = R"({"type": "FeatureCollection", "features": [
+{"properties": {"id": 1}, "geometry": {"type": "Point", "coordinates": [0, 0]}},
+{"properties": {"id": 2}, "geometry": {"type": "Point", "coordinates": [4, 0]}},
+{"properties": {"id": 3, "startid": 1, "endid": 2}, "geometry": {"type": "LineString", "coordinates": []}}]})";
+  const std::string map =
+      R"({"advancedPointList": [{"instanceName": "a", "pos": {}}, {"instanceName": "b", "pos": {"x": 4}}],
+"advancedCurveList": [{"className": "StraightPath", "startPos": {"instanceName": "a"}, "endPos": {"instanceName": "b"}}]})";
+  for (const char* name : {"k.geojson", "k.json"}) EXPECT_EQ(read(file(name, graph)).segments.size(), 1U) << name;
+  for (const char* name : {"l.smap", "l.json"}) EXPECT_EQ(read(file(name, map)).segments.size(), 1U) << name;
   EXPECT_EQ(importer_of_file("PLANT.Xml"), "opentcs");
   EXPECT_EQ(importer_of_file(file("h.json", R"({"origins": [{"originId": "o", "layouts": []}]})")), "lif");
   EXPECT_EQ(importer_of_file(file("i.json", R"({"layouts": []})")), "lif");
 }
 
 TEST_F(ImporterTest, UnknownNamesAreExplained) {
-  EXPECT_EQ(refusal("plant.dwg"),
-            "plant.dwg: has no extension of a layout file; known: .xml .json .yaml .yml .map .csv");
+  EXPECT_EQ(
+      refusal("plant.dwg"),
+      "plant.dwg: has no extension of a layout file; known: .xml .json .yaml .yml .geojson .smap .map .csv; or name "
+      "its format (fleetproof import FORMAT FILE, in a campaign { file = ..., format = ... })");
   EXPECT_EQ(refusal("none.json"), "none.json: there is no such file");
   EXPECT_FALSE(is_layout_file("aisle-grid"));
   try {

@@ -11,13 +11,16 @@ import sys
 import tempfile
 from collections import Counter
 
+import geojson_plant
 import lif_plant
 import opentcs_plant
 import rmf_plant
+import smap_plant
 import table_plant
 
 FORMATS = {".lif.json": ("lif", lif_plant.read), ".xml": ("opentcs", opentcs_plant.read),
-           ".yaml": ("rmf", rmf_plant.read), ".map": ("grid", table_plant.read_grid),
+           ".yaml": ("rmf", rmf_plant.read), ".geojson": ("geojson", geojson_plant.read),
+           ".smap": ("smap", smap_plant.read), ".map": ("grid", table_plant.read_grid),
            ".csv": ("csv", table_plant.read_csv), ".json": ("layout", table_plant.read_layout)}
 SMALLEST_CORE = 0.9
 CAMPAIGN = """horizon_s = 10

@@ -201,7 +201,7 @@ TEST_F(FleetRules, VehiclesOfAFileAreAFleet) {
   EXPECT_EQ(read(path("fleet.toml")), "# vehicles of " + today +
                                           "\n\n[[vehicle]]\nname = \"V 1\"\nlength_m = 1.4\nwidth_m = 0.7\n"
                                           "centre_ahead_m = 0.2\nspeed_mps = 1.2\nreverse_speed_mps = 0.4\n");
-  EXPECT_THAT(drawn.err, HasSubstr("details of vehicles are left out (\"height\", \"energyLevelCritical\")"));
+  EXPECT_THAT(drawn.err, HasSubstr("vehicle details are left out (\"height\", \"energyLevelCritical\")"));
   write("c.toml", campaign + today + "\"]\n" + read(path("fleet.toml")));
   const auto checked = run("check c.toml");
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
