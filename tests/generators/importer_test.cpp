@@ -68,8 +68,10 @@ TEST_F(ImporterTest, TheExtensionChooses) {
 {"properties": {"id": 2}, "geometry": {"type": "Point", "coordinates": [4, 0]}},
 {"properties": {"id": 3, "startid": 1, "endid": 2}, "geometry": {"type": "LineString", "coordinates": []}}]})";
   const std::string map =
-      R"({"advancedPointList": [{"instanceName": "a", "pos": {}}, {"instanceName": "b", "pos": {"x": 4}}],
-"advancedCurveList": [{"className": "StraightPath", "startPos": {"instanceName": "a"}, "endPos": {"instanceName": "b"}}]})";
+      R"({"advancedPointList": [
+{"instanceName": "a", "pos": {}}, {"instanceName": "b", "pos": {"x": 4}}],
+"advancedCurveList": [
+{"className": "StraightPath", "startPos": {"instanceName": "a"}, "endPos": {"instanceName": "b"}}]})";
   for (const char* name : {"k.geojson", "k.json"}) EXPECT_EQ(read(file(name, graph)).segments.size(), 1U) << name;
   for (const char* name : {"l.smap", "l.json"}) EXPECT_EQ(read(file(name, map)).segments.size(), 1U) << name;
   EXPECT_EQ(importer_of_file("PLANT.Xml"), "opentcs");

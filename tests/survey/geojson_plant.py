@@ -45,7 +45,8 @@ def read(path, level=None, graph=0):
     for feature in features:
         if feature["geometry"]["type"] == "Point":
             continue
-        start, end = next((str(said(feature, a)), str(said(feature, b))) for a, b in ENDS if said(feature, a) is not None)
+        start, end = next((str(said(feature, a)), str(said(feature, b))) for a, b in ENDS
+                          if said(feature, a) is not None)
         if start == end:
             continue
         one, other = stations[start], stations[end]
