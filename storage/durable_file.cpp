@@ -5,13 +5,12 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "core/base/error.hpp"
+#include "core/base/regular_file.hpp"
 
 namespace fleetproof {
 namespace {
@@ -44,16 +43,14 @@ int give_name(const std::string& from, const std::string& to) {
 }  // namespace
 
 bool same_bytes(const std::string& one, const std::string& other) {
-  std::ifstream first(one, std::ios::binary), second(other, std::ios::binary);
-  std::array<char, 65536> from_first, from_second;
-  while (first && second) {
-    first.read(from_first.data(), from_first.size());
-    second.read(from_second.data(), from_second.size());
-    if (first.gcount() != second.gcount() ||
-        std::memcmp(from_first.data(), from_second.data(), static_cast<std::size_t>(first.gcount())) != 0)
-      return false;
+  constexpr std::size_t kBlock = 65536;
+  RegularFile first(one), second(other);
+  if (first.size() != second.size()) return false;
+  while (true) {
+    const std::string block = first.read(kBlock);
+    if (block != second.read(kBlock)) return false;
+    if (block.size() < kBlock) return true;
   }
-  return first.eof() && second.eof();
 }
 
 void move_durably(const std::string& from, const std::string& to) {

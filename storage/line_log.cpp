@@ -14,9 +14,9 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 
 #include "core/base/error.hpp"
+#include "core/base/regular_file.hpp"
 #include "storage/beside.hpp"
 
 namespace fleetproof {
@@ -48,8 +48,10 @@ class OpenLog {
   std::string read() const {
     std::string text;
     std::array<char, 65'536> part;
-    for (ssize_t got = 0; (got = ::read(file_, part.data(), part.size())) > 0;)
+    for (ssize_t got = 0; (got = ::read(file_, part.data(), part.size())) > 0;) {
       text.append(part.data(), static_cast<std::size_t>(got));
+      if (text.size() > kLargestTextFile) fail(EFBIG);
+    }
     return text;
   }
   void append(const std::string& lines) const {
@@ -87,12 +89,17 @@ LogLine append_after(const std::string& path, const std::function<std::string(st
   return {lines + 1, line_hash(line)};
 }
 
-void require_log(const std::string& path, std::string_view first_words, std::string_view sentence) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return;
-  std::ifstream file(path);
-  std::string line;
-  if (std::getline(file, line) && !line.starts_with(first_words)) throw InputError(path, std::string(sentence));
+std::string read_log(const std::string& path, std::string_view first_words, std::string_view sentence) {
+  std::string text = read_text_file_if_there(path).value_or("");
+  const std::string_view first_line = std::string_view(text).substr(0, text.find('\n'));
+  if (!text.empty() && !first_line.starts_with(first_words)) throw InputError(path, sentence);
+  return text;
+}
+
+bool for_each_log_line(const std::string& path, const std::function<void(std::string_view line)>& visit) {
+  const auto text = read_text_file_if_there(path);
+  if (text) for_each_line(*text, visit);
+  return text.has_value();
 }
 
 void require_appendable(const std::string& path, std::string_view remedy) {

@@ -25,9 +25,13 @@ std::uint64_t line_hash(std::string_view line);  // without its end
 // meanwhile. Throws as append_lines.
 LogLine append_after(const std::string& path, const std::function<std::string(std::uint64_t hash_before)>& make);
 
-// Only a file that this program began is appended to. Throws InputError with `sentence` if the file is there, and its
-// first line does not begin with these words.
-void require_log(const std::string& path, std::string_view first_words, std::string_view sentence);
+// The text of a log; empty if nothing has the name. Only a file that this program began is appended to: throws
+// InputError with `sentence` if its first line does not begin with these words, and throws as read_text_file
+// (core/base/regular_file.hpp) if it is no such file.
+std::string read_log(const std::string& path, std::string_view first_words, std::string_view sentence);
+
+// Calls `visit` with each line of a log, whoever began it. False if nothing has the name. Throws as read_text_file.
+bool for_each_log_line(const std::string& path, const std::function<void(std::string_view line)>& visit);
 
 // Before work whose lines belong there. Throws InputError with `remedy` if this user may neither write the file nor
 // make it: it may be another user's.

@@ -10,8 +10,11 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
+#include "core/base/regular_file.hpp"
 #include "storage/schema.hpp"
 #include "storage/sqlite_errors.hpp"
+#include "storage/target_file.hpp"
 
 namespace fleetproof {
 namespace {
@@ -19,6 +22,30 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kBusyTimeoutMs = 5000;
+// Steps of SQLite's machine from one row to the next, some seconds of them. The queries of this program need a few
+// hundred, and to count every row of a large file some millions.
+constexpr int kMostSteps = 200'000'000;
+
+// A table that the program reads, with the first schema that has it and what is read of it.
+struct StoredTable {
+  const char* name;
+  std::int32_t since;
+  std::string (*values)(std::int32_t schema);
+};
+
+constexpr std::array<StoredTable, 11> kTables{{
+    {"campaign", 1, campaign_values},
+    {"cells", 1, cell_values},
+    {"gates", 1, gate_values},
+    {"runs", 1, run_values},
+    {"violations", 1, violation_values},
+    {"incidents", 1, [](std::int32_t) { return std::string(kIncidentColumns); }},
+    {"probes", 1, [](std::int32_t) { return std::string(kProbeColumns); }},
+    {"audits", kFirstChunked, audit_values},
+    {"recordings", kFirstChunked, [](std::int32_t) { return std::string(kRecordingColumns); }},
+    {"chunks", kFirstChunked, [](std::int32_t) { return std::string(kChunkColumns); }},
+    {"folded", kFirstFolded, [](std::int32_t) { return std::string(kFoldedColumns); }},
+}};
 
 [[noreturn]] void not_allowed(const std::string& path) {
   throw InputError(path,
@@ -75,6 +102,55 @@ std::int32_t schema_of(SQLite::Database& db, const std::string& path) {
   return static_cast<std::int32_t>(version);
 }
 
+[[noreturn]] void throw_foreign(const std::string& path, const std::string& what) {
+  throw InputError(path,
+                   what + ": fleetproof did not write this file; name a results file that `fleetproof run` wrote");
+}
+
+// The file is somebody else's: what it computes by itself may take for ever, and is no result. Nothing of it runs.
+void keep_foreign_code_off(SQLite::Database& db) {
+  for (const int setting :
+       {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW, SQLITE_DBCONFIG_TRUSTED_SCHEMA})
+    sqlite3_db_config(db.getHandle(), setting, 0, nullptr);
+  sqlite3_progress_handler(
+      db.getHandle(), kMostSteps, [](void*) { return 1; }, nullptr);
+}
+
+bool has_generated_column(SQLite::Database& db, const char* table) {
+  SQLite::Statement generated(db, "SELECT 1 FROM pragma_table_xinfo(?) WHERE hidden <> 0");
+  generated.bind(1, table);
+  return generated.executeStep();
+}
+
+void require_table(SQLite::Database& db, const std::string& path, const StoredTable& table, std::int32_t schema) {
+  SQLite::Statement found(db, "SELECT type, coalesce(sql, '') FROM main.sqlite_schema WHERE name = ? COLLATE NOCASE");
+  found.bind(1, table.name);
+  if (!found.executeStep()) throw_damaged(path, fmt::format("it has no table {}", table.name));
+  const std::string type = found.getColumn(0), sql = found.getColumn(1);
+  if (type != "table" || !sql.starts_with("CREATE TABLE "))
+    throw_foreign(path, fmt::format("{} is no table in it, but a {}", table.name,
+                                    type == "table" ? "virtual one" : printable(type, 20)));
+  if (has_generated_column(db, table.name))
+    throw_foreign(path, fmt::format("the table {} has a generated column", table.name));
+  try {
+    const SQLite::Statement readable(db, fmt::format("SELECT {} FROM main.{}", table.values(schema), table.name));
+  } catch (const SQLite::Exception& e) {
+    if (e.getErrorCode() != SQLITE_ERROR) throw;
+    throw_damaged(path,
+                  fmt::format("its table {} has not the columns of schema {} ({})", table.name, schema, e.what()));
+  }
+}
+
+// Before anything is read of them.
+void require_own_tables(SQLite::Database& db, const std::string& path, std::int32_t schema) {
+  SQLite::Statement triggers(db, "SELECT name FROM main.sqlite_schema WHERE type = 'trigger'");
+  if (triggers.executeStep())
+    throw_foreign(path, fmt::format("it has a trigger ({})", printable(triggers.getColumn(0).getString(), 40)));
+  for (const StoredTable& table : kTables) {
+    if (table.since <= schema) require_table(db, path, table, schema);
+  }
+}
+
 }  // namespace
 
 void throw_damaged(const std::string& path, const std::string& what) {
@@ -95,7 +171,7 @@ void require_readable(const std::string& path) {
                                          "what it stored so far is in {}.partial",
                                          path));
     }
-    throw InputError(path, "there is no such file");
+    const RegularFile says_why(path);
   }
   if (!fs::is_regular_file(path, error))
     throw InputError(path, "this is a pipe, a device or a socket; name a results file");
@@ -110,13 +186,15 @@ void require_readable(const std::string& path) {
 
 OpenedFile open_to_read(const std::string& path) {
   OpenedFile file;
-  file.db = std::make_unique<SQLite::Database>(fs::absolute(path).string(),
-                                               SQLite::OPEN_READONLY | SQLite::OPEN_NOMUTEX, kBusyTimeoutMs);
+  file.db = std::make_unique<SQLite::Database>(absolute_name(path), SQLite::OPEN_READONLY | SQLite::OPEN_NOMUTEX,
+                                               kBusyTimeoutMs);
   // The writer alone checkpoints: SQLite 3.40 may damage the file if two do it at the same instant.
   sqlite3_db_config(file.db->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   file.published = !has_write_ahead_log(*file.db);
   if (file.published) require_alone(path);
+  keep_foreign_code_off(*file.db);
   file.schema = schema_of(*file.db, path);
+  require_own_tables(*file.db, path, file.schema);
   return file;
 }
 

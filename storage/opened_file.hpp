@@ -20,8 +20,11 @@ struct OpenedFile {
   bool published = false;   // not a live file
 };
 
-// Throws InputError if the file is not a results file, if its schema is newer or too old, or if a journal of another
-// file stands beside it. Throws EngineError if it is damaged, SQLite::Exception if SQLite cannot read it.
+// Each table that this program reads is a table, with the columns of its schema. Views are never read, triggers and
+// functions of others never run, and a query that takes too many steps from one row to the next ends with an exception.
+// Throws InputError if the file is not a results file, if its schema is newer or too old, if a view or a generated
+// column takes the place of stored values, or if a journal of another file stands beside it. Throws EngineError if it
+// is damaged, SQLite::Exception if SQLite cannot read it.
 // Requires: require_readable.
 OpenedFile open_to_read(const std::string& path);
 

@@ -1,12 +1,13 @@
 #include "storage/sealed_content.hpp"
 
 #include <SQLiteCpp/Database.h>
-#include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
 
+#include <bit>
+
 #include "core/base/error.hpp"
-#include "storage/rows.hpp"
 #include "storage/schema.hpp"
+#include "storage/statement.hpp"
 
 namespace fleetproof {
 namespace {
@@ -41,21 +42,23 @@ void SealedContent::add_rest(SQLite::Database& db, std::int32_t schema) {
   if (in_chunk_ > 0) end_chunk();
   all_.add(chunks_.size());  // the lists have no marks between them, but counts
   std::uint64_t count = 0;
-  SQLite::Statement audits(db, fmt::format("SELECT {} FROM main.audits ORDER BY run_index",
-                                           schema < kFirstJudged ? "run_index, checksum" : kAuditColumns));
-  for (; audits.executeStep(); ++count) {
-    for (int column = 0; column < audits.getColumnCount(); ++column) {
-      if (column >= kAuditsAlways) all_.add(audits.isColumnNull(column) ? 0 : 1);
-      all_.add(unsigned_of(audits, column));
+  const auto add = [&](const Query& row, int column) { all_.add(std::bit_cast<std::uint64_t>(row.number(column))); };
+  Query audits(db, fmt::format("SELECT {} FROM main.audits ORDER BY run_index",
+                               schema < kFirstJudged ? "run_index, checksum" : kAuditColumns));
+  for (; audits.step(); ++count) {
+    for (int column = 0; column < audits.column_count(); ++column) {
+      if (column >= kAuditsAlways) all_.add(audits.is_null(column) ? 0 : 1);
+      add(audits, column);
     }
   }
   all_.add(count);
-  SQLite::Statement recordings(db, "SELECT run_index, checksum, calls FROM main.recordings ORDER BY run_index");
-  while (recordings.executeStep()) {
-    all_.add(unsigned_of(recordings, 0));
-    all_.add(unsigned_of(recordings, 1));
-    if (recording_checksum(recordings.getColumn(2).getString()) != unsigned_of(recordings, 1))
-      throw EngineError(fmt::format("the recording of run {} does not match its checksum", unsigned_of(recordings, 0)));
+  Query recordings(db, "SELECT run_index, checksum, calls FROM main.recordings ORDER BY run_index");
+  while (recordings.step()) {
+    add(recordings, 0);
+    add(recordings, 1);
+    const auto checksum = std::bit_cast<std::uint64_t>(recordings.number(1));
+    if (recording_checksum(std::string(recordings.bytes(2))) != checksum)
+      throw EngineError(fmt::format("the recording of run {} does not match its checksum", recordings.number(0)));
   }
 }
 

@@ -25,6 +25,10 @@ std::string remedy_for(int code) {
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
       return "it is damaged; use a copy of it, or run the campaign again";
+    case SQLITE_NOMEM:
+      return "there is not enough memory; give this program more of it, or close others";
+    case SQLITE_INTERRUPT:
+      return "reading it takes too many steps: fleetproof did not write it like this";
     default:
       return "the database refused";
   }

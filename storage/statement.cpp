@@ -46,6 +46,7 @@ void Query::bind(int parameter, const std::string& text) {
 bool Query::step() {
   const int code = sqlite3_step(statement_.get());
   if (code != SQLITE_ROW && code != SQLITE_DONE) statement_.require(code);
+  sqlite3_stmt_status(statement_.get(), SQLITE_STMTSTATUS_VM_STEP, 1);  // the limit of steps holds from row to row
   return code == SQLITE_ROW;
 }
 
@@ -58,9 +59,10 @@ std::string_view Query::bytes(int column) const {
   return {bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
 
+int Query::column_count() const { return sqlite3_column_count(statement_.get()); }
+
 int Query::column_of(const char* name) const {
-  const int columns = sqlite3_column_count(statement_.get());
-  for (int column = 0; column < columns; ++column) {
+  for (int column = 0; column < column_count(); ++column) {
     if (std::string_view(sqlite3_column_name(statement_.get(), column)) == name) return column;
   }
   invariant_violated("a query has the column that it is asked for");

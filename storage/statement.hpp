@@ -51,6 +51,7 @@ class Query final : public RowSource {
   std::string_view bytes(int column) const override;
   bool is_null(int column) const override;
   int column_of(const char* name) const;
+  int column_count() const;
 
  private:
   Prepared statement_;

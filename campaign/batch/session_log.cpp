@@ -13,8 +13,10 @@
 #include <sstream>
 
 #include "campaign/run/engine_identity.hpp"
+#include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
+#include "core/base/regular_file.hpp"
 #include "storage/line_log.hpp"
 
 namespace fleetproof {
@@ -70,7 +72,7 @@ Json json_of(const WorkerLoss& loss) {
 }
 
 // The file of an agent in one line of a log; empty: the line has none. The line may be of any kind, or damaged.
-std::string file_in(const std::string& line, const std::string& agent) {
+std::string file_in(std::string_view line, const std::string& agent) {
   const Json json = read_json(line);
   const Json* at = &json;
   for (const std::string& key : {std::string("plugins"), agent, std::string("file")}) {
@@ -84,10 +86,10 @@ std::string file_in(const std::string& line, const std::string& agent) {
 }  // namespace
 
 SessionLog::SessionLog(const std::string& archive_path) : path_(session_log_path(archive_path)) {
-  require_log(path_, kLogBeginning,
-              "this is no session log of fleetproof, and nothing is appended to it; give the results file another "
-              "name, or move this file away");
-  if (std::filesystem::exists(path_))  // else it is made beside the results file, whose place is looked at by itself
+  read_log(path_, kLogBeginning,
+           "this is no session log of fleetproof, and nothing is appended to it; give the results file another "
+           "name, or move this file away");
+  if (is_name_taken(path_))  // else it is made beside the results file, whose place is looked at by itself
     require_appendable(path_, "change the permissions, or give the results file another name");
 }
 
@@ -111,6 +113,10 @@ void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs,
                {"cpu", machine.cpu},
                {"cpu_has", machine.instructions},
                {"libraries", engine_identity().libraries + ", " + machine.c_library}};
+  if (!facts.campaign_file.empty()) {
+    line["campaign_file"] = facts.campaign_file;
+    line["campaign_sha256"] = sha256_of_file(facts.campaign_file);
+  }
   if (!facts.attempt.empty()) {
     line["attempt"] = facts.attempt;
     line["ledger_line"] = facts.ledger_line.number;
@@ -151,17 +157,19 @@ namespace {
 
 // The last text of this key at the top of a line of the log.
 std::string last_text(const std::string& archive_path, const char* key) {
-  std::ifstream file(session_log_path(archive_path));
   std::string found;
-  for (std::string line; std::getline(file, line);) {
+  for_each_log_line(session_log_path(archive_path), [&](std::string_view line) {
     const Json json = read_json(line);
-    if (!json.is_object() || !json.contains(key) || !json[key].is_string()) continue;
-    found = json[key].get<std::string>();
-  }
+    if (json.is_object() && json.contains(key) && json[key].is_string()) found = json[key].get<std::string>();
+  });
   return found;
 }
 
 }  // namespace
+
+RememberedFile remembered_campaign_file(const std::string& archive_path) {
+  return {last_text(archive_path, "campaign_file"), last_text(archive_path, "campaign_sha256")};
+}
 
 std::string remembered_ledger(const std::string& archive_path) { return last_text(archive_path, "ledger"); }
 
@@ -169,15 +177,14 @@ std::string remembered_attempt(const std::string& archive_path) { return last_te
 
 std::vector<LogLine> remembered_ledger_lines(const std::string& archive_path) {
   const std::string ledger = remembered_ledger(archive_path);
-  std::ifstream file(session_log_path(archive_path));
   std::vector<LogLine> found;
-  for (std::string line; std::getline(file, line);) {
+  for_each_log_line(session_log_path(archive_path), [&](std::string_view line) {
     const Json json = read_json(line);
-    if (!json.is_object() || json.find("ledger") == json.end() || json["ledger"] != ledger) continue;
+    if (!json.is_object() || json.find("ledger") == json.end() || json["ledger"] != ledger) return;
     const auto number = json.find("ledger_line"), hash = json.find("ledger_hash");
-    if (number == json.end() || !number->is_number_unsigned() || hash == json.end() || !hash->is_string()) continue;
+    if (number == json.end() || !number->is_number_unsigned() || hash == json.end() || !hash->is_string()) return;
     found.push_back({number->get<std::uint64_t>(), std::strtoull(hash->get<std::string>().c_str(), nullptr, 16)});
-  }
+  });
   return found;
 }
 
@@ -190,22 +197,20 @@ bool remembers_fresh_seed(const std::string& archive_path) { return last_text(ar
 std::string remembered_overrides(const std::string& archive_path) { return last_text(archive_path, "overrides"); }
 
 std::uint64_t remembered_disturbed(const std::string& archive_path) {
-  std::ifstream file(session_log_path(archive_path));
   std::uint64_t sum = 0;
-  for (std::string line; std::getline(file, line);) {
+  for_each_log_line(session_log_path(archive_path), [&](std::string_view line) {
     const Json json = read_json(line);
     const auto found = json.is_object() ? json.find("runs_disturbed") : json.end();
     if (found != json.end() && found->is_number_unsigned()) sum += found->get<std::uint64_t>();
-  }
+  });
   return sum;
 }
 
 std::string remembered_plugin(const std::string& archive_path, const std::string& agent) {
-  std::ifstream file(session_log_path(archive_path));
   std::string found;
-  for (std::string line; std::getline(file, line);) {
+  for_each_log_line(session_log_path(archive_path), [&](std::string_view line) {
     if (const std::string remembered = file_in(line, agent); !remembered.empty()) found = remembered;
-  }
+  });
   return found;
 }
 

@@ -18,6 +18,7 @@ struct SessionFacts {
   bool fresh_seed = false;
   std::string attempt{};  // its id, and the line of the ledger with which it began
   LogLine ledger_line{};
+  std::string campaign_file{};  // empty: none
 };
 
 // Of a shard: how many chunks it has, and how many of them are published.
@@ -43,6 +44,12 @@ class SessionLog {
 
 // The file of the plug-in with this agent, as the last session remembers it; empty: no session does.
 std::string remembered_plugin(const std::string& archive_path, const std::string& agent);
+
+// The campaign file of the last session that names one, and its SHA-256 then; empty: none does.
+struct RememberedFile {
+  std::string path, sha256;
+};
+RememberedFile remembered_campaign_file(const std::string& archive_path);
 
 // The ledger that the last session wrote to; empty: no session says so.
 std::string remembered_ledger(const std::string& archive_path);

@@ -10,19 +10,21 @@
 #include "campaign/batch/session_log.hpp"
 #include "campaign/plan/plan.hpp"
 #include "core/base/error.hpp"
+#include "core/base/regular_file.hpp"
 #include "reports/attempts/looks.hpp"
 #include "storage/line_log.hpp"
+#include "storage/target_file.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
 std::string named_ledger(const std::string& ledger, const std::string& archive) {
-  return std::filesystem::absolute(ledger.empty() ? default_ledger(archive) : ledger).lexically_normal().string();
+  return std::filesystem::path(absolute_name(ledger.empty() ? default_ledger(archive) : ledger))
+      .lexically_normal()
+      .string();
 }
 
-bool has_runs(const std::string& archive) {
-  return std::filesystem::exists(archive) || std::filesystem::exists(archive + ".partial");
-}
+bool has_runs(const std::string& archive) { return is_name_taken(archive) || is_name_taken(archive + ".partial"); }
 
 std::string random_id() {
   std::random_device device;
@@ -37,12 +39,12 @@ AttemptLog::AttemptLog(const std::string& ledger, const Campaign& campaign)
       is_claim_(campaign.record.kind == name_of(CampaignKind::Claim)),
       goes_on_(!campaign.overwrite && has_runs(campaign.archive)),
       overwrites_(campaign.overwrite && has_runs(campaign.archive)) {
-  attempt_.archive = std::filesystem::absolute(campaign.archive).lexically_normal().string();
+  attempt_.archive = std::filesystem::path(absolute_name(campaign.archive)).lexically_normal().string();
   attempt_.release = campaign.release;
   attempt_.planned_runs = campaign.planned_runs;
   attempt_.fresh_seed = campaign.fresh_seed;
   // One that is not named and not there yet is made beside the results file, whose place is looked at by itself.
-  if (is_claim_ && (!ledger.empty() || std::filesystem::exists(ledger_.path())))
+  if (is_claim_ && (!ledger.empty() || is_name_taken(ledger_.path())))
     require_appendable(ledger_.path(), "change the permissions, or name another ledger by --ledger");
 }
 
@@ -76,27 +78,55 @@ void AttemptLog::end(const ReportInput& input) {
   ledger_.end(attempt_);
 }
 
-void add_history(ReportInput& input, const std::string& ledger) {
-  std::string path = ledger.empty() ? remembered_ledger(input.archive_path) : ledger;
-  if (ledger.empty() && !std::filesystem::exists(path)) path = default_ledger(input.archive_path);
-  const std::vector<LogLine> begins = remembered_ledger_lines(input.archive_path);
-  input.attempts.ledger_lost_line = !begins.empty();
+namespace {
+
+// Why the session log cannot be read; empty if it can, or if there is none.
+std::string session_log_trouble(const std::string& archive_path) {
+  try {
+    for_each_log_line(session_log_path(archive_path), [](std::string_view) {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// A file that nobody named tells nothing if it cannot be read, and stops no report.
+AttemptHistory history_in(const std::string& ledger, const std::string& path, const CampaignRecord& campaign,
+                          const std::vector<LogLine>& begins) {
+  AttemptHistory history;
+  history.ledger_lost_line = !begins.empty();
   try {
     const AttemptLedger known(path);
-    input.attempts = attempt_history(known, input.campaign);
-    input.attempts.ledger_lost_line =
-        !std::ranges::all_of(begins, [&](const LogLine& line) { return known.has(line); });
-  } catch (const InputError&) {
-    if (!ledger.empty()) throw;  // nobody named it: a foreign file of this name tells nothing, and stops no report
+    history = attempt_history(known, campaign);
+    history.ledger_lost_line = !std::ranges::all_of(begins, [&](const LogLine& line) { return known.has(line); });
+  } catch (const InputError& error) {
+    if (!ledger.empty()) throw;
+    history.ledger_trouble = error.what();
   }
-  input.attempts.has_session_log = std::filesystem::exists(session_log_path(input.archive_path));
+  return history;
+}
+
+}  // namespace
+
+void add_history(ReportInput& input, const std::string& ledger) {
+  const std::string& archive = input.archive_path;
+  const std::string trouble = session_log_trouble(archive);
+  const bool has_log = trouble.empty() && is_name_taken(session_log_path(archive));
+  std::string path = ledger;
+  if (path.empty() && has_log) path = remembered_ledger(archive);
+  if (ledger.empty() && !is_name_taken(path)) path = default_ledger(archive);
+  const std::vector<LogLine> begins = has_log ? remembered_ledger_lines(archive) : std::vector<LogLine>();
+  input.attempts = history_in(ledger, path, input.campaign, begins);
+  input.attempts.has_session_log = has_log;
+  input.attempts.session_log_trouble = trouble;
   input.attempts.names_no_ledger = begins.empty() && input.campaign.kind == name_of(CampaignKind::Claim);
-  input.attempts.was_merged = !remembered_shard(input.archive_path).empty();
-  input.attempts.looks = looks_at(input.archive_path);
-  input.sensitivity = sensitivity_beside(input.archive_path, input.campaign);
-  input.findings = findings_beside(input.archive_path, input.campaign.plan_hash, input.stored_runs);
-  input.attempts.overrides = remembered_overrides(input.archive_path);
-  input.attempts.disturbed_runs = remembered_disturbed(input.archive_path);
+  input.sensitivity = sensitivity_beside(archive, input.campaign);
+  input.findings = findings_beside(archive, input.campaign.plan_hash, input.stored_runs);
+  if (!has_log) return;
+  input.attempts.was_merged = !remembered_shard(archive).empty();
+  input.attempts.looks = looks_at(archive);
+  input.attempts.overrides = remembered_overrides(archive);
+  input.attempts.disturbed_runs = remembered_disturbed(archive);
 }
 
 }  // namespace fleetproof::cli

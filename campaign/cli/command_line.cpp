@@ -1,12 +1,18 @@
 #include "campaign/cli/command_line.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
 #include <memory>
+#include <new>
 #include <sstream>
+#include <system_error>
 
 #include "campaign/cli/manual.hpp"
 #include "campaign/cli/streams.hpp"
@@ -80,6 +86,24 @@ int say(int code, std::string_view kind, std::string_view what) {
   return code;
 }
 
+// The system refused: a folder that is gone, a link to itself, no memory or no room for a thread.
+int say_machine(const std::system_error& error) {
+  std::error_code gone;
+  (void)std::filesystem::current_path(gone);
+  if (gone)
+    return say(kBadInput, "error",
+               fmt::format("the current folder cannot be found ({}); change into one that is there", gone.message()));
+  const auto* of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
+  if (of_file == nullptr)
+    return say(kEngineFault, "error",
+               fmt::format("the system refused ({}); give this program more memory and processes, or use fewer workers "
+                           "(--jobs)",
+                           error.code().message()));
+  return say(kBadInput, "error",
+             fmt::format("{}: cannot be used ({}); correct the path, or look at its permissions",
+                         printable(of_file->path1().string()), error.code().message()));
+}
+
 int perform(const Action& action) {
   try {
     return action();
@@ -93,9 +117,29 @@ int perform(const Action& action) {
     return say(kEngineFault, "engine fault", error.what());
   } catch (const InvariantViolation& error) {
     return say(kEngineFault, "engine fault (a bug of fleetproof)", error.what());
+  } catch (const std::bad_alloc&) {
+    return say(
+        kEngineFault, "error",
+        "there is not enough memory; give this program more of it, use fewer workers (--jobs), or a smaller case");
+  } catch (const std::system_error& error) {
+    return say_machine(error);
   } catch (const std::exception& error) {
     return say(kEngineFault, "engine fault", error.what());
   }
+}
+
+// A library ends the program if it gets no thread: then nobody is left to catch what it threw.
+[[noreturn]] void end_without_catcher() {
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const InvariantViolation&) {  // its place is in the stack
+  } catch (const std::exception& error) {
+    say(kEngineFault, "error",
+        fmt::format("the program cannot go on ({}); give it more memory and processes, or use fewer workers (--jobs)",
+                    printable(error.what())));
+    ::_exit(kEngineFault);
+  }
+  std::abort();
 }
 
 std::vector<std::string> options_of(const CLI::App& verb) {
@@ -154,6 +198,7 @@ std::string exit_codes_text() {
 }
 
 int run_command_line(std::span<const Verb> verbs, int argc, const char* const* argv) {
+  std::set_terminate(end_without_catcher);
   if (argc == 2) {  // for the package, not for people
     const std::string_view word = argv[1];
     if (word == "--man-page") return put_text(man_page(verbs, engine_identity().version)), kDemonstrated;

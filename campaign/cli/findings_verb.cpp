@@ -22,6 +22,7 @@
 #include "generators/text/text_file.hpp"
 #include "reports/findings/mechanism_record.hpp"
 #include "reports/page/wording.hpp"
+#include "storage/target_file.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -87,8 +88,7 @@ class FindingsOfCampaign {
   const KnownFailure& representative(const Finding& finding) const { return survey_.failures[finding.representative]; }
 
   void add_new(AgentHosts& hosts) {
-    std::string text = std::filesystem::exists(words_.file) ? read_text_file(words_.file)
-                                                            : "# findings: what is known about failures\n";
+    std::string text = read_text_file_if_there(words_.file).value_or("# findings: what is known about failures\n");
     for (const Finding& finding : findings_) {
       if (kept(finding) != nullptr) continue;
       ++new_;
@@ -158,7 +158,7 @@ class FindingsOfCampaign {
   std::string plugin_words(const std::string& program) const {
     const AgentProgram& agent = programs_.program(program, "findings");
     if (!agent.is_plugin()) return "";
-    const auto folder = std::filesystem::absolute(file_.path_beside(".")).lexically_normal();
+    const auto folder = std::filesystem::path(absolute_name(file_.path_beside("."))).lexically_normal();
     const auto file = std::filesystem::path(agent.file).lexically_normal();
     return " --plugin " + shell_word(file.lexically_proximate(folder).string());
   }

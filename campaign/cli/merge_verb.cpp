@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <fstream>
 #include <memory>
-#include <sstream>
 
 #include "campaign/batch/session_log.hpp"
 #include "campaign/cli/archive_name.hpp"
@@ -14,6 +12,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/shards/merge.hpp"
 #include "core/base/error.hpp"
+#include "core/base/regular_file.hpp"
 #include "reports/page/wording.hpp"
 #include "storage/line_log.hpp"
 
@@ -27,19 +26,13 @@ struct MergeWords {
   bool overwrite = false, until_verdict = false, exit_zero = false, json = false;
 };
 
-std::string text_of(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 // What the shards noted goes on beside the results file, once.
 void copy_session_logs(const PublishedChunks& chunks, const std::string& archive) {
   for (const std::string& session : chunks.sessions()) {
-    std::string lines = text_of(session_log_path(session));
+    std::string lines = read_text_file_if_there(session_log_path(session)).value_or("");
     if (!lines.empty() && lines.back() != '\n') lines += '\n';
-    if (text_of(session_log_path(archive)).find(lines) == std::string::npos)
-      append_lines(session_log_path(archive), lines);
+    const std::string log = session_log_path(archive);
+    if (read_text_file_if_there(log).value_or("").find(lines) == std::string::npos) append_lines(log, lines);
   }
 }
 

@@ -63,7 +63,7 @@ int told_to_ci(const ReportInput& input, const ReportWords& words) {
 void show_history(ReportInput& input, const ReportWords& words) {
   try {
     if (!input.evidence.complete()) note_look(words.archive, input.stored_runs);
-  } catch (const MachineError& error) {
+  } catch (const std::runtime_error& error) {  // of the log
     talk("this look at the campaign is not counted: {}\n", error.what());
   }
   add_history(input, words.ledger);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +15,7 @@
 #include "campaign/shrink/trial_file.hpp"
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
+#include "core/base/regular_file.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "reports/page/wording.hpp"
 
@@ -86,7 +86,7 @@ void put_result(const ShrinkWords& words, const FailingCase& original, const Shr
 // What an earlier search of this case has left in the file, if it still fails in the same way.
 std::optional<FailingCase> found_before(const ShrinkWords& words, CaseHost& host, const CaseSource& source,
                                         const FailurePattern& pattern) {
-  if (!std::filesystem::exists(words.out)) return std::nullopt;
+  if (!is_name_taken(words.out)) return std::nullopt;
   Scenario before;
   try {
     before = read_case_file(words.out);

@@ -13,6 +13,7 @@
 #include "campaign/shards/slurm_jobs.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "storage/target_file.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -27,7 +28,7 @@ struct SubmitWords {
   bool go = false;
 };
 
-std::string absolute(const std::string& path) { return fs::absolute(path).lexically_normal().string(); }
+std::string absolute(const std::string& path) { return fs::path(absolute_name(path)).lexically_normal().string(); }
 
 ClusterJob job_of(const SubmitWords& words, const std::string& campaign_name) {
   ClusterJob job;

@@ -15,6 +15,7 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/base/regular_file.hpp"
 #include "generators/scenario_file/scenario_file.hpp"
 #include "laws/laws.hpp"
 
@@ -252,7 +253,7 @@ KnownIssue read_finding(TomlTable& table) {
 }  // namespace
 
 FindingsFile::FindingsFile(std::string path) : path_(std::move(path)) {
-  if (!std::filesystem::exists(path_)) return;
+  if (!is_name_taken(path_)) return;
   TomlTable root = TomlTable::read(path_);
   for (TomlTable& table : root.tables("finding")) {
     findings_.push_back(read_finding(table));

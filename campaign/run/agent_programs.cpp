@@ -15,6 +15,7 @@
 #include "core/engine/processor_state.hpp"
 #include "core/engine/simulation.hpp"
 #include "generators/text/text_file.hpp"
+#include "storage/target_file.hpp"
 
 namespace fleetproof {
 namespace {
@@ -64,7 +65,7 @@ std::string AgentPrograms::load(const std::string& path, bool global_symbols) {
   if (!std::filesystem::is_regular_file(path, ignored))
     throw InputError(path, "there is no such agent file; build the shared object or correct the path");
   // An absolute name keeps dlopen from searching the system's library folders.
-  const std::string file = std::filesystem::absolute(path).string();
+  const std::string file = absolute_name(path);
   void* object = dlopen(file.c_str(), RTLD_NOW | (global_symbols ? RTLD_GLOBAL : RTLD_LOCAL));
   if (object == nullptr) throw InputError(path, fmt::format("cannot be loaded as a shared object: {}", dlerror()));
   objects_.push_back(object);

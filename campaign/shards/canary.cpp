@@ -15,6 +15,7 @@
 #include "campaign/workers/run_host.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/base/regular_file.hpp"
 #include "storage/checksum.hpp"
 #include "storage/durable_file.hpp"
 
@@ -60,16 +61,13 @@ std::vector<std::string> lines_of(std::istream& text) {
 }
 
 std::vector<std::string> lines_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw MachineError(path + ": this file is missing; run a shard of this folder again, which writes it");
-  std::ostringstream text;
-  text << file.rdbuf();
-  const std::string bytes = std::move(text).str();
-  if (!bytes.ends_with('\n'))
+  const auto bytes = read_text_file_if_there(path);
+  if (!bytes) throw MachineError(path + ": this file is missing; run a shard of this folder again, which writes it");
+  if (!bytes->ends_with('\n'))
     throw MachineError(path +
                        ": this file is empty or incomplete; remove it and run a shard of this folder again, "
                        "which writes it");
-  std::istringstream lines(bytes);
+  std::istringstream lines(*bytes);
   return lines_of(lines);
 }
 

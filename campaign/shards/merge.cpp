@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "campaign/shards/canary.hpp"
 #include "campaign/shards/shard_run.hpp"
 #include "core/base/error.hpp"
+#include "core/base/regular_file.hpp"
 #include "reports/evidence/quiet_run.hpp"
 #include "storage/archive_writer.hpp"
 #include "storage/checksum.hpp"
@@ -170,7 +170,7 @@ std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& pat
   RunLedger ledger;
   std::optional<std::uint64_t> stop;
   // A program that was killed after it published has left the file that this one is about to write.
-  const bool is_there = !options.overwrite && holds_results(path) && !std::filesystem::exists(path + ".partial");
+  const bool is_there = !options.overwrite && holds_results(path) && !is_name_taken(path + ".partial");
   const std::string target = is_there ? path + kAgain : path;
   ArchiveWriter archive(target, plan, options.overwrite || is_there ? Existing::Replace : Existing::Refuse, {},
                         LiveName::Merging);

@@ -12,21 +12,26 @@
 #include "core/base/error.hpp"
 
 namespace fleetproof {
-namespace {
 
-std::string folder() {
+std::string temporary_folder() {
   std::error_code error;
   const auto path = std::filesystem::temp_directory_path(error);
-  return error ? "/tmp" : path.string();
+  if (!error) return path.string();
+  const char* named = std::getenv("TMPDIR");
+  throw InputError("TMPDIR",
+                   fmt::format("names \"{}\", which is no folder that can be used ({}); make it, or name another",
+                               named != nullptr ? named : "/tmp", error.message()));
 }
 
+namespace {
+
 [[noreturn]] void failed(const char* what) {
-  throw MachineError(fmt::format("{}: {} ({}); free some space there, or name another folder with TMPDIR", folder(),
-                                 what, std::strerror(errno)));
+  throw MachineError(fmt::format("{}: {} ({}); free some space there, or name another folder with TMPDIR",
+                                 temporary_folder(), what, std::strerror(errno)));
 }
 
 int open_unnamed() {
-  std::string name = folder() + "/fleetproof-chunk-XXXXXX";
+  std::string name = temporary_folder() + "/fleetproof-chunk-XXXXXX";
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
   if (file < 0) failed("no temporary file can be made");
   ::unlink(name.c_str());

@@ -7,6 +7,9 @@
 
 namespace fleetproof {
 
+// $TMPDIR, or else /tmp. Throws InputError if it is no folder.
+std::string temporary_folder();
+
 // The encoded runs of one chunk until it is published: they finish in any order, and are read in theirs. The bytes lie
 // in a file of the local folder for temporary files ($TMPDIR), which nobody else sees and which ends with the process.
 // Throws MachineError if the disk fails. Threads: one.

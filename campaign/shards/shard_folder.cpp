@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <random>
 
+#include "campaign/shards/run_spool.hpp"
 #include "core/base/error.hpp"
+#include "core/base/regular_file.hpp"
 #include "storage/archive_reader.hpp"
 #include "storage/archive_writer.hpp"
 #include "storage/durable_file.hpp"
@@ -43,7 +48,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   std::error_code error;
   for (auto entry = fs::recursive_directory_iterator(folder, error); !error && entry != fs::end(entry);
        entry.increment(error)) {
-    if (!entry->is_directory() && !entry->path().filename().string().starts_with(kTemporary))
+    std::error_code none;
+    if (!entry->is_directory(none) && !entry->path().filename().string().starts_with(kTemporary))
       files.push_back(entry->path());
   }
   if (error) throw InputError(folder.string(), fmt::format("cannot be read ({})", error.message()));
@@ -129,7 +135,7 @@ namespace {
 // A folder of this machine, which goes with the object.
 class LocalFolder {
  public:
-  LocalFolder() : path_((fs::temp_directory_path() / "fleetproof-plan-XXXXXX").string()) {
+  LocalFolder() : path_(temporary_folder() + "/fleetproof-plan-XXXXXX") {
     if (::mkdtemp(path_.data()) == nullptr)
       throw MachineError(fmt::format("{}: no folder can be made here; name another place with TMPDIR", path_));
   }
@@ -145,11 +151,15 @@ class LocalFolder {
   std::string path_;
 };
 
+// A plan is no larger than a text that this program reads, and anybody may have put another file into the folder.
 void copy(const std::string& from, const std::string& to) {
-  std::error_code error;
-  if (!fs::copy_file(from, to, error))
+  const std::string bytes = read_text_file(from);
+  std::ofstream file(to, std::ios::binary);
+  file << bytes;
+  file.close();
+  if (!file)
     throw MachineError(fmt::format("{}: cannot be copied to {} ({}); free some space, or name another folder", from, to,
-                                   error.message()));
+                                   std::strerror(errno)));
 }
 
 }  // namespace
@@ -174,7 +184,7 @@ StoredPlan read_plan(const ShardFolder& folder) {
 
 void publish_plan(const ShardFolder& folder, const StoredPlan& plan) {
   const std::string target = folder.plan_file(), temporary = ShardFolder::temporary_name(target);
-  if (fs::exists(target)) return;
+  if (is_name_taken(target)) return;
   const LocalFolder local;
   ArchiveWriter(local.plan(), plan).publish(0);
   copy(local.plan(), temporary);

@@ -21,15 +21,14 @@ constexpr std::size_t kDigits = 16;
 TrialFile::TrialFile(std::string path, const std::string& identity) : path_(std::move(path)) {
   const std::string heading = std::string(kTrialsBeginning) + identity;
   read(heading);
-  if (!std::filesystem::exists(path_)) append_lines(path_, heading + "\n");
+  if (!is_name_taken(path_)) append_lines(path_, heading + "\n");
 }
 
 // A last line without its end was cut off when the program was killed.
 void TrialFile::read(const std::string& heading) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path_, ignored)) return;
-  require_log(path_, kTrialsBeginning, "is there already and is no record of trials; name another file by --output");
-  const std::string text = read_text_file(path_);
+  const std::string text =
+      read_log(path_, kTrialsBeginning, "is there already and is no record of trials; name another file by --output");
+  if (text.empty()) return;
   std::size_t at = text.find('\n');
   if (at == std::string::npos || text.substr(0, at) != heading) return remove();
   for (std::size_t end = text.find('\n', ++at); end != std::string::npos; at = end + 1, end = text.find('\n', at)) {

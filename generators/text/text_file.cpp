@@ -17,8 +17,6 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{64} << 20;
-
 // Closes its descriptor in the end.
 class Descriptor {
  public:
@@ -84,17 +82,6 @@ void sync_folder_of(const std::string& path) {
   if (opened.is_open()) (void)::fsync(opened.number());
 }
 
-struct Packing {
-  std::string_view beginning, sentence;
-};
-constexpr Packing kPackings[] = {
-    {"\x1f\x8b", "is packed with gzip; unpack it with gunzip, and name the file that comes out"},
-    {"PK\x03\x04", "is a ZIP archive, as spreadsheets (.xlsx) are, too; unpack it, or save the sheet as CSV"},
-    {"BZh", "is packed with bzip2; unpack it with bunzip2, and name the file that comes out"},
-    {"\xfd\x37zXZ", "is packed with xz; unpack it with unxz, and name the file that comes out"},
-    {"\x28\xb5\x2f\xfd", "is packed with zstd; unpack it with unzstd, and name the file that comes out"},
-};
-
 // How many bytes the character has that begins here; 0: none of UTF-8 does.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -113,58 +100,6 @@ std::size_t utf8_length(std::string_view text) {
 }
 
 }  // namespace
-
-std::string_view what_else_stands_at(const std::string& path) {
-  using Type = std::filesystem::file_type;
-  std::error_code ignored;
-  switch (std::filesystem::status(path, ignored).type()) {
-    case Type::directory:
-      return "is a folder";
-    case Type::fifo:
-      return "is a pipe";
-    case Type::socket:
-      return "is a socket";
-    case Type::block:
-    case Type::character:
-      return "is a device";
-    default:
-      return {};
-  }
-}
-
-std::string read_beginning(const std::string& path, std::size_t most) {
-  if (const auto what = what_else_stands_at(path); !what.empty())
-    throw InputError(path, fmt::format("{}; name a regular file", what));
-  // A pipe may have replaced the file since the check. Without O_NONBLOCK, open() would then wait for a writer.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
-  if (!file.is_open() && (errno == ENOENT || errno == ENOTDIR)) throw InputError(path, "there is no such file");
-  if (!file.is_open())
-    throw InputError(path, fmt::format("cannot be opened ({}); check its permissions", std::strerror(errno)));
-  struct stat status {};
-  if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode))
-    throw InputError(path, "is no regular file; name one");
-  std::string text;
-  char buffer[65536];
-  while (text.size() < most) {
-    const auto count = ::read(file.number(), buffer, std::min(sizeof buffer, most - text.size()));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0)
-      throw InputError(path, fmt::format("cannot be read to its end ({}); check the disk", std::strerror(errno)));
-    if (count == 0) break;
-    text.append(buffer, static_cast<std::size_t>(count));
-  }
-  return text;
-}
-
-std::string read_text_file(const std::string& path) {
-  std::string text = read_beginning(path, kLargestFile + 1);
-  if (text.size() > kLargestFile)
-    throw InputError(path, "is larger than 64 MiB, which no layout or scenario is; check the file name");
-  for (const auto& [beginning, sentence] : kPackings) {
-    if (text.starts_with(beginning)) throw InputError(path, sentence);
-  }
-  return text;
-}
 
 void require_utf8(std::string_view text, std::string_view source) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))

@@ -5,19 +5,9 @@
 #include <string_view>
 
 #include "core/base/outside_text.hpp"
+#include "core/base/regular_file.hpp"
 
 namespace fleetproof {
-
-// What stands under a path that should be a regular file: "is a folder", "is a pipe", ... Nothing for a regular file
-// (or a link to one) and for a path where nothing stands. The file is not opened: a pipe could keep its reader waiting
-// for ever.
-std::string_view what_else_stands_at(const std::string& path);
-
-// The whole file. InputError if there is no such regular file, if it cannot be read, if it is packed (gzip, ZIP, ...),
-// or if it is larger than 64 MiB.
-std::string read_text_file(const std::string& path);
-// Its first bytes, `most` of them if it has so many. InputError as above, but of no size.
-std::string read_beginning(const std::string& path, std::size_t most);
 
 // Throws InputError if a text that has to be UTF-8 begins as UTF-16 does, or has a byte that is none of UTF-8, as texts
 // in Latin-1 have.

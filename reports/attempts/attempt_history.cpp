@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
 #include "reports/page/wording.hpp"
 
@@ -12,13 +10,6 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kMostTold = 3;
-
-// Something of this name is there, but it is a folder, or a file without the permission.
-bool is_unreadable(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::exists(path, ignored) &&
-         !(std::filesystem::is_regular_file(path, ignored) && std::ifstream(path).is_open());
-}
 
 // Software that does not always do the same may be run until its verdict is the right one.
 bool had_other_luck(const Attempt& attempt, const Attempt& own) {
@@ -44,7 +35,6 @@ std::string told(const Attempt& attempt) {
 AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord& campaign) {
   AttemptHistory history;
   const auto& attempts = ledger.attempts();
-  if (is_unreadable(ledger.path())) history.ledger = ledger.path();
   if (attempts.empty()) return history;
   history.ledger = ledger.path();
   history.broken_lines = ledger.broken_lines();
@@ -116,7 +106,12 @@ std::string software_sentence(const AttemptHistory& history, double risk) {
 
 std::string trouble_sentences(const AttemptHistory& history) {
   std::string text;
-  if (!history.has_session_log)
+  if (!history.session_log_trouble.empty())
+    text += fmt::format(
+        " The session log beside the results file cannot be read ({}): who made it, when, and by which ledger is not "
+        "known.",
+        printable(history.session_log_trouble, 400));
+  else if (!history.has_session_log)
     text += " There is no session log beside the results file: who made it, when, and by which ledger is not known.";
   if (history.has_session_log && history.names_no_ledger)
     text += " The session log names no line of a ledger: it was changed, or an older program wrote it.";
@@ -141,8 +136,9 @@ std::string trouble_sentences(const AttemptHistory& history) {
 }  // namespace
 
 std::string attempts_sentence(const AttemptHistory& history, double risk) {
-  if (is_unreadable(history.ledger))
-    return fmt::format("Earlier attempts unknown: the ledger {} cannot be read.", printable(history.ledger)) +
+  if (!history.ledger_trouble.empty())
+    return fmt::format("Earlier attempts unknown: the ledger cannot be read ({}).",
+                       printable(history.ledger_trouble, 400)) +
            trouble_sentences(history);
   if (history.ledger.empty() || !history.own)
     return "Earlier attempts unknown: no ledger of attempts tells of this campaign." + trouble_sentences(history);

@@ -12,9 +12,10 @@ namespace fleetproof {
 // What a ledger tells about a results file: how often somebody tried before. A campaign that is run again with the
 // same plan has the same runs, so that attempts count by their worlds.
 struct AttemptHistory {
-  std::string ledger;          // empty: none was read
-  std::string since_utc;       // the begin of the oldest attempt in it
-  std::optional<Attempt> own;  // that of this results file
+  std::string ledger;            // empty: none was read
+  std::string ledger_trouble{};  // why it cannot be read: "attempts.jsonl: is a folder; name a regular file"
+  std::string since_utc;         // the begin of the oldest attempt in it
+  std::optional<Attempt> own;    // that of this results file
   // For the same release: in other worlds, the last of each plan; and in the same worlds, those that ended after as
   // many runs with another verdict.
   std::vector<Attempt> others;
@@ -25,8 +26,9 @@ struct AttemptHistory {
   std::optional<std::uint64_t> first_foreign_line{};  // of the ledger, which somebody has changed
   // The session log beside the results file tells these; a caller adds them.
   bool has_session_log = true;
-  bool names_no_ledger = false;   // the session log of a claim, although each of them writes into one
-  bool was_merged = false;        // from shards, which write into no ledger
+  std::string session_log_trouble{};  // why it cannot be read
+  bool names_no_ledger = false;       // the session log of a claim, although each of them writes into one
+  bool was_merged = false;            // from shards, which write into no ledger
   bool ledger_lost_line = false;  // the ledger has not the line that the session log names: it is gone or another one
   std::optional<std::uint64_t> looks{};  // at the results; absent: not known
   std::uint64_t disturbed_runs = 0;      // whose first worker was killed or waited too long, and whose second was not

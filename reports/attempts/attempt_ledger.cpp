@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
 #include "core/base/random.hpp"
+#include "core/base/regular_file.hpp"
 #include "reports/page/wording.hpp"
 #include "storage/line_log.hpp"
 
@@ -44,17 +44,16 @@ bool flag_in(const Json& json, const char* key) {
 }  // namespace
 
 AttemptLedger::AttemptLedger(std::string path) : path_(std::move(path)) {
-  require_log(path_, kFirstWords,
-              "this is no ledger of attempts, and nothing is appended to it; name another with --ledger");
-  std::ifstream file(path_);
-  for (std::string line; std::getline(file, line);) take(line);
+  const std::string text = read_log(
+      path_, kFirstWords, "this is no ledger of attempts, and nothing is appended to it; name another with --ledger");
+  for_each_line(text, [&](std::string_view line) { take(line); });
 }
 
 bool AttemptLedger::has(const LogLine& line) const {
   return line.number >= 1 && line.number <= hashes_.size() && hashes_[line.number - 1] == line.hash;
 }
 
-void AttemptLedger::take(const std::string& line) {
+void AttemptLedger::take(std::string_view line) {
   const Json json = read_json(line);
   const std::uint64_t before = hashes_.empty() ? 0 : hashes_.back();
   hashes_.push_back(line_hash(line));

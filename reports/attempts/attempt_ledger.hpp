@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "storage/line_log.hpp"
@@ -36,7 +37,7 @@ struct Attempt {
 // Lines are only ever appended, and each names the hash of the one before it. Threads: one.
 class AttemptLedger {
  public:
-  // Throws InputError if the file exists and is no ledger.
+  // Throws InputError if something has the name and is no ledger.
   explicit AttemptLedger(std::string path);
 
   const std::string& path() const { return path_; }
@@ -52,7 +53,7 @@ class AttemptLedger {
   void end(const Attempt& attempt);
 
  private:
-  void take(const std::string& line);
+  void take(std::string_view line);
 
   std::string path_;
   std::vector<std::uint64_t> hashes_;  // of its lines

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -15,16 +13,14 @@ namespace {
 
 // By the number of runs that were there.
 std::optional<std::set<std::uint64_t>> looks_in(const std::string& log) {
-  std::ifstream file(log);
-  if (!file) return std::nullopt;
   std::set<std::uint64_t> looks;
-  for (std::string line; std::getline(file, line);) {
+  const bool is_there = for_each_log_line(log, [&](std::string_view line) {
     const auto json = read_sorted_json(line);
-    if (!json.is_object() || !(json.contains("ended_utc") || json.contains("looked_utc"))) continue;
+    if (!json.is_object() || !(json.contains("ended_utc") || json.contains("looked_utc"))) return;
     if (const auto runs = json.find("runs_stored"); runs != json.end() && runs->is_number_unsigned())
       looks.insert(runs->get<std::uint64_t>());
-  }
-  return looks;
+  });
+  return is_there ? std::optional(looks) : std::nullopt;
 }
 
 }  // namespace

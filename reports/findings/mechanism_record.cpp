@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/base/regular_file.hpp"
 #include "reports/page/wording.hpp"
 #include "storage/beside.hpp"
 
@@ -88,9 +88,14 @@ std::string findings_path(const std::string& archive_path) { return beside(archi
 
 MechanismFile findings_beside(const std::string& archive_path, std::uint64_t plan_hash, std::uint64_t stored_runs) {
   const std::string path = findings_path(archive_path);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
-  auto record = parse_findings({std::istreambuf_iterator<char>(file), {}});
+  std::optional<std::string> text;
+  try {
+    text = read_text_file_if_there(path);
+  } catch (const InputError& error) {
+    return {{}, error.what()};
+  }
+  if (!text) return {};
+  auto record = parse_findings(*text);
   if (!record) return {{}, path + " is damaged, or of another version of fleetproof: look for the findings again."};
   if (record->plan_hash != plan_hash || record->stored_runs != stored_runs)
     return {{}, path + " is of another campaign, or of fewer of its runs: look for the findings again."};

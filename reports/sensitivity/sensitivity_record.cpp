@@ -1,13 +1,13 @@
 #include "reports/sensitivity/sensitivity_record.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
+#include "core/base/regular_file.hpp"
 #include "reports/page/wording.hpp"
 #include "storage/beside.hpp"
 
@@ -117,12 +117,14 @@ std::string sensitivity_path(const std::string& archive_path) { return beside(ar
 
 SensitivityFile sensitivity_beside(const std::string& archive_path, const CampaignRecord& campaign) {
   const std::string path = sensitivity_path(archive_path);
-  std::error_code none;
-  if (!std::filesystem::exists(path, none)) return {};
-  if (!std::filesystem::is_regular_file(path, none)) return {{}, path + " is no file that can be read."};
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return {{}, path + " cannot be read."};
-  auto record = parse_sensitivity({std::istreambuf_iterator<char>(file), {}});
+  std::optional<std::string> text;
+  try {
+    text = read_text_file_if_there(path);
+  } catch (const InputError& error) {
+    return {{}, error.what()};
+  }
+  if (!text) return {};
+  auto record = parse_sensitivity(*text);
   if (!record) return {{}, path + " is damaged, or of another version of fleetproof: measure again."};
   if (record->worlds != worlds_of(campaign.plan_json))
     return {{}, path + " was measured in the worlds of another plan: measure again."};

@@ -35,6 +35,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"core/scenario/radio_setup.hpp RadioSetup", "plain data: everything that a scenario says of its radio"},
     {"core/outcome/outcome.hpp Outcome", "plain data: everything that a run leaves"},
     {"storage/records.hpp CampaignRecord", "plain data: everything that a file says of its campaign"},
+    {"reports/attempts/attempt_history.hpp AttemptHistory", "plain data: everything that a page tells of attempts"},
     {"reports/attempts/attempt_ledger.hpp Attempt", "plain data: everything that a ledger says of one"},
     {"campaign/batch/audit_queue.hpp AuditQueue", "one queue: what waits, what was found, and the threads between"},
     {"campaign/workers/isolated_runs.hpp IsolatedRuns", "the workers of one plan, and whose turn it is"},

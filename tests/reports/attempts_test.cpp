@@ -55,7 +55,11 @@ class Attempts : public testing::Test {
 TEST_F(Attempts, AreUnknownWithoutALedgerAndNeverTheFirst) {
   EXPECT_EQ(sentence(campaign(1)), "Earlier attempts unknown: no ledger of attempts tells of this campaign.");
   std::filesystem::create_directory(path_);
-  EXPECT_EQ(sentence(campaign(1)), "Earlier attempts unknown: the ledger " + path_ + " cannot be read.");
+  EXPECT_THROW(sentence(campaign(1)), InputError);
+  AttemptHistory unreadable;
+  unreadable.ledger_trouble = "a.jsonl: is a folder";
+  EXPECT_EQ(attempts_sentence(unreadable, 0.05),
+            "Earlier attempts unknown: the ledger cannot be read (a.jsonl: is a folder).");
   std::filesystem::remove(path_);
   tried(1, "demonstrated");
   EXPECT_THAT(sentence(campaign(1)), HasSubstr("Earlier attempts unknown: the ledger names no other attempt"));

@@ -21,7 +21,7 @@ bool is_accepted(const std::string& bytes) {
   const std::string path = folder / "log.jsonl";
   samples::write_bytes(path, bytes);
   try {
-    require_log(path, "{\"begun\":", "this is no log");
+    read_log(path, "{\"begun\":", "this is no log");
   } catch (const InputError& refused) {
     EXPECT_THAT(refused.what(), testing::AllOf(testing::HasSubstr("log.jsonl"), testing::HasSubstr("this is no log")));
     return false;
@@ -42,7 +42,7 @@ TEST(LineLog, OnlyAFileThatBeginsWithTheFirstWordsIsALog) {
 
 TEST(LineLog, AFileThatIsNotThereIsBegun) {
   const TemporaryFolder folder;
-  EXPECT_NO_THROW(require_log(folder / "log.jsonl", "{", "this is no log"));
+  EXPECT_NO_THROW(read_log(folder / "log.jsonl", "{", "this is no log"));
   append_lines(folder / "log.jsonl", "{}\n");
   append_lines(folder / "log.jsonl", "{\"a\":1}\n{}\n");
   EXPECT_EQ(samples::bytes_of(folder / "log.jsonl"), "{}\n{\"a\":1}\n{}\n");

@@ -206,7 +206,7 @@ TEST_F(Sensitive, OfOtherWorldsOrDamagedIsNotShown) {
   }
   std::filesystem::remove(path("a.sensitivity.json"));
   std::filesystem::create_directory(path("a.sensitivity.json"));
-  EXPECT_THAT(page(), HasSubstr("Not known: a.sensitivity.json is no file that can be read"));
+  EXPECT_THAT(page(), HasSubstr("Not known: a.sensitivity.json: is a folder"));
   std::filesystem::remove(path("a.sensitivity.json"));
   write("a.sensitivity.json", "my notes");
   const auto refused = run("sensitivity a.toml --runs 1 --agent asks-once");
