@@ -28,7 +28,8 @@ Session::Session(const CampaignPlan& plan, const AgentPrograms& programs, const 
     : options_(options),
       listener_(listener),
       group_(plan.cells_per_world()),
-      runs_(plan, programs, {.workers = options.workers, .log_prefix = options.worker_logs}),
+      runs_(plan, programs,
+            {.workers = options.workers, .log_prefix = options.worker_logs, .earlier_logs = options.earlier_logs}),
       audits_(plan, programs, options.audits, options.workers) {}
 
 void Session::count(const RunRecord& run) {

@@ -19,8 +19,9 @@ namespace fleetproof {
 
 struct RunOptions {
   int workers = 1;
-  std::string worker_logs;   // prefix of the files that take what plug-ins print; empty: it is dropped
-  bool audits = false;       // simulate a share of the runs once more
+  std::string worker_logs;  // prefix of the files that take what plug-ins print; empty: it is dropped
+  EarlierLogs earlier_logs = EarlierLogs::Stay;  // of a campaign that goes on
+  bool audits = false;                           // simulate a share of the runs once more
   bool overwrite = false;    // replace an existing results file, once the new one is complete; else it goes on
   bool allow_drift = false;  // go on in a file that another engine wrote, and record it
   // Stop cleanly then; the time before the first run counts, too.

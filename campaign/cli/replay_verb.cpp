@@ -14,10 +14,13 @@
 #include "campaign/run/replay.hpp"
 #include "campaign/watch/run_text.hpp"
 #include "campaign/workers/run_host.hpp"
+#include "campaign/workers/worker_logs.hpp"
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
+#include "core/base/outside_text.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "reports/page/wording.hpp"
+#include "storage/beside.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -30,7 +33,9 @@ struct ReplayVerbWords {
   bool json = false, in_process = false;
 };
 
-void print_json(const ReplayResult& result, const CellRecord& cell) {
+constexpr std::size_t kMostPrinted = 40;  // lines of the agents that are told: a stack has up to 32
+
+void print_json(const ReplayResult& result, const CellRecord& cell, const PrintedLines& printed) {
   const Outcome& outcome = result.recomputed.outcome;
   Json json = {{"schema_version", 1},
                {"verdict", name_of(result.verdict)},
@@ -45,7 +50,16 @@ void print_json(const ReplayResult& result, const CellRecord& cell) {
   json["violations"] = outcome.violations.size();
   json["digest_stored"] = fmt::format("{:016x}", result.stored.outcome.digest);
   json["digest_recomputed"] = fmt::format("{:016x}", outcome.digest);
+  json["printed"] = {{"log", printed.log}, {"lines", printed.lines}};
   put_text(shown_json(json));
+}
+
+// What the agents printed when the campaign simulated the run.
+void tell_printed(const PrintedLines& printed) {
+  if (!printed.trouble.empty()) put("  what its agents printed is not known: {}\n", printed.trouble);
+  if (printed.lines.empty()) return;
+  put("  the last that its agents printed in the campaign ({}):\n", printable(printed.log));
+  for (const std::string& line : printed.lines) put("    {}\n", printable(line, 200));
 }
 
 // A plug-in that crashes does so in a worker process, as it did in the campaign.
@@ -150,10 +164,12 @@ int replay_run(const ReplayVerbWords& words) {
   if (observed) observed->finish(result.recomputed.outcome, remark_of(result));
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
+  const PrintedLines printed = last_printed(beside(words.archive, ""), words.run, kMostPrinted);
   if (words.json) {
-    print_json(result, cell);
+    print_json(result, cell, printed);
   } else {
     print_text(result, cell, scenario);
+    tell_printed(printed);
     if (result.verdict == ReplayVerdict::Reproduced && !result.from_recording)
       tell_other_software(archive, programs.program(agent.program, "replay"));
   }

@@ -24,7 +24,9 @@
 #include "campaign/run/release.hpp"
 #include "campaign/shrink/case_host.hpp"
 #include "core/base/error.hpp"
+#include "core/base/regular_file.hpp"
 #include "storage/beside.hpp"
+#include "storage/target_file.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -189,6 +191,8 @@ int run(RunWords words) {
   }
   if (words.archive.empty()) words.archive = archive_name_of(file.plan.name);
   options.worker_logs = beside(words.archive, "");
+  const bool goes_on = !words.overwrite && (is_name_taken(words.archive) || is_name_taken(words.archive + ".partial"));
+  options.earlier_logs = goes_on ? EarlierLogs::Stay : EarlierLogs::AreRemoved;
   play_findings(words, file.plan, programs, options);
   listen_to_signals();
   AttemptLog attempt(words.ledger, {.record = campaign_record(file.plan, programs),
@@ -208,7 +212,8 @@ int run(RunWords words) {
                     {.ledger = attempt.path(),
                      .overrides = overrides(words),
                      .attempt = attempt.id(),
-                     .ledger_line = attempt.line()});
+                     .ledger_line = attempt.line(),
+                     .campaign_file = absolute_name(words.campaign)});
       tell();
     };
     listener.wants_status = [] { return status_wanted.exchange(false); };

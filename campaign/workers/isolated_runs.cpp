@@ -104,10 +104,11 @@ IsolatedRuns::IsolatedRuns(const CampaignPlan& plan, const AgentPrograms& progra
       setup_(encode_setup(plan, programs)),
       run_one_(plan, programs),
       slots_(hosting.workers),
-      logs_(hosting.log_prefix, hosting.workers),
+      logs_(hosting.log_prefix, hosting.workers, hosting.earlier_logs),
       forker_(worker_program(slots_, logs_)) {
   for (int slot = hosting.workers - 1; slot >= 0; --slot) {
     idle_.emplace_back().slot = slot;
+    slots_[slot].labelled = logs_.size(slot);
   }
 }
 
@@ -272,8 +273,12 @@ IsolatedRuns::Attempt IsolatedRuns::lost(Member& member, std::uint64_t run_index
   const CauseOfDeath cause = cause_of_death(state, loss.death, slots_[member.slot]);
   loss.message = cause.message;
   loss.log = logs_.path(member.slot);
+  WorkerSlot& slot = slots_[member.slot];
+  const std::string label = line_label(run_index, slot.call);
+  if (!loss.log.empty())
+    slot.labelled = label_lines(logs_.descriptors()[static_cast<std::size_t>(member.slot)], slot.labelled, label);
   if (WIFSIGNALED(loss.death.status) && WTERMSIG(loss.death.status) != SIGKILL)
-    loss.stack = logs_.last_stack(member.slot);
+    loss.stack = logs_.last_stack(member.slot, label);
   loss.in_fresh_worker = member.fresh;
   const bool was_fresh = std::exchange(member.fresh, true);
   member.worker = {};

@@ -43,7 +43,8 @@ struct RunRepeat {
 struct Hosting {
   int workers = 1;
   std::string log_prefix{};  // "x" makes x.worker-0.log and so on; empty: what agents print is dropped
-  bool audits = false;       // the runs have been simulated before: their memory is disturbed in another way
+  EarlierLogs earlier_logs = EarlierLogs::Stay;
+  bool audits = false;  // the runs have been simulated before: their memory is disturbed in another way
 };
 
 // Which process hosts a run: one that hosts others, too, or one that hosts no other.

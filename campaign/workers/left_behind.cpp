@@ -261,6 +261,8 @@ LeftBehind::~LeftBehind() = default;
 
 void LeftBehind::run_begins() { state_->calls.begin(); }
 
+bool LeftBehind::has_called_yet() const { return state_->calls.any_yet(); }
+
 void LeftBehind::run_ended() { state_->has_called = state_->calls.any(); }
 
 bool LeftBehind::set_back() {

@@ -15,6 +15,8 @@ class LeftBehind {
   // Between these two, calls of the system are noticed: software that has made none has left nothing there.
   void run_begins();
   void run_ended();
+  // Whether there was such a call since the run began: without one nothing was printed.
+  bool has_called_yet() const;
   // Call it between two runs. Sets back what the next run would meet. False: that cannot be done, so this process must
   // host no other run. Descriptors and threads that are there after the first run may stay; more may not.
   bool set_back();

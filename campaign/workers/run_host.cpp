@@ -14,7 +14,8 @@ std::optional<RunRecord> RunHost::operator()(std::uint64_t run_index) {
   try {
     const std::size_t agent = agent_of_run(run_index, is_plugin_.size());
     if (is_plugin_[agent]) return (*isolated_)(run_index, records_[agent]);
-    return run_one_(run_index, nullptr, RunWatch{nullptr, {}, &abandoned_});
+    return run_one_(run_index, nullptr,
+                    RunWatch{.note = nullptr, .call_ended = {}, .known_ends = {}, .abandon = &abandoned_});
   } catch (const RunAbandoned&) {
     return std::nullopt;
   }

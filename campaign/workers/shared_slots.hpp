@@ -12,6 +12,8 @@ namespace fleetproof {
 struct WorkerSlot {
   std::atomic<std::uint32_t> started{0};         // 1: the program of the worker runs
   std::atomic<std::uint32_t> stack_overflow{0};  // 1: the fatal signal came from the guard page of the stack
+  // Bytes at the begin of the worker's log whose lines have a label (worker_logs.hpp).
+  std::atomic<std::uint64_t> labelled{0};
   CallNote call;
 };
 

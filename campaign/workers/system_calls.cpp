@@ -59,6 +59,8 @@ void SystemCalls::begin() {
   if (can_tell_) selector = kNotice;
 }
 
+bool SystemCalls::any_yet() const { return selector == kAllow || !can_tell_; }
+
 bool SystemCalls::any() {
   const bool had_some = selector == kAllow;
   selector = kAllow;

@@ -10,7 +10,8 @@ class SystemCalls {
   SystemCalls();
 
   void begin();  // from now on
-  // Whether there was any since `begin`; ends the watch.
+  // Whether there was any since `begin`. The second ends the watch.
+  bool any_yet() const;
   bool any();
 
  private:

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,6 +23,7 @@
 #include "campaign/workers/fatal_signals.hpp"
 #include "campaign/workers/left_behind.hpp"
 #include "campaign/workers/run_order.hpp"
+#include "campaign/workers/worker_logs.hpp"
 #include "core/base/byte_text.hpp"
 #include "core/base/error.hpp"
 #include "core/engine/call_tape.hpp"
@@ -76,15 +78,43 @@ void send_answer(Channel& channel, const RunAnswer& answer) {
   if (!channel.send(encode(answer))) ::_exit(kChannelClosedExit);
 }
 
+// The standard output of the worker, if that is a log. It labels what is printed there.
+class PrintedLog {
+ public:
+  explicit PrintedLog(WorkerSlot& slot) : slot_(slot) {
+    struct stat status {};
+    if (::fstat(STDOUT_FILENO, &status) != 0 || !S_ISREG(status.st_mode)) return;
+    file_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);  // an agent may close its own descriptor
+  }
+
+  WorkerSlot& slot() const { return slot_; }
+  bool is_kept() const { return file_ >= 0; }
+  void label_start() const {
+    if (is_kept()) slot_.labelled = label_lines(file_, slot_.labelled, kStartLabel);
+  }
+  // The lines that the last call of an agent has printed.
+  void label(std::uint64_t run_index) const {
+    struct stat status {};
+    if (!is_kept() || ::fstat(file_, &status) != 0) return;
+    if (static_cast<std::uint64_t>(status.st_size) == slot_.labelled) return;
+    slot_.labelled = label_lines(file_, slot_.labelled, line_label(run_index, slot_.call));
+  }
+
+ private:
+  WorkerSlot& slot_;
+  int file_ = -1;  // what agents print is dropped
+};
+
 // A worker that has loaded the plug-ins and takes orders.
 class Worker {
  public:
   Worker(Setup setup, WorkerSlot& slot, Channel& channel)
-      : plan_(std::move(setup.plan)), slot_(slot), channel_(channel) {
+      : plan_(std::move(setup.plan)), log_(slot), channel_(channel) {
     disturbance_.renew(0, Disturbance::Fill::Next);
     own_bytes_ = mapped_bytes();
     limit_memory(plan_.limits.memory_mb, own_bytes_);  // a plug-in may use as much while it is loaded
     for (const AgentProgram& plugin : setup.plugins) programs_.load_unchanged(plugin);
+    log_.label_start();
     left_behind_.emplace();
   }
 
@@ -138,10 +168,15 @@ class Worker {
     RunAnswer answer;
     const std::uint64_t begin_ns = cpu_ns();
     RunWatch watch;
-    watch.note = &slot_.call;
+    watch.note = &log_.slot().call;
     watch.known_ends = order.known_ends;
     CallTape tape;
     if (order.record) watch.record = &tape;
+    if (log_.is_kept()) {
+      watch.call_ended = [&] {
+        if (left_behind_->has_called_yet()) log_.label(order.run_index);
+      };
+    }
     left_behind_->run_begins();
     if (order.scenario.is_empty()) {
       RunRecord record = run_one_(order.run_index, nullptr, watch);
@@ -155,6 +190,7 @@ class Worker {
                             plan_.laws_left_out, order.deliveries ? Deliveries::Kept : Deliveries::Ignored, watch);
     }
     left_behind_->run_ended();
+    log_.label(order.run_index);
     if (order.record && (order.is_audit || answer.run.outcome.is_failure())) answer.recording = tape.take();
     answer.cpu_ns = cpu_ns() - begin_ns;
     ++runs_;
@@ -165,7 +201,7 @@ class Worker {
   static constexpr std::uint64_t kAuditKeys = std::uint64_t{1} << 63;  // keys of audits are beyond all others
 
   CampaignPlan plan_;
-  WorkerSlot& slot_;
+  PrintedLog log_;
   Channel& channel_;
   Disturbance disturbance_;
   AgentPrograms programs_;

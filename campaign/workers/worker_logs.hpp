@@ -1,28 +1,60 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "core/engine/run_watch.hpp"
 
 namespace fleetproof {
 
-// The files that take what agents print, one for each worker. A file that exists already is left alone: the next free
-// number is taken.
+// The files that take what agents print. Each line says who printed it, in which run and when:
+//   run 17, AGV 2, 12.345 s: waiting for the section ahead
+// A worker prints into its log directly, so that a crash loses nothing. The lines at the end of the file that have no
+// label yet are those of the call under way: they get it when that call is over, or when the worker is dead.
+
+// What stands in front of the lines that are printed in this call of an agent.
+std::string line_label(std::uint64_t run_index, const CallNote& call);
+// The same while a worker starts and loads the plug-ins.
+inline constexpr std::string_view kStartLabel = "start of a worker: ";
+
+// Puts the label in front of each line behind the first `labelled` bytes of a log. Returns the size of the log then.
+// Lines that would go beyond the limit of the process for a file, or that fill more than a megabyte, stay without.
+std::uint64_t label_lines(int log, std::uint64_t labelled, std::string_view label);
+
+// Whether the logs of an earlier session stay, and are written on.
+enum class EarlierLogs : bool { Stay, AreRemoved };
+
+// The logs of some workers, one for each, with names from "x.worker-0.log" on. A file of another program, or one that
+// another fleetproof writes, is left alone: the next number is taken.
 class WorkerLogs {
  public:
-  // "x" makes x.worker-0.log and so on; an empty prefix makes none. Throws InputError if a file cannot be made.
-  WorkerLogs(const std::string& prefix, int count);
+  // An empty prefix makes none. Throws InputError if a file cannot be made.
+  WorkerLogs(const std::string& prefix, int count, EarlierLogs earlier);
   ~WorkerLogs();  // removes the files in which nothing was printed
   WorkerLogs(const WorkerLogs&) = delete;
   WorkerLogs& operator=(const WorkerLogs&) = delete;
 
   const std::vector<int>& descriptors() const { return descriptors_; }  // by worker; -1: none
   const std::string& path(int worker) const { return paths_[static_cast<std::size_t>(worker)]; }
-  // The lines of the last stack trace in the log of a worker (fatal_signals.hpp); empty: there is none.
-  std::vector<std::string> last_stack(int worker) const;
+  std::uint64_t size(int worker) const;
+  // The lines of the last stack trace in the log of a worker (fatal_signals.hpp), without this label; empty: there is
+  // none.
+  std::vector<std::string> last_stack(int worker, std::string_view label) const;
 
  private:
   std::vector<std::string> paths_;
   std::vector<int> descriptors_;
 };
+
+// The last lines that a run has in a log with this prefix, at most `most` of them, without the number of the run.
+// `trouble`: why a log cannot be read.
+struct PrintedLines {
+  std::string log;
+  std::vector<std::string> lines;
+  std::string trouble;
+};
+PrintedLines last_printed(const std::string& prefix, std::uint64_t run_index, std::size_t most);
 
 }  // namespace fleetproof

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -38,7 +39,10 @@ struct KnownEnd {
 
 // What the caller of simulate() sees and steers while the run is under way.
 struct RunWatch {
-  CallNote* note = nullptr;                    // null: no process reads it
+  CallNote* note = nullptr;  // null: no process reads it
+  // Called when a call into an agent is over, with the note as it was in that call; after the last one its caller knows
+  // that. Empty: nobody wants to know. Only with a note.
+  std::function<void()> call_ended{};
   std::span<const KnownEnd> known_ends;        // in order of their calls
   const std::atomic<bool>* abandon = nullptr;  // true: simulate() throws RunAbandoned at the next event
   CallTape* record = nullptr;                  // takes what the agents do; not if a tape is played
@@ -69,7 +73,10 @@ class CallCounter {
   // Call this before each call into an agent. Not null: the call must not be made.
   const KnownEnd* next(EntityId agv, std::uint32_t event, SimTime at) {
     ++number_;
-    if (watch_.note != nullptr) write_note(agv, event, at);
+    if (watch_.note != nullptr) {
+      if (watch_.call_ended && number_ > 1) watch_.call_ended();
+      write_note(agv, event, at);
+    }
     if (ended_ == watch_.known_ends.size() || watch_.known_ends[ended_].call != number_) [[likely]]
       return nullptr;
     return &watch_.known_ends[ended_++];

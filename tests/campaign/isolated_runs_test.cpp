@@ -153,7 +153,7 @@ TEST(IsolatedRuns, WhatAgentsPrintGoesToALog) {
   std::ifstream log(prefix + ".worker-0.log");
   std::string line;
   std::getline(log, line);
-  EXPECT_EQ(line, "failing: hello from the agent");
+  EXPECT_THAT(line, testing::MatchesRegex("run 0, AGV [0-9]+, [0-9.]+ s: failing: hello from the agent"));
   EXPECT_FALSE(std::filesystem::exists(prefix + ".worker-1.log")) << "nothing was printed there";
   std::filesystem::remove(prefix + ".worker-0.log");
 }
