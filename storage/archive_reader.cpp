@@ -208,10 +208,10 @@ void ArchiveReader::Impl::require_sealed(std::uint64_t count, const RowsDigest& 
   require_content(count, content.digest());
 }
 
-// A live file has a log beside it, and an older schema has other columns.
+// A live file has a log beside it, and an older schema may have other columns.
 std::unique_ptr<RowSource> ArchiveReader::Impl::rows_of(const char* table, const std::string& values,
                                                         const char* key) const {
-  if (published && schema == kSchemaVersion) {
+  if (published && schema >= kFirstJudged) {
     if (auto pages = TablePages::open(*db, path, table, values)) return pages;
   }
   return std::make_unique<Query>(*db, fmt::format("SELECT {} FROM {} ORDER BY {}", values, table, key));

@@ -92,6 +92,7 @@ std::uint64_t plan_checksum(const StoredPlan& plan, std::int32_t schema) {
   for (const auto& pair : campaign.exempt_pairs) bytes << pair;
   bytes << std::uint64_t{campaign.plugin_agents.size()};
   for (const auto& agent : campaign.plugin_agents) bytes << agent;
+  if (schema >= kFirstWithCommit) bytes << campaign.engine.source_commit;
   if (schema >= kFirstJudged) {
     for (const auto* agents : {&campaign.deterministic_agents, &campaign.agents_under_test}) {
       bytes << std::uint64_t{agents->size()};

@@ -60,7 +60,8 @@ void bind_campaign(Insert& insert, const CampaignRecord& campaign, std::uint64_t
                  << in_lines(campaign.held_streams) << campaign.held_replicate << campaign.exempt_purposes
                  << campaign.exempt_radius_m << in_lines(campaign.exempt_pairs) << in_lines(campaign.plugin_agents)
                  << plan_checksum << campaign.chunk_runs << name_of(campaign.keep)
-                 << in_lines(campaign.deterministic_agents) << in_lines(campaign.agents_under_test);
+                 << in_lines(campaign.deterministic_agents) << in_lines(campaign.agents_under_test)
+                 << campaign.engine.source_commit;
 }
 
 void bind_cell(Insert& insert, const CellRecord& cell) {
@@ -103,6 +104,7 @@ CampaignRecord read_campaign(const Row& row) {
   campaign.keep = word_to<Keep>(from.text());
   campaign.deterministic_agents = from_lines(from.text());
   campaign.agents_under_test = from_lines(from.text());
+  campaign.engine.source_commit = from.text();
   campaign.horizon_s = from.maybe_real().value_or(0.0);
   campaign.audit_share = from.maybe_real().value_or(0.0);
   return campaign;

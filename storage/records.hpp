@@ -65,6 +65,7 @@ inline bool covers(const GateRecord& gate, const CellRecord& cell) {
 
 struct EngineIdentity {
   std::string version, program_sha256, compiler, flags, libraries;
+  std::string source_commit{};  // "-changed" behind it: other sources; empty: an older program did not say it
   friend bool operator==(const EngineIdentity&, const EngineIdentity&) = default;
 };
 // In `libraries`, before the identity of each program that made runs of the file before this one.

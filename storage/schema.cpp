@@ -7,6 +7,7 @@
 #include "core/base/contract.hpp"
 #include "core/base/error.hpp"
 #include "core/outcome/outcome.hpp"
+#include "storage/dictionary.hpp"
 #include "storage/factors.hpp"
 #include "storage/records.hpp"
 
@@ -40,6 +41,7 @@ CREATE TABLE campaign (
   keep TEXT NOT NULL,
   deterministic_agents TEXT NOT NULL,
   agents_under_test TEXT NOT NULL,
+  source_commit TEXT NOT NULL,
   run_count INTEGER,
   rows_digest INTEGER,
   repeated_traces INTEGER,
@@ -181,8 +183,9 @@ SELECT c.cell, c.agent, c.layout, c.fleet_size, c.loss, c.delay_s,
        coalesce(sum(r.transports_done), 0) + coalesce(max(f.transports_done), 0) AS transports_done,
        (coalesce(sum(r.simulated_ns / 1000 * r.agv_count), 0) + coalesce(max(f.agv_us), 0)) / 3.6e9 AS agv_hours,
        c.mean_outage_s, c.loss_to, c.delay_to_s, c.mean_outage_to_s{later_bounds},
-       coalesce(sum(r.failed & {violation_bit} <> 0), 0) AS violation_failed_runs,
-       coalesce(sum(r.unknown & {violation_bit} <> 0), 0) AS violation_unknown_runs
+{judged_counts},
+       coalesce(sum(r.failed <> 0), 0) AS failed_runs,
+       coalesce(sum(r.failed = 0 AND r.unknown <> 0), 0) AS unknown_runs
 FROM cells c LEFT JOIN runs r ON r.cell = c.cell LEFT JOIN
      (SELECT cell, sum(runs) AS runs, sum(transports_done) AS transports_done,
              min(min_clearance_um) AS min_clearance_um,
@@ -199,7 +202,8 @@ SELECT r.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss
        printf('%016x', r.scenario_digest) AS scenario_digest,
        r.mean_outage_s{later_factors},
        {failed_words} AS failed,
-       {unknown_words} AS unknown
+       {unknown_words} AS unknown,
+       {judged} AS judged
 FROM runs r JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_violations AS
 SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
@@ -207,13 +211,18 @@ SELECT v.run_index, v.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_s
        v.entity_a, v.entity_b, v.first_ns, v.last_ns, v.closest_at_ns, v.min_clearance_um,
        v.relative_speed_um_s, v.x_um, v.y_um, v.contact, r.mean_outage_s,
        CASE WHEN NOT v.contact THEN '{near}' WHEN v.relative_speed_um_s > {hazardous} THEN '{hazardous_contact}' ELSE '{contact}' END AS level,
-       CASE WHEN v.entity_b < r.agv_count THEN 'AGV-AGV' ELSE 'AGV-obstacle' END AS entities{later_factors}, v.normal_speed_um_s
+       CASE WHEN v.entity_b < r.agv_count THEN 'AGV-AGV' ELSE 'AGV-obstacle' END AS entities{later_factors}, v.normal_speed_um_s,
+       {failed_words} AS run_failed,
+       {unknown_words} AS run_unknown
 FROM violations v JOIN runs r ON r.run_index = v.run_index JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_incidents AS
 SELECT i.run_index, i.ordinal, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
        r.loss <= {loss} AND r.delay_s <= {delay} AS in_contract,
        CASE i.kind{incident_names} END AS kind, i.entity_a, i.entity_b, i.first_ns, i.last_ns, i.value,
-       CASE i.kind{incident_units} END AS unit
+       CASE i.kind{incident_units} END AS unit,
+       CASE i.kind{incident_end_points} END AS end_point,
+       {failed_words} AS run_failed,
+       {unknown_words} AS run_unknown
 FROM incidents i JOIN runs r ON r.run_index = i.run_index JOIN cells c ON c.cell = r.cell;
 CREATE VIEW v1_probes AS
 SELECT p.run_index, r.cell, r.replicate, c.agent, c.layout, c.fleet_size, r.loss, r.delay_s,
@@ -225,9 +234,12 @@ SELECT a.run_index, c.cell, a.run_index / n.count AS replicate, c.agent, c.layou
        coalesce(a.checksum = r.checksum, 1) AS same,
        {audit_failed_words} AS failed,
        {audit_unknown_words} AS unknown,
-       printf('%016x', a.digest) AS digest, a.transports_done, a.violations, a.contacts, a.incidents
+       printf('%016x', a.digest) AS digest, a.transports_done, a.violations, a.contacts, a.incidents,
+       CASE WHEN a.failed >= 0 THEN {audit_judged} END AS judged
 FROM audits a JOIN (SELECT count(*) AS count FROM cells) n JOIN cells c ON c.cell = a.run_index % n.count
      LEFT JOIN runs r ON r.run_index = a.run_index;
+CREATE VIEW v1_dictionary (view_name, column_name, unit, meaning) AS VALUES
+{meanings};
 )sql";
 
 constexpr const char* kGateRule =
@@ -327,6 +339,49 @@ std::string end_point_words(const std::string& set) {
   return fmt::format("CASE WHEN {} >= 0 THEN ltrim({}) END", set, words);
 }
 
+std::string incident_end_points() {
+  std::string cases;
+  for (const auto& info : incident_kinds()) {
+    if (info.end_point)
+      cases += fmt::format(" WHEN {} THEN '{}'", static_cast<std::uint32_t>(info.kind), name_of(*info.end_point));
+  }
+  return cases;
+}
+
+std::string judged_word(std::string_view row) {
+  return fmt::format("CASE WHEN {0}.failed <> 0 THEN 'failed' WHEN {0}.unknown <> 0 THEN 'unknown' ELSE 'passed' END",
+                     row);
+}
+
+// For each end point, how many runs of a cell failed it, and how many say nothing about it.
+std::string judged_counts() {
+  std::string counts;
+  for (const EndPoint end_point : kValuesOf<EndPoint>) {
+    if (end_point == EndPoint::Throughput) continue;
+    std::string name = name_of(end_point);
+    std::ranges::replace(name, '-', '_');
+    for (const char* set : {"failed", "unknown"})
+      counts += fmt::format("{}       coalesce(sum(r.{} & {} <> 0), 0) AS {}_{}_runs", counts.empty() ? "" : ",\n", set,
+                            bit_of(end_point), name, set);
+  }
+  return counts;
+}
+
+std::string sql_text(std::string_view text) {
+  std::string literal = "'";
+  for (const char c : text) literal += c == '\'' ? "''" : std::string(1, c);
+  return literal + "'";
+}
+
+// The rows of v1_dictionary.
+std::string meanings() {
+  std::string rows;
+  for (const ColumnMeaning& column : column_meanings())
+    rows += fmt::format("{}({}, {}, {}, {})", rows.empty() ? "" : ",\n", sql_text(column.view), sql_text(column.column),
+                        sql_text(column.unit), sql_text(column.meaning));
+  return rows;
+}
+
 // With a fixed number of digits, so that the script stays the same to the byte. Requires: they hold the whole value.
 std::string decimal(double value, int digits) {
   const std::string text = fmt::format("{:.{}f}", value, digits);
@@ -349,8 +404,9 @@ std::string ddl_with(std::string_view runs_order) {
                      fmt::arg("later_bounds", later_factor_names(&FactorInfo::key, "c.") +
                                                   later_factor_names(&FactorInfo::key_to, "c.")),
                      fmt::arg("world", name_of(ProbeSource::World)), fmt::arg("agent", name_of(ProbeSource::Agent)),
-                     fmt::arg("hazardous", kHazardousSpeed_um_s),
-                     fmt::arg("violation_bit", bit_of(EndPoint::Violation)),
+                     fmt::arg("hazardous", kHazardousSpeed_um_s), fmt::arg("judged_counts", judged_counts()),
+                     fmt::arg("judged", judged_word("r")), fmt::arg("audit_judged", judged_word("a")),
+                     fmt::arg("meanings", meanings()), fmt::arg("incident_end_points", incident_end_points()),
                      fmt::arg("failed_words", end_point_words("r.failed")),
                      fmt::arg("unknown_words", end_point_words("r.unknown")),
                      fmt::arg("audit_failed_words", end_point_words("a.failed")),
@@ -402,6 +458,7 @@ std::string campaign_values(std::int32_t schema) {
   give(kFirstFolded, "keep", fmt::format("'{}'", name_of(Keep::All)));
   give(kFirstJudged, "deterministic_agents", "''");
   give(kFirstJudged, "agents_under_test", "''");
+  give(kFirstWithCommit, "source_commit", "''");
   const auto of_plan = [](std::string_view path, std::string_view name) {
     return fmt::format(", CASE WHEN json_valid(plan_json) THEN json_extract(plan_json, '$.{}') END AS {}", path, name);
   };

@@ -10,8 +10,9 @@ inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an 
 // What each version added: 2 incidents and probes, 3 bounds of factors, 4 exempt pairs and external sources, 5 the call
 // cost as a factor, 6 the seal, 7 audits, recordings and chunks, 8 gates with their method and tables, 9 the normal
 // speed of violations, 10 gates on cells of a fleet size or of values of the factors, 11 folded runs, 12 what runs and
-// audits say about the end points, which folded runs repeat others, agents that declare that they are deterministic.
-inline constexpr std::int32_t kSchemaVersion = 12;
+// audits say about the end points, which folded runs repeat others, agents that declare that they are deterministic,
+// 13 how runs are judged in every view, the dictionary of the views, and the commit of the program's sources.
+inline constexpr std::int32_t kSchemaVersion = 13;
 inline constexpr std::int32_t kOldestReadable = 4;
 inline constexpr std::int32_t kFirstSealed = 6;  // a published file of an earlier schema has the digest of its rows
 inline constexpr std::int32_t kFirstChunked = 7;
@@ -20,6 +21,7 @@ inline constexpr std::int32_t kFirstWithNormalSpeed = 9;  // 0 in violations of 
 inline constexpr std::int32_t kFirstOfOneCell = 10;       // gates of an earlier schema name no fleet and no factor
 inline constexpr std::int32_t kFirstFolded = 11;
 inline constexpr std::int32_t kFirstJudged = 12;  // gates of AGV-hours of an earlier schema count microseconds
+inline constexpr std::int32_t kFirstWithCommit = 13;
 inline constexpr std::int32_t kPageSize = 4096;
 // A live file is written from end to end: few large pages need fewer system calls.
 inline constexpr std::int32_t kLivePageSize = 32768;
@@ -48,7 +50,7 @@ inline constexpr const char* kCampaignColumns =
     "id, name, kind, seed, replicates, plan_json, plan_hash, engine_version, program_sha256, compiler, flags, "
     "libraries, required_probes, "
     "sampling, held_streams, held_replicate, exempt_purposes, exempt_radius_m, exempt_pairs, plugin_agents, "
-    "plan_checksum, chunk_runs, keep, deterministic_agents, agents_under_test";
+    "plan_checksum, chunk_runs, keep, deterministic_agents, agents_under_test, source_commit";
 std::string campaign_values(std::int32_t schema);
 inline constexpr const char* kAuditColumns =
     "run_index, checksum, failed, unknown, digest, transports_done, simulated_ns, agv_count, violations, contacts, "

@@ -67,7 +67,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   rooms["reports/comparison"].insert("core/outcome");  // it compares runs one by one
   rooms["reports/markup"] = {"core/base", "reports/page"};
   rooms["reports/sections"] = with(pages, subjects);
-  rooms["reports/formats"] = with(pages, {"reports/sections"});
+  rooms["reports/formats"] = with(pages, {"core/outcome", "reports/sections"});  // tables of judged runs
   rooms["reports/campaign_page"] = with(pages, {"reports/sections", "reports/markup"});
   rooms["reports/replay_page"] = {"core/base", "core/outcome", "reports/page", "reports/markup"};
   const std::set<std::string> reports =

@@ -77,8 +77,9 @@ class Cli11Options final : public Options {
 
 std::string version_text() {
   const EngineIdentity self = engine_identity();
-  return fmt::format("fleetproof {}\ncompiler  {}\nflags     {}\nlibraries {}\nprogram   sha256 {}", self.version,
-                     self.compiler, self.flags, self.libraries, self.program_sha256);
+  return fmt::format(
+      "fleetproof {}\ncompiler  {}\nflags     {}\nlibraries {}\nprogram   sha256 {}\nsource    commit {}", self.version,
+      self.compiler, self.flags, self.libraries, self.program_sha256, self.source_commit);
 }
 
 int say(int code, std::string_view kind, std::string_view what) {

@@ -103,6 +103,11 @@ RunResult result_of(const JudgedOutcome& judged, EndPoint end_point) {
   return result((judged.failed & bit_of(end_point)) != 0, (judged.unknown & bit_of(end_point)) != 0);
 }
 
+const char* judged_word(const JudgedOutcome& judged) {
+  if (judged.failed != 0) return "failed";
+  return judged.unknown != 0 ? "unknown" : "passed";
+}
+
 bool has_measured_clearance(const Outcome& outcome) {
   return outcome.min_clearance_um || (!outcome.engine_error && outcome.simulated_ns > 0);
 }

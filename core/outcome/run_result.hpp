@@ -22,6 +22,8 @@ RunResult result_of(const Outcome& outcome, EndPoint end_point);
 // Of all end points but Throughput.
 JudgedOutcome judged(const Outcome& outcome);
 RunResult result_of(const JudgedOutcome& judged, EndPoint end_point);
+// "failed": it failed an end point; "unknown": it failed none, and of some it says nothing; else "passed".
+const char* judged_word(const JudgedOutcome& judged);
 
 // An error of the simulator leaves the clearance unmeasured, and so does a crash after which nothing is known. In other
 // runs, an absent clearance was never below 0.5 m.

@@ -4,10 +4,11 @@
 
 #include <ostream>
 
-#include "core/base/contract.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/outcome/run_result.hpp"
 #include "reports/evidence/first_cause.hpp"
 #include "reports/page/wording.hpp"
+#include "storage/dictionary.hpp"
 
 namespace fleetproof {
 namespace {
@@ -19,30 +20,37 @@ std::string number(const std::optional<std::int64_t>& value) { return value ? st
 std::string number(bool value) { return value ? "1" : "0"; }
 std::string body(EntityId id) { return id.valid() ? std::to_string(id.value) : ""; }
 
-struct Words {
-  const char *name, *unit, *meaning;
-};
+// A column that a public view of the archive has, too.
+void add_of(CsvTable& table, std::string_view view, std::string_view name) {
+  const ColumnMeaning& words = meaning_of(view, name);
+  table.columns.push_back({words.column, words.unit, words.meaning});
+}
+void add(CsvTable& table, std::string_view name) { add_of(table, table.view, name); }
 
-void add(std::vector<CsvColumn>& columns, std::string_view name, std::string_view unit, std::string_view meaning) {
-  CsvColumn& column = columns.emplace_back();
-  column.name = name;
-  column.unit = unit;
-  column.meaning = meaning;
+// One that no view has.
+void add(CsvTable& table, std::string_view name, std::string_view unit, std::string_view meaning) {
+  table.columns.push_back({std::string(name), std::string(unit), std::string(meaning)});
 }
 
 // What every table begins with.
-void add_run_columns(std::vector<CsvColumn>& columns) {
-  add(columns, "run_index", "none", "replicate x cells + cell; the argument of fleetproof replay");
-  add(columns, "cell", "none", "number of the cell (test condition)");
-  add(columns, "replicate", "none", "number of the world");
-  add(columns, "agent", "none", "name of the control software");
-  add(columns, "layout", "none", "name of the layout");
-  add(columns, "fleet_size", "AGVs", "size of the fleet");
-  for (const FactorInfo& factor : kFactors) {
-    add(columns, factor.key, factor.key.ends_with("_s") ? "s" : "none", fmt::format("{} of this run", factor.name));
+void add_run_columns(CsvTable& table) {
+  for (const char* name : {"run_index", "cell", "replicate", "agent", "layout", "fleet_size"}) add(table, name);
+  for (const FactorInfo& factor : kFactors) add_of(table, "v1_runs", factor.key);
+  add(table, "in_contract");
+}
+
+// "violation contact": the end points of a set.
+std::string words_of(std::uint32_t set) {
+  std::string words;
+  for (const EndPoint end_point : kValuesOf<EndPoint>) {
+    if ((set & bit_of(end_point)) != 0) words += fmt::format("{}{}", words.empty() ? "" : " ", name_of(end_point));
   }
-  add(columns, "in_contract", "0/1",
-      fmt::format("loss at most {:g} and delay at most {:g} s", kContractLoss, kContractDelay_s));
+  return words;
+}
+
+void add_judged(Values& values, const JudgedOutcome& run) {
+  values.push_back(words_of(run.failed));
+  values.push_back(words_of(run.unknown));
 }
 
 void add_run_values(Values& values, const CsvRow& row) {
@@ -57,22 +65,16 @@ void add_run_values(Values& values, const CsvRow& row) {
 }
 
 CsvTable runs_table() {
-  CsvTable table{"runs.csv", "one simulation", {}, [](const RunRecord&) { return std::size_t{1}; }, {}};
-  add_run_columns(table.columns);
-  add(table.columns, "outcome_class", "none", "the worst end point of the run");
-  for (const RunEnd& end : kRunEnds) add(table.columns, name_of(end.id), "0/1", end.meaning);
-  add(table.columns, "min_clearance_um", "um",
-      "smallest clearance, rounded down; empty: not measured if engine_error is 1 or simulated_ns is 0, otherwise "
-      "never "
-      "below 0.5 m");
-  add(table.columns, "first_cause", "none", "what went wrong first; empty: nothing");
-  add(table.columns, "before_first_cause", "none", "what the scenario had done to the bodies involved before");
-  add(table.columns, "simulated_ns", "ns", "simulated time");
-  add(table.columns, "agv_count", "AGVs", "AGVs of the run");
-  for (const CounterInfo& counter : kCounters) add(table.columns, counter.name, counter.unit, counter.meaning);
-  add(table.columns, "digest", "hex", "of the whole trace: equal runs have equal digests");
-  add(table.columns, "scenario_digest", "hex", "of the scenario");
-  add(table.columns, "message", "none", "of a crash, hang or engine error");
+  CsvTable table{"runs.csv", "one simulation", "v1_runs", {}, [](const RunRecord&) { return std::size_t{1}; }, {}};
+  add_run_columns(table);
+  add(table, "outcome_class");
+  for (const RunEnd& end : kRunEnds) add(table, name_of(end.id));
+  add(table, "min_clearance_um");
+  add(table, "first_cause", "none", "what went wrong first; empty: nothing");
+  add(table, "before_first_cause", "none", "what the scenario had done to the bodies involved before");
+  for (const char* name : {"simulated_ns", "agv_count"}) add(table, name);
+  for (const CounterInfo& counter : kCounters) add(table, counter.name);
+  for (const char* name : {"digest", "scenario_digest", "message", "failed", "unknown", "judged"}) add(table, name);
   table.values = [](const CsvRow& row) {
     const Outcome& o = row.run.outcome;
     Values values;
@@ -89,6 +91,9 @@ CsvTable runs_table() {
     values.push_back(hex_text(o.digest));
     values.push_back(hex_text(row.run.scenario_digest));
     values.push_back(o.message);
+    const JudgedOutcome run = judged(o);
+    add_judged(values, run);
+    values.emplace_back(judged_word(run));
     return values;
   };
   return table;
@@ -97,20 +102,15 @@ CsvTable runs_table() {
 CsvTable violations_table() {
   CsvTable table{"violations.csv",
                  "an unbroken time in which two bodies were too close",
+                 "v1_violations",
                  {},
                  [](const RunRecord& run) { return run.outcome.violations.size(); },
                  {}};
-  add_run_columns(table.columns);
-  for (const auto& [name, unit, meaning] :
-       {Words{"entity_a", "none", "number of a body: AGVs from 0 on, then obstacles and fallen loads"},
-        Words{"entity_b", "none", "the other body"}, Words{"first_ns", "ns", "beginning"},
-        Words{"last_ns", "ns", "end"}, Words{"closest_at_ns", "ns", "instant of the smallest clearance"},
-        Words{"min_clearance_um", "um", "smallest clearance, rounded down; 0 in a contact"},
-        Words{"relative_speed_um_s", "um/s", "of the two closest points; in a contact the highest"},
-        Words{"normal_speed_um_s", "um/s", "its part along the line between them; above 0: they come nearer"},
-        Words{"x_um", "um", "midway between the reference points, east"}, Words{"y_um", "um", "the same, north"},
-        Words{"contact", "0/1", "the bodies touched"}, Words{"level", "none", "level of the violation"}})
-    add(table.columns, name, unit, meaning);
+  add_run_columns(table);
+  for (const char* name :
+       {"entity_a", "entity_b", "first_ns", "last_ns", "closest_at_ns", "min_clearance_um", "relative_speed_um_s",
+        "normal_speed_um_s", "x_um", "y_um", "contact", "level", "run_failed", "run_unknown"})
+    add(table, name);
   table.values = [](const CsvRow& row) {
     const Violation& v = row.run.outcome.violations[row.ordinal];
     Values values;
@@ -122,6 +122,7 @@ CsvTable violations_table() {
       values.push_back(std::to_string(value));
     values.push_back(number(v.contact));
     values.emplace_back(name_of(level_of(v)));
+    add_judged(values, judged(row.run.outcome));
     return values;
   };
   return table;
@@ -130,16 +131,14 @@ CsvTable violations_table() {
 CsvTable incidents_table() {
   CsvTable table{"incidents.csv",
                  "a finding of another law, an injected fault or a body on the floor",
+                 "v1_incidents",
                  {},
                  [](const RunRecord& run) { return run.outcome.incidents.size(); },
                  {}};
-  add_run_columns(table.columns);
-  for (const auto& [name, unit, meaning] :
-       {Words{"kind", "none", "kind of the incident"}, Words{"entity_a", "none", "body concerned; empty: none"},
-        Words{"entity_b", "none", "other body; empty: none"}, Words{"first_ns", "ns", "beginning"},
-        Words{"last_ns", "ns", "end"}, Words{"value", "see unit", "the number that belongs to the kind"},
-        Words{"unit", "none", "unit of value"}})
-    add(table.columns, name, unit, meaning);
+  add_run_columns(table);
+  for (const char* name : {"kind", "entity_a", "entity_b", "first_ns", "last_ns", "value", "unit", "end_point",
+                           "run_failed", "run_unknown"})
+    add(table, name);
   table.values = [](const CsvRow& row) {
     const Incident& incident = row.run.outcome.incidents[row.ordinal];
     Values values;
@@ -150,6 +149,9 @@ CsvTable incidents_table() {
     for (const std::int64_t value : {to_ns(incident.first), to_ns(incident.last), incident.value})
       values.push_back(std::to_string(value));
     values.emplace_back(info_of(incident.kind).unit);
+    const auto end_point = info_of(incident.kind).end_point;
+    values.emplace_back(end_point ? name_of(*end_point) : "");
+    add_judged(values, judged(row.run.outcome));
     return values;
   };
   return table;

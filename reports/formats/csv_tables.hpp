@@ -24,6 +24,7 @@ struct CsvRow {
 // A table of the campaign as CSV (RFC 4180): a heading, then rows in order of run index.
 struct CsvTable {
   std::string file, holds;  // "runs.csv", and what a row is
+  std::string view;         // of the archive, whose columns have the same names and meanings
   std::vector<CsvColumn> columns;
   std::function<std::size_t(const RunRecord&)> rows_of;  // how many rows a run has
   std::function<std::vector<std::string>(const CsvRow&)> values;

@@ -266,6 +266,37 @@ Json one_cell_json(const ReportInput& input, const CellRecord& cell) {
   return json;
 }
 
+// A row of the tables by layout and by fleet size.
+Json breakdown_json(const ReportInput& input, const BreakdownRow& row) {
+  Json json{{"agent", row.key.agent},
+            {"layout", row.key.layout.empty() ? Json(nullptr) : Json(row.key.layout)},
+            {"fleet_size", row.key.fleet_size > 0 ? Json(row.key.fleet_size) : Json(nullptr)},
+            {"in_contract", row.key.in_contract}};
+  add_tally(json, row.tally);
+  const UnitCount worlds = input.evidence.counted(row.violations.worlds, row.violations.cells.size());
+  json["worlds"] = worlds.units;
+  json["failing_worlds"] = worlds.failing;
+  json["failing_or_unknown_worlds"] = worlds.failing_or_unknown;
+  json["stalled_worlds"] = row.stalled;
+  json["longest_run_s"] = row.run_length_s;
+  if (input.evidence.counts_only()) return json;
+  const GateRecord rule = bound_rule(input.evidence, row.key.agent), hourly = hourly_rule(rule);
+  json["confidence"] = rule.confidence;
+  json["method"] = name_of(rule.method);
+  json["claim"] = estimate_json(estimate(rule, worlds.failing_or_unknown, worlds.counted), rule.unit);
+  json["claim_per_agv_hour"] =
+      estimate_json(estimate(hourly, worlds.failing_or_unknown, worlds.counted, row.cells), hourly.unit);
+  return json;
+}
+
+// Of all runs that are stored, whether or not their replicate is complete.
+Json agent_runs_json(const ReportInput& input, const AgentRuns& runs) {
+  return {{"agent", runs.agent},
+          {"under_test", is_under_test(input.evidence.plan(), runs.agent)},
+          {"runs", runs.runs},
+          {"worst_run", failing_run_json(input, runs.worst)}};
+}
+
 Json campaign_json(const ReportInput& input) {
   const auto& campaign = input.campaign;
   return {{"name", campaign.name},
@@ -374,6 +405,13 @@ std::string render_json(const ReportInput& input) {
   json["conditions"] = list_of(conditions.size(), [&](std::size_t i) { return condition_json(input, conditions[i]); });
   json["cells"] =
       list_of(evidence.cells().size(), [&](std::size_t i) { return one_cell_json(input, evidence.cells()[i]); });
+  const auto rows = input.breakdown.rows();
+  json["breakdowns"] = list_of(rows.size(), [&](std::size_t i) { return breakdown_json(input, rows[i]); });
+  const auto violating = evidence.contract_failures(), foreign = evidence.foreign_body_runs();
+  json["contract_failures"] =
+      list_of(violating.size(), [&](std::size_t i) { return agent_runs_json(input, violating[i]); });
+  json["foreign_body_runs"] =
+      list_of(foreign.size(), [&](std::size_t i) { return agent_runs_json(input, foreign[i]); });
   json["attempts"] = attempts_json(input);
   const auto groups = input.failures.list(input.evidence.plan());
   json["failure_groups"] = list_of(groups.size(), [&](std::size_t i) { return group_json(input, groups[i]); });

@@ -30,12 +30,6 @@ std::vector<Column> columns(const char* what, bool counts_only, const std::strin
   return list;
 }
 
-// The rule of the agent's bounds, for events per AGV-hour.
-GateRecord hourly(GateRecord rule) {
-  rule.unit = GateUnit::AgvHour;
-  return rule;
-}
-
 std::vector<std::string> row(const ReportInput& input, const BreakdownRow& group, const std::string& name) {
   std::vector<std::string> cells{printable(group.key.agent, 40), name, group.key.in_contract ? "contract" : "beyond",
                                  std::to_string(group.tally.runs)};
@@ -51,7 +45,7 @@ std::vector<std::string> row(const ReportInput& input, const BreakdownRow& group
     if (says_nothing) {
       cells.insert(cells.end(), {"-", "-"});
     } else {
-      const Estimate rate = estimate(hourly(rule), worlds.failing_or_unknown, worlds.counted, group.cells);
+      const Estimate rate = estimate(hourly_rule(rule), worlds.failing_or_unknown, worlds.counted, group.cells);
       cells.push_back(rounded_rate(*rate.rate()));
       cells.push_back(
           fmt::format("[{}, {}]", rounded_down(rate.interval_95.lower), rounded_up(rate.interval_95.upper)));

@@ -99,6 +99,11 @@ std::size_t keep_most_interesting(std::vector<Condition>& conditions, std::size_
 
 }  // namespace
 
+GateRecord hourly_rule(GateRecord rule) {
+  rule.unit = GateUnit::AgvHour;
+  return rule;
+}
+
 GateRecord bound_rule(const Evidence& evidence, const std::string& agent) {
   const auto gate = std::ranges::find(evidence.gates(), agent, &GateRecord::agent);
   GateRecord rule;

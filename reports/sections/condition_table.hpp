@@ -20,5 +20,7 @@ Section table_legend(const ReportInput& input);
 
 // Confidence and method of the bounds of an agent: those of its first gate, or 95 % at any time.
 GateRecord bound_rule(const Evidence& evidence, const std::string& agent);
+// The same rule, for events per AGV-hour.
+GateRecord hourly_rule(GateRecord rule);
 
 }  // namespace fleetproof

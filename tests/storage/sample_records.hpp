@@ -24,7 +24,7 @@ inline CampaignRecord campaign() {
   record.replicates = 40;
   record.plan_json = R"({"layouts":{"ring":{}}})";
   record.plan_hash = 0x8000000000000001ULL;
-  record.engine = {"0.1.0", "ab12", "g++ 12.2.0", "-O2", "SQLite 3.40.1"};
+  record.engine = {"0.1.0", "ab12", "g++ 12.2.0", "-O2", "SQLite 3.40.1", "92814cf7"};
   record.required_probes = {"encounter", "negotiation?"};
   record.held_streams = {"layout", "radio"};
   record.held_replicate = 3;

@@ -137,9 +137,64 @@ TEST_F(Views, runs_have_the_quality_they_drew_and_cells_their_bounds) {
   EXPECT_EQ(reader.run(2)->factors, (FactorValues{0.75, 1.25, 0.5, 0.004}));
 }
 
+TEST_F(Views, the_dictionary_has_every_column_of_every_view_once) {
+  const std::string columns =
+      "(SELECT s.name AS view, c.name AS column FROM sqlite_schema s JOIN pragma_table_info(s.name) "
+      "c WHERE s.type = 'view')";
+  const std::string words = "(SELECT view_name, column_name FROM v1_dictionary)";
+  EXPECT_EQ(query(path_, "SELECT * FROM " + columns + " EXCEPT SELECT * FROM " + words), "") << "no meaning";
+  EXPECT_EQ(query(path_, "SELECT * FROM " + words + " EXCEPT SELECT * FROM " + columns), "") << "no such column";
+  EXPECT_EQ(query(path_, "SELECT view_name, column_name FROM v1_dictionary GROUP BY 1, 2 HAVING count(*) > 1"), "");
+  EXPECT_EQ(query(path_, "SELECT column_name FROM v1_dictionary WHERE length(meaning) < 3 OR unit = ''"), "");
+  EXPECT_GT(std::stoi(query(path_, "SELECT count(*) FROM v1_dictionary")), 150);
+}
+
+TEST_F(Views, the_dictionary_tells_how_runs_are_judged) {
+  const std::string rule =
+      query(path_, "SELECT meaning FROM v1_dictionary WHERE view_name = 'v1_runs' AND column_name = 'failed'");
+  for (const char* words : {"before the first contact", "fallen load", "unknown"})
+    EXPECT_THAT(rule, testing::HasSubstr(words));
+}
+
+TEST_F(Views, say_how_a_run_is_judged_beside_its_flags) {
+  EXPECT_EQ(query(path_, "SELECT violation, failed, judged FROM v1_runs WHERE run_index = 4"),
+            "1|violation deadlock|failed");
+  EXPECT_EQ(query(path_, "SELECT DISTINCT judged FROM v1_runs WHERE run_index <> 4"), "passed");
+  EXPECT_EQ(query(path_, "SELECT run_failed FROM v1_violations"), "violation deadlock");
+  EXPECT_EQ(query(path_, "SELECT kind, end_point, run_failed FROM v1_incidents"),
+            "deadlock|deadlock|violation deadlock");
+  EXPECT_EQ(query(path_, "SELECT sum(failed_runs), sum(deadlock_failed_runs), sum(contact_failed_runs) FROM v1_cells"),
+            "1|1|0");
+}
+
+// Software that is told of no fallen load does not answer for one: the flags say what happened, and failed what counts.
+TEST(ViewsOfJudgedRuns, AContactWithAFallenLoadFailsNothing) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.fp";
+  RunRecord run;
+  run.outcome.agv_count = 2;
+  run.outcome.simulated_ns = 1'000'000'000;
+  Violation violation;
+  violation.a = EntityId{1u};
+  violation.b = EntityId{2u};  // behind the AGVs: a load or an obstacle
+  violation.contact = true;
+  file_violations(run.outcome, {violation});
+  run.factors = samples::cells()[0].lowest;
+  {
+    ArchiveWriter writer(path, samples::plan());
+    writer.add(run);
+    writer.commit();
+  }
+  const std::string live = path + ".partial";
+  EXPECT_EQ(query(live, "SELECT violation, contact, failed, judged FROM v1_runs"), "1|1||unknown");
+  EXPECT_THAT(query(live, "SELECT run_failed, run_unknown FROM v1_violations"),
+              testing::HasSubstr("violation contact"));
+  EXPECT_EQ(query(live, "SELECT violation_runs, failed_runs, unknown_runs FROM v1_cells WHERE cell = 0"), "1|0|1");
+}
+
 TEST_F(Views, the_file_names_its_kind_and_version) {
   EXPECT_EQ(query(path_, "PRAGMA application_id"), std::to_string(0x464C5046));
-  EXPECT_EQ(query(path_, "PRAGMA user_version"), "12");
+  EXPECT_EQ(query(path_, "PRAGMA user_version"), "13");
   EXPECT_EQ(query(path_, "PRAGMA page_size"), "4096");
   EXPECT_EQ(query(path_, "PRAGMA journal_mode"), "delete");
   EXPECT_EQ(query(path_, "PRAGMA integrity_check"), "ok");
