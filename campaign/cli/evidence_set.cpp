@@ -9,13 +9,21 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <tuple>
 #include <vector>
 
+#include "campaign/batch/session_log.hpp"
+#include "campaign/cli/campaign_end.hpp"
+#include "campaign/cli/repeat_page.hpp"
 #include "campaign/cli/streams.hpp"
+#include "campaign/plan/plan_text.hpp"
+#include "campaign/run/replay.hpp"
 #include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
+#include "core/base/regular_file.hpp"
+#include "generators/formats/layout_file.hpp"
 #include "reports/formats/csv_tables.hpp"
 #include "reports/formats/report_formats.hpp"
 #include "reports/formats/report_schema.hpp"
@@ -36,7 +44,7 @@ class EvidenceFolder {
     partial_ = wanted_;
     partial_ += ".partial";
     for (const fs::path& path : {wanted_, partial_}) {
-      if (fs::exists(path))
+      if (is_name_taken(path.string()))
         throw InputError("--evidence",
                          fmt::format("{} is there already; name another folder, or move it away", path.string()));
     }
@@ -64,6 +72,15 @@ class EvidenceFolder {
   void write(const std::string& name, std::string_view text) {
     std::ofstream file = open(name);
     file << text;
+    close(file, name);
+  }
+  // Under this name, block by block: a results file may be large.
+  void copy(const std::string& from, const std::string& name) {
+    constexpr std::size_t kBlock = 1U << 20;
+    RegularFile source(from);
+    std::ofstream file = open(name);
+    for (std::string block; block = source.read(kBlock), !block.empty();)
+      file.write(block.data(), static_cast<std::streamsize>(block.size()));
     close(file, name);
   }
   void publish() {
@@ -101,6 +118,7 @@ std::string identity_text(const ReportInput& input) {
                   {"agents_of_shared_objects", campaign.plugin_agents},
                   {"engine",
                    {{"version", campaign.engine.version},
+                    {"source_commit", campaign.engine.source_commit},
                     {"program_sha256", campaign.engine.program_sha256},
                     {"compiler", campaign.engine.compiler},
                     {"flags", campaign.engine.flags},
@@ -108,16 +126,16 @@ std::string identity_text(const ReportInput& input) {
   return shown_json(json);
 }
 
+std::string plugin_title(const std::string& program) { return "the plug-in of agent " + program; }
+
 // The file beside the results file as it is; empty if there is none.
-std::string copied(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string copied(const std::string& path) { return read_text_file_if_there(path).value_or(""); }
 
 // The failing runs in the order in which a reader looks at them: control software under test before reference agents,
 // the most serious end points first, then by run index. 16 bytes a run.
 class RunsToReplay {
  public:
+  RunsToReplay(const CampaignPlan& plan, const RepeatWords& words) : plan_(plan), words_(words) {}
   void add(const RunRecord& run, bool under_test) {
     const auto failing = FailingRun::of(run);
     if (run.outcome.is_failure() && failing)
@@ -125,22 +143,35 @@ class RunsToReplay {
   }
   std::string text(const ReportInput& input) {
     std::ranges::sort(runs_);
-    std::string lines = fmt::format("# Call these where {} lies; it is no part of this folder.\n",
-                                    printable(std::filesystem::path(input.archive_path).filename().string()));
-    for (const auto& [is_reference, most_serious_first, run_index] : runs_)
-      lines += replay_line(input, run_index) + "\n";
+    const std::string archive = words_.archive.empty() ? input.archive_path : words_.archive;
+    std::string lines = words_.archive.empty() ? "# The results file is not in this folder: see REPEAT.md.\n"
+                                               : "# Call these in this folder.\n";
+    for (const auto& [is_reference, most_serious_first, run_index] : runs_) {
+      const AgentFactor& agent = plan_.agent_of_cell(run_index);
+      lines += replay_command(archive, run_index) + plugin_of(agent) + "\n";
+    }
     return lines;
   }
 
  private:
+  std::string plugin_of(const AgentFactor& agent) const {
+    for (const KeptFile& plugin : words_.plugins) {
+      if (plugin.what == plugin_title(agent.program) && !plugin.name.empty()) return " --plugin " + plugin.name;
+    }
+    return {};
+  }
+
+  const CampaignPlan& plan_;
+  const RepeatWords& words_;
   std::vector<std::tuple<bool, std::int64_t, std::uint64_t>> runs_;
 };
 
-void write_runs(EvidenceFolder& folder, const ArchiveReader& archive, const ReportInput& input) {
+void write_runs(EvidenceFolder& folder, const ArchiveReader& archive, const ReportInput& input,
+                const CampaignPlan& plan, const RepeatWords& words) {
   const auto& tables = csv_tables();
   std::vector<std::ofstream> files;
   for (const CsvTable& table : tables) write_heading(files.emplace_back(folder.open(table.file)), table);
-  RunsToReplay replays;
+  RunsToReplay replays(plan, words);
   archive.for_each_run([&](const RunRecord& run) {
     const CellRecord& cell = archive.cells()[run.cell];
     for (std::size_t i = 0; i < tables.size() && !run.folded; ++i) write_rows(files[i], tables[i], run, cell);
@@ -149,12 +180,85 @@ void write_runs(EvidenceFolder& folder, const ArchiveReader& archive, const Repo
   for (std::size_t i = 0; i < tables.size(); ++i) folder.close(files[i], tables[i].file);
   folder.write("replay.txt", replays.text(input));
   folder.write("columns.csv", csv_dictionary());
-  folder.write("validity.txt", validity_text(input));
+}
+
+// The file that made the results, if it is still where the session log says.
+KeptFile keep_plugin(EvidenceFolder& folder, const ReportInput& input, const std::string& program, std::size_t number) {
+  KeptFile kept{plugin_title(program), {}, {}};
+  const std::string file = remembered_plugin(input.archive_path, program);
+  if (file.empty()) {
+    kept.trouble = "no session log beside the results file says where it is";
+    return kept;
+  }
+  try {
+    const RegularFile is_there(file);
+  } catch (const InputError& error) {
+    kept.trouble = error.what();
+    return kept;
+  }
+  if (stored_plugins(input.campaign.engine, program) != std::vector{sha256_of_file(file)}) {
+    kept.trouble = printable(file) + " is not the file that made the results";
+    return kept;
+  }
+  kept.name = fmt::format("plugin-{}.so", number);
+  folder.copy(file, kept.name);
+  return kept;
+}
+
+std::vector<KeptFile> keep_plugins(EvidenceFolder& folder, const ReportInput& input, const CampaignPlan& plan) {
+  std::set<std::string> programs;
+  for (const AgentFactor& agent : plan.agents) {
+    if (std::ranges::find(input.campaign.plugin_agents, agent.name) != input.campaign.plugin_agents.end())
+      programs.insert(agent.program);
+  }
+  std::vector<KeptFile> kept;
+  for (const std::string& program : programs) kept.push_back(keep_plugin(folder, input, program, kept.size() + 1));
+  return kept;
+}
+
+std::vector<KeptFile> keep_layouts(EvidenceFolder& folder, const CampaignPlan& plan) {
+  std::vector<KeptFile> kept;
+  for (const LayoutFactor& layout : plan.layouts) {
+    if (layout.map == nullptr) continue;
+    const std::string name = fmt::format("layout-{}.json", kept.size() + 1);
+    folder.write(name, to_text(layout.map->layout()));
+    kept.push_back({"layout " + layout.name, name, {}});
+  }
+  return kept;
+}
+
+// The campaign file as its user wrote it, if it is still the one that was run.
+std::vector<KeptFile> keep_campaign_file(EvidenceFolder& folder, const ReportInput& input) {
+  const RememberedFile file = remembered_campaign_file(input.archive_path);
+  KeptFile kept{"the campaign file as it was written", {}, {}};
+  try {
+    if (file.path.empty()) {
+      kept.trouble = "no session log beside the results file names it";
+    } else if (const std::string text = read_text_file(file.path); sha256_hex(text) != file.sha256) {
+      kept.trouble = printable(file.path) + " was changed since";
+    } else {
+      kept.name = "campaign.toml";
+      folder.write(kept.name, text);
+    }
+  } catch (const InputError& error) {
+    kept.trouble = error.what();
+  }
+  return {kept};
+}
+
+// A published results file; one that still grows is not copied.
+std::string keep_results(EvidenceFolder& folder, const std::string& archive) {
+  if (archive.ends_with(".partial")) return {};
+  const std::string name = fs::path(archive).filename().string();
+  folder.copy(archive, name);
+  return name;
 }
 
 }  // namespace
 
 void write_evidence_set(const std::string& path, const ArchiveReader& archive, const HtmlInput& input) {
+  const std::vector<ValidityCheck> checks = validity_checks(input.report);
+  require_known_answers(checks);
   EvidenceFolder folder(path);
   const ReportInput& report = input.report;
   folder.write("report.html", render_html(input));
@@ -163,7 +267,18 @@ void write_evidence_set(const std::string& path, const ArchiveReader& archive, c
   folder.write("report.schema.json", report_schema());
   folder.write("plan.json", report.campaign.plan_json);
   folder.write("identity.json", identity_text(report));
-  write_runs(folder, archive, report);
+  const CampaignPlan plan = parse_plan(report.campaign.plan_json);
+  RepeatWords words;
+  words.archive = keep_results(folder, report.archive_path);
+  words.results_digest = hex_text(archive.results_digest());
+  words.verdict = name_of(overall_verdict(report.evidence, report.gates));
+  words.exit_code = exit_code_of(report, false);
+  words.plugins = keep_plugins(folder, report, plan);
+  words.layouts = keep_layouts(folder, plan);
+  words.campaign = keep_campaign_file(folder, report);
+  folder.write("REPEAT.md", repeat_page(report, words));
+  write_runs(folder, archive, report, plan, words);
+  folder.write("validity.txt", validity_text(report, checks));
   folder.write("attempts.jsonl", copied(report.attempts.ledger));
   folder.write("sessions.jsonl", copied(session_log_path(report.archive_path)));
   if (report.sensitivity.record) folder.write("sensitivity.json", sensitivity_text(*report.sensitivity.record));

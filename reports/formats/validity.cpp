@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/base/tolerances.hpp"
 #include "reports/evidence/binomial.hpp"
@@ -36,25 +37,48 @@ bool estimators_give_known_answers() {
 
 }  // namespace
 
-std::string validity_text(const ReportInput& input) {
-  std::string text = "Checks of the tool and of the data, done when this file was written\n\n";
-  text += line(generator_gives_known_answers(), "the random generator gives the published answers (Philox4x32-10)");
-  text += line(estimators_give_known_answers(), "the exact bounds agree with published values to 1e-10");
-  text += line(true, "every row of the results file has the checksum that it was stored with");
-  text += line(input.evidence.engine_errors() == 0,
-               fmt::format("{} ended in an error of the simulator", count_text(input.evidence.engine_errors(), "run")));
-  text +=
-      line(input.evidence.repeated_runs() == 0,
-           fmt::format("{} of {} runs have a trace that an earlier run of the same cell had: a claim counts no world "
-                       "that passed and whose runs all repeat others (traces of a fleet that never moves may be equal)",
-                       input.evidence.repeated_runs(), input.evidence.runs()));
-  for (const AgentAudit& audit : input.evidence.audits().agents()) {
-    text +=
-        line(audit.differing == 0, fmt::format("{} of {} audited runs of {} came out differently in another process",
-                                               audit.differing, audit.audited, printable(audit.agent, 40)));
-    text += line(audit.open == 0,
-                 fmt::format("{} of {} due and not done", count_text(audit.open, "audit"), printable(audit.agent, 40)));
+std::vector<ValidityCheck> validity_checks(const ReportInput& input) {
+  const Evidence& evidence = input.evidence;
+  std::vector<ValidityCheck> checks = {
+      {generator_gives_known_answers(), true, "the random generator gives the published answers (Philox4x32-10)"},
+      {estimators_give_known_answers(), true, "the exact bounds agree with published values to 1e-10"},
+      {true, false, "every row of the results file has the checksum that it was stored with"},
+      {evidence.engine_errors() == 0, false,
+       fmt::format("{} ended in an error of the simulator", count_text(evidence.engine_errors(), "run"))},
+      {true, false,
+       fmt::format(
+           "{} of {} runs have a trace that an earlier run of the same cell had, and count for nothing: a claim "
+           "counts no world that passed and whose runs all repeat others (traces of a fleet that never moves "
+           "may be equal)",
+           evidence.repeated_runs(), evidence.runs())},
+      {!has_several_programs(input.campaign.engine), false, "all runs are those of one program"}};
+  for (const AgentAudit& audit : evidence.audits().agents()) {
+    const std::string agent = printable(audit.agent, 40), doubt = audit_doubt(audit);
+    checks.push_back(
+        {doubt.empty(), false,
+         fmt::format("{} of {} audited runs of {} came out differently in another process, {} were judged "
+                     "otherwise, and {} due and not done{}",
+                     audit.differing, audit.audited, agent, audit.judged_otherwise, count_text(audit.open, "audit"),
+                     doubt.empty() ? "" : ": nothing is demonstrated for this agent")});
   }
+  return checks;
+}
+
+void require_known_answers(const std::vector<ValidityCheck>& checks) {
+  for (const ValidityCheck& check : checks) {
+    if (check.is_known_answer && !check.passed)
+      throw EngineError("this is wrong on this machine: " + check.text +
+                        "; its figures are no evidence; use another build or another machine");
+  }
+}
+
+std::string validity_text(const ReportInput& input, const std::vector<ValidityCheck>& checks) {
+  std::string text =
+      "Checks of the tool and of the data, done when this file was written. FAIL: the verdict counts it.\n\n";
+  for (const ValidityCheck& check : checks) text += line(check.passed, check.text);
+  text += fmt::format("\nVerdict: {}", name_of(overall_verdict(input.evidence, input.gates)));
+  if (input.exit_code) text += fmt::format("; `fleetproof report` ends with exit code {}", *input.exit_code);
+  text += ".\n";
   text += fmt::format(
       "\nIndependence: replicate i of seed {} draws everything from keys of its own (Philox counters); replicates "
       "share "

@@ -66,10 +66,10 @@ TEST_F(EvidenceSet, HoldsWhatItsSumsSay) {
   std::set<std::string> there;
   for (const auto& entry : std::filesystem::directory_iterator(path("set"))) there.insert(entry.path().filename());
   EXPECT_EQ(there, named);
-  EXPECT_THAT(there,
-              testing::IsSupersetOf({"report.html", "report.txt", "report.json", "report.xml", "plan.json",
-                                     "identity.json", "runs.csv", "violations.csv", "incidents.csv", "columns.csv",
-                                     "replay.txt", "attempts.jsonl", "sessions.jsonl", "validity.txt"}));
+  EXPECT_THAT(there, testing::IsSupersetOf({"report.html", "report.txt", "report.json", "report.xml", "plan.json",
+                                            "identity.json", "runs.csv", "violations.csv", "incidents.csv",
+                                            "columns.csv", "replay.txt", "attempts.jsonl", "sessions.jsonl",
+                                            "validity.txt", "a.db", "campaign.toml", "REPEAT.md"}));
   EXPECT_FALSE(std::filesystem::exists(path("set.partial")));
 }
 
@@ -135,7 +135,74 @@ TEST_F(EvidenceSet, ReplaysExactlyTheFailingRunsTheWorstOfTheSoftwareUnderTestFi
     }
   }
   EXPECT_THAT(kinds, testing::IsSupersetOf({"mine1", "mine0", "reckless1"})) << "an order of one kind shows nothing";
-  EXPECT_EQ(read(path("set/replay.txt")), "# Call these where d.db lies; it is no part of this folder.\n" + expected);
+  EXPECT_EQ(read(path("set/replay.txt")), "# Call these in this folder.\n" + expected);
+}
+
+// The commands of REPEAT.md with the exit codes that it promises: each indented line, and the "Ends with N" behind it.
+std::vector<std::pair<std::string, int>> promises_of(const std::string& page) {
+  std::vector<std::pair<std::string, int>> promises;
+  std::istringstream lines(page);
+  std::string command;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("    ")) command = line.substr(4);
+    if (command.empty() || !line.starts_with("Ends with ")) continue;
+    promises.emplace_back(command, std::stoi(line.substr(10)));
+    command.clear();
+  }
+  return promises;
+}
+
+// In another folder, with nothing but a copy of the evidence and the program.
+TEST_F(EvidenceSet, IsRepeatedByFollowingItsPageAlone) {
+  write("plant.json", run("generate aisle-grid --seed 3").out);
+  std::filesystem::copy_file(FLEETPROOF_FAILING_AGENT, path("mine.so"));
+  write("e.toml",
+        "seed = 7\nreplicates = 3\nhorizon_s = 60\n[factors]\nagents = [\"./mine.so\", \"reckless\"]\nlayouts = "
+        "[\"plant.json\"]\nfleet_sizes = [3]\nloss = [0.4]\ndelay_s = [2]\n");
+  const auto made = run("run e.toml --db e.db");
+  ASSERT_TRUE(test::has_verdict(made));
+  ASSERT_EQ(run("report e.db --evidence set").exit_code, made.exit_code);
+  std::filesystem::create_directory(path("later"));
+  std::filesystem::rename(path("set"), path("later/set"));
+  for (const char* gone : {"e.toml", "e.db", "e.sessions.jsonl", "attempts.jsonl", "plant.json", "mine.so"})
+    std::filesystem::remove(path(gone));
+  const auto promises = promises_of(read(path("later/set/REPEAT.md")));
+  ASSERT_EQ(promises.size(), 5U);
+  for (const auto& [command, exit_code] : promises) {
+    const auto finished =
+        shell("mkdir -p bin; ln -sf \"$FLEETPROOF\" bin/fleetproof; PATH=$PWD/bin:$PATH; cd later/set; " + command);
+    EXPECT_EQ(finished.exit_code, exit_code) << command << "\n" << finished.out << finished.err;
+  }
+  EXPECT_EQ(promises[3].second, made.exit_code) << promises[3].first;
+  const auto replayed =
+      shell("PATH=$PWD/bin:$PATH; cd later/set; grep -v '^#' replay.txt | head -2 | bash -e; cat layout-1.json");
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+  EXPECT_THAT(replayed.out, testing::StartsWith("reproduced"));
+}
+
+TEST_F(EvidenceSet, SaysWhatIsNotAtHandAnyMore) {
+  std::filesystem::copy_file(FLEETPROOF_FAILING_AGENT, path("mine.so"));
+  write("e.toml",
+        "seed = 7\nreplicates = 2\nhorizon_s = 60\n[factors]\nagents = [\"./mine.so\"]\nlayouts = "
+        "[\"aisle-grid\"]\nfleet_sizes = [3]\n");
+  ASSERT_TRUE(test::has_verdict(run("run e.toml --db e.db")));
+  std::filesystem::remove(path("mine.so"));
+  write("e.toml", "# another one\n");
+  run("report e.db --evidence set");
+  const std::string page = read(path("set/REPEAT.md"));
+  EXPECT_THAT(page, HasSubstr("the plug-in of agent failing: not in this folder"));
+  EXPECT_THAT(page, HasSubstr("e.toml was changed since"));
+  EXPECT_THAT(page, HasSubstr("Cannot be done without the plug-ins"));
+  EXPECT_FALSE(std::filesystem::exists(path("set/campaign.toml")));
+}
+
+TEST_F(EvidenceSet, NamesTheCommitOfTheProgram) {
+  run("report a.db --evidence set");
+  const auto identity = nlohmann::json::parse(read(path("set/identity.json")));
+  const std::string commit = identity.at("engine").at("source_commit");
+  EXPECT_FALSE(commit.empty());
+  EXPECT_THAT(read(path("set/REPEAT.md")), HasSubstr(commit));
+  EXPECT_THAT(run("--version").out, HasSubstr(commit));
 }
 
 TEST_F(EvidenceSet, IsGoneIfTheDiskIsFull) {
