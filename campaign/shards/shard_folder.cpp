@@ -49,8 +49,11 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   for (auto entry = fs::recursive_directory_iterator(folder, error); !error && entry != fs::end(entry);
        entry.increment(error)) {
     std::error_code none;
-    if (!entry->is_directory(none) && !entry->path().filename().string().starts_with(kTemporary))
-      files.push_back(entry->path());
+    const std::string name = entry->path().filename().string();
+    const bool is_folder = entry->is_directory(none);
+    if (is_folder && name.ends_with(kChunk))
+      throw InputError(entry->path().string(), "is a folder and stands where a chunk belongs; move it away");
+    if (!is_folder && !name.starts_with(kTemporary)) files.push_back(entry->path());
   }
   if (error) throw InputError(folder.string(), fmt::format("cannot be read ({})", error.message()));
   std::ranges::sort(files);

@@ -177,7 +177,7 @@ TEST_F(EvidenceSet, IsRepeatedByFollowingItsPageAlone) {
   const auto replayed =
       shell("PATH=$PWD/bin:$PATH; cd later/set; grep -v '^#' replay.txt | head -2 | bash -e; cat layout-1.json");
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
-  EXPECT_THAT(replayed.out, testing::StartsWith("reproduced"));
+  EXPECT_THAT(replayed.out, testing::StartsWith("REPRODUCED"));
 }
 
 TEST_F(EvidenceSet, SaysWhatIsNotAtHandAnyMore) {
