@@ -92,7 +92,6 @@ std::uint64_t plan_checksum(const StoredPlan& plan, std::int32_t schema) {
   for (const auto& pair : campaign.exempt_pairs) bytes << pair;
   bytes << std::uint64_t{campaign.plugin_agents.size()};
   for (const auto& agent : campaign.plugin_agents) bytes << agent;
-  if (schema >= kFirstWithCommit) bytes << campaign.engine.source_commit;
   if (schema >= kFirstJudged) {
     for (const auto* agents : {&campaign.deterministic_agents, &campaign.agents_under_test}) {
       bytes << std::uint64_t{agents->size()};
@@ -114,6 +113,9 @@ std::uint64_t plan_checksum(const StoredPlan& plan, std::int32_t schema) {
     if (schema >= kFirstTabled) add_method(bytes, gate);
     if (schema >= kFirstOfOneCell) add_cells(bytes, gate.where, schema);
   }
+  // At the end, and only if there is one: a plan without its program has the digest that it always had.
+  const std::string& commit = campaign.engine.source_commit;
+  if (schema >= kFirstWithCommit && !commit.empty()) bytes << commit;
   return bytes.hash();
 }
 
