@@ -157,8 +157,8 @@ TEST_F(EvidenceSet, IsRepeatedByFollowingItsPageAlone) {
   write("plant.json", run("generate aisle-grid --seed 3").out);
   std::filesystem::copy_file(FLEETPROOF_FAILING_AGENT, path("mine.so"));
   write("e.toml",
-        "seed = 7\nreplicates = 3\nhorizon_s = 60\n[factors]\nagents = [\"./mine.so\", \"reckless\"]\nlayouts = "
-        "[\"plant.json\"]\nfleet_sizes = [3]\nloss = [0.4]\ndelay_s = [2]\n");
+        "seed = 7\nreplicates = 3\nhorizon_s = 120\n[factors]\nagents = [\"./mine.so\", \"reckless\"]\nlayouts = "
+        "[\"plant.json\"]\nfleet_sizes = [6]\nloss = [0.4]\ndelay_s = [2]\n");
   const auto made = run("run e.toml --db e.db");
   ASSERT_TRUE(test::has_verdict(made));
   ASSERT_EQ(run("report e.db --evidence set").exit_code, made.exit_code);
