@@ -56,26 +56,28 @@ constexpr const char* name_of(EndPoint end_point) {
 }
 
 // Lack: in a run that fails it, AGVs had work and did not get it done.
-// Weight: which one a page tells first if a run fails several of them. Above 0: the fleet stalled, although nothing
-// says that its radio or its AGVs were out of order.
+// Stall weight: which lack of progress a page tells first if a run has several. Above 0: the fleet stalled, although
+// nothing says that its radio or its AGVs were out of order.
+// Weight: of several failures of a run, the one with the highest leads (run_failures.hpp). Weight if over: of one that
+// had passed before the run ended; what cannot be undone keeps its weight.
 struct EndPointInfo {
   EndPoint id;
   bool is_lack_of_progress;
-  std::uint32_t stall_weight;
+  std::uint32_t stall_weight, weight, weight_if_over;
 };
 inline constexpr auto kEndPoints = std::to_array<EndPointInfo>({
-    {EndPoint::Violation, false, 0},
-    {EndPoint::Contact, false, 0},
-    {EndPoint::HazardousContact, false, 0},
-    {EndPoint::Deadlock, true, 3},
-    {EndPoint::Livelock, true, 2},
-    {EndPoint::Starvation, true, 1},
-    {EndPoint::Standstill, true, 0},
-    {EndPoint::WrongLoad, false, 0},
-    {EndPoint::EmptyBattery, false, 0},
-    {EndPoint::Crash, false, 0},
-    {EndPoint::Hang, false, 0},
-    {EndPoint::Throughput, false, 0},
+    {EndPoint::Violation, false, 0, 60, 60},
+    {EndPoint::Contact, false, 0, 70, 70},
+    {EndPoint::HazardousContact, false, 0, 80, 80},
+    {EndPoint::Deadlock, true, 3, 20, 10},
+    {EndPoint::Livelock, true, 2, 20, 10},
+    {EndPoint::Starvation, true, 1, 20, 10},
+    {EndPoint::Standstill, true, 0, 20, 10},
+    {EndPoint::WrongLoad, false, 0, 50, 50},
+    {EndPoint::EmptyBattery, false, 0, 20, 10},
+    {EndPoint::Crash, false, 0, 40, 40},
+    {EndPoint::Hang, false, 0, 30, 30},
+    {EndPoint::Throughput, false, 0, 0, 0},
 });
 static_assert(
     [] {

@@ -35,11 +35,6 @@ RunResult violations(const Outcome& outcome, ViolationLevel level) {
 
 bool fails(const Incident& incident, EndPoint end_point) { return info_of(incident.kind).end_point == end_point; }
 
-RunResult incidents(const Outcome& outcome, EndPoint end_point) {
-  const bool failed = std::ranges::any_of(outcome.incidents, [&](const Incident& i) { return fails(i, end_point); });
-  return result(failed, ended_early(outcome));
-}
-
 // The beginning of the first pair that ended in a contact; kForever without one.
 SimTime first_wreck(const Outcome& outcome) {
   SimTime first = kForever;
@@ -49,21 +44,23 @@ SimTime first_wreck(const Outcome& outcome) {
   return first;
 }
 
-RunResult lack_of_progress(const Outcome& outcome, EndPoint end_point) {
-  const SimTime wreck = first_wreck(outcome);
-  bool failed = false, undecided = ended_early(outcome) || wreck != kForever;
+RunResult incidents(const Outcome& outcome, EndPoint end_point) {
+  const bool is_lack = info_of(end_point).is_lack_of_progress;
+  bool failed = false, undecided = ended_early(outcome) || (is_lack && first_wreck(outcome) != kForever);
   for (const Incident& incident : outcome.incidents) {
-    if (!fails(incident, end_point)) continue;
-    const bool open = ended_early(outcome) || surely_began(incident) >= wreck || foreign_body_lay(outcome, incident);
-    (open ? undecided : failed) = true;
+    if (fails(incident, end_point)) (fails_by(outcome, incident) ? failed : undecided) = true;
   }
   return result(failed, undecided);
 }
 
 }  // namespace
 
+bool fails_by(const Outcome& outcome, const Incident& incident) {
+  if (!info_of(info_of(incident.kind).end_point.value()).is_lack_of_progress) return true;
+  return !ended_early(outcome) && surely_began(incident) < first_wreck(outcome) && !foreign_body_lay(outcome, incident);
+}
+
 RunResult result_of(const Outcome& outcome, EndPoint end_point) {
-  if (info_of(end_point).is_lack_of_progress) return lack_of_progress(outcome, end_point);
   switch (end_point) {
     case EndPoint::Violation:
       return violations(outcome, ViolationLevel::SafetyDistance);
@@ -71,6 +68,10 @@ RunResult result_of(const Outcome& outcome, EndPoint end_point) {
       return violations(outcome, ViolationLevel::Contact);
     case EndPoint::HazardousContact:
       return violations(outcome, ViolationLevel::HazardousContact);
+    case EndPoint::Deadlock:
+    case EndPoint::Livelock:
+    case EndPoint::Starvation:
+    case EndPoint::Standstill:
     case EndPoint::WrongLoad:
     case EndPoint::EmptyBattery:
       return incidents(outcome, end_point);
@@ -78,10 +79,6 @@ RunResult result_of(const Outcome& outcome, EndPoint end_point) {
       return result(outcome.crash, ended_early(outcome));
     case EndPoint::Hang:
       return result(outcome.hang, ended_early(outcome));
-    case EndPoint::Deadlock:
-    case EndPoint::Livelock:
-    case EndPoint::Starvation:
-    case EndPoint::Standstill:
     case EndPoint::Throughput:
       break;
   }

@@ -19,6 +19,9 @@ enum class RunResult : std::uint8_t { Passed, Failed, Unknown };
 // not Throughput, which takes more than one run.
 RunResult result_of(const Outcome& outcome, EndPoint end_point);
 
+// Whether the run fails the end point of its kind by this incident. Requires: the kind has one.
+bool fails_by(const Outcome& outcome, const Incident& incident);
+
 // Of all end points but Throughput.
 JudgedOutcome judged(const Outcome& outcome);
 RunResult result_of(const JudgedOutcome& judged, EndPoint end_point);

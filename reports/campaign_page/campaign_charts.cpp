@@ -188,7 +188,8 @@ Element effort_part(const ReportInput& input, const CampaignFigures& figures) {
         "end.",
         bounds));
   Element row("div", {{"class", "maps"}});
-  row.add(chart_with_legend("New kinds of failures: end point and first cause", discovery_chart(input, figures, true)));
+  row.add(
+      chart_with_legend("New kinds of failures: end point and leading failure", discovery_chart(input, figures, true)));
   row.add(chart_with_legend("New situations (probes): the names in the table of what the runs met",
                             discovery_chart(input, figures, false)));
   return part.add(row);

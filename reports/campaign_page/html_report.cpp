@@ -105,7 +105,7 @@ Element assumptions_part() {
 
 Element worst_of_group(const HtmlInput& input, const FailureGroup& group) {
   Element block("div", {{"class", "case"}});
-  block.add(text_element("h3", fmt::format("{}: {}; first cause: {}; before it: {}", printable(group.agent, 40),
+  block.add(text_element("h3", fmt::format("{}: {}; leading failure: {}; before it: {}", printable(group.agent, 40),
                                            group.end_point, printable(group.first_cause, 80), name_of(group.before))));
   const Remark remark = worst_of(input.report, group);
   block.add(paragraph(remark.text));
@@ -115,8 +115,8 @@ Element worst_of_group(const HtmlInput& input, const FailureGroup& group) {
   return block;
 }
 
-// Failing runs by agent, end point and first cause, at most 50 groups: a table, then the worst run of each group with
-// its replay line and its strip, if there is one.
+// Failing runs by agent, end point and leading failure, at most 50 groups: a table, then the worst run of each group
+// with its replay line and its strip, if there is one.
 Element failure_part(const HtmlInput& input) {
   Element part = titled(kFailuresTitle);
   auto groups = input.report.failures.list(input.report.evidence.plan());

@@ -25,6 +25,15 @@ std::optional<OutcomeClass> most_serious(const Outcome& outcome) {
   return first_judged(outcome) ? std::optional(OutcomeClass::Clean) : std::nullopt;
 }
 
+std::optional<Incident> leading_incident(const Outcome& outcome, const FirstCause& cause) {
+  const auto leads = [&](const Incident& incident) {
+    return is_judged(incident.kind) && incident.first == cause.at && incident.a == cause.a && incident.b == cause.b &&
+           cause.what.starts_with(info_of(incident.kind).name);
+  };
+  const auto found = std::ranges::find_if(outcome.incidents, leads);
+  return found == outcome.incidents.end() ? first_judged(outcome) : *found;
+}
+
 // The least is the worst: by level, then by the speed of a contact, else by the clearance.
 std::tuple<int, std::int64_t, std::int64_t> worst_first(const Violation& v) {
   return {-static_cast<int>(level_of(v)), v.contact ? -v.relative_speed_um_s : 0, v.min_clearance_um};
@@ -47,7 +56,7 @@ std::optional<FailingRun> FailingRun::of(const RunRecord& run) {
   const auto cause = first_cause(run.outcome);
   ensure(cause.has_value(), "what failed has a first cause");
   failing.cause = *cause;
-  failing.incident = first_judged(run.outcome);
+  failing.incident = leading_incident(run.outcome, *cause);
   if (const Violation* worst = worst_of(run.outcome.violations)) failing.worst = *worst;
   return failing;
 }

@@ -19,7 +19,7 @@ struct FailingRun {
   std::optional<std::int64_t> min_clearance_um;
   std::size_t violations = 0;
   std::optional<Violation> worst;    // of the violations
-  std::optional<Incident> incident;  // the first that a gate may be put on
+  std::optional<Incident> incident;  // the one that leads, else the first that a gate may be put on
   FirstCause cause;
   std::string message;
 

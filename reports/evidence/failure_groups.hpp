@@ -13,7 +13,7 @@
 
 namespace fleetproof {
 
-// Failing runs of one agent with the same end point, the same first cause, and the same kind of thing before it.
+// Failing runs of one agent with the same end point, the same leading failure, and the same kind of thing before it.
 struct FailureGroup {
   std::string agent, end_point, first_cause;
   CameBefore before = CameBefore::Nothing;

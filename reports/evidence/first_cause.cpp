@@ -6,44 +6,10 @@
 
 #include "core/base/error.hpp"
 #include "core/outcome/foreign_bodies.hpp"
+#include "core/outcome/run_failures.hpp"
 
 namespace fleetproof {
 namespace {
-
-std::string pair_text(EntityId a, EntityId b, const Outcome& outcome) {
-  if (!a.valid() && !b.valid()) return "";
-  if (!a.valid() || !b.valid()) return ", one body";
-  return is_foreign(a, outcome) || is_foreign(b, outcome) ? ", AGV and another body" : ", two AGVs";
-}
-
-FirstCause cause_of(const Violation& violation, const Outcome& outcome) {
-  return {name_of(level_of(violation)) + pair_text(violation.a, violation.b, outcome),
-          violation.first,
-          violation.a,
-          violation.b,
-          {},
-          {}};
-}
-
-FirstCause cause_of(const Incident& incident, const Outcome& outcome) {
-  return {std::string(info_of(incident.kind).name) + pair_text(incident.a, incident.b, outcome),
-          incident.first,
-          incident.a,
-          incident.b,
-          {},
-          {}};
-}
-
-std::optional<FirstCause> bare_cause(const Outcome& outcome) {
-  const auto incident = std::ranges::find_if(outcome.incidents, [](const Incident& i) { return is_judged(i.kind); });
-  const bool has_incident = incident != outcome.incidents.end();
-  if (!outcome.violations.empty() && (!has_incident || outcome.violations.front().first <= surely_began(*incident)))
-    return cause_of(outcome.violations.front(), outcome);
-  if (has_incident) return cause_of(*incident, outcome);
-  const auto end = at_ns(static_cast<std::int64_t>(outcome.simulated_ns));
-  if (outcome.outcome_class() == OutcomeClass::Clean) return std::nullopt;
-  return FirstCause{name_of(outcome.outcome_class()), end, {}, {}, {}, {}};
-}
 
 bool is_fault(const Incident& incident) { return !accuses(incident.kind); }
 
@@ -56,8 +22,9 @@ CameBefore before_of(const Incident& fault) {
 }  // namespace
 
 std::optional<FirstCause> first_cause(const Outcome& outcome) {
-  auto cause = bare_cause(outcome);
-  if (!cause) return cause;
+  const auto leading = chosen_failure(outcome, {});
+  if (!leading) return std::nullopt;
+  std::optional cause(FirstCause{leading->what, leading->at, leading->a, leading->b, {}, {}});
   const bool names_bodies = cause->a.valid() && (cause->b.valid() || !is_foreign(cause->a, outcome));
   const bool has_foreign = is_foreign(cause->a, outcome) || is_foreign(cause->b, outcome);
   bool any_before = outcome.counters.faults > 0 && std::ranges::none_of(outcome.incidents, is_fault);
@@ -74,8 +41,7 @@ std::optional<FirstCause> first_cause(const Outcome& outcome) {
   }
   if (has_foreign) cause->before = CameBefore::ForeignBody;
   // A pair of AGVs that no fault touched is a finding; of a fleet that stands still nobody knows what it waits for.
-  const bool pair = cause->a.valid() && cause->b.valid() && !outcome.violations.empty() &&
-                    cause->at == outcome.violations.front().first;
+  const bool pair = leading->is_violation && cause->a.valid() && cause->b.valid();
   if (cause->before == CameBefore::Nothing && any_before && !pair) cause->before = CameBefore::Undecided;
   return cause;
 }

@@ -45,8 +45,7 @@ constexpr std::uint32_t weight_of(CameBefore before) {
   return 0;
 }
 
-// The first thing that went wrong in a run: its earliest violation or judged incident (deadlock, wrong load, ...), else
-// its crash, hang or standstill. What follows from it is a consequence.
+// The failure that leads a run (run_failures.hpp), and what came before it.
 struct FirstCause {
   std::string what;  // "contact, two AGVs"
   SimTime at{};      // of a crash, a hang or a standstill: the end of the run

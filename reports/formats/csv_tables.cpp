@@ -70,7 +70,8 @@ CsvTable runs_table() {
   add(table, "outcome_class");
   for (const RunEnd& end : kRunEnds) add(table, name_of(end.id));
   add(table, "min_clearance_um");
-  add(table, "first_cause", "none", "what went wrong first; empty: nothing");
+  add(table, "first_cause", "none",
+      "the failure that leads: the heaviest one that is judged; empty: nothing went wrong");
   add(table, "before_first_cause", "none", "what the scenario had done to the bodies involved before");
   for (const char* name : {"simulated_ns", "agv_count"}) add(table, name);
   for (const CounterInfo& counter : kCounters) add(table, counter.name);

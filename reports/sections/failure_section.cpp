@@ -19,7 +19,8 @@ Remark worst_of(const ReportInput& input, const FailureGroup& group) {
 
 Table failure_table(const std::vector<FailureGroup>& groups) {
   Table table;
-  for (const char* head : {"agent", "end point", "first cause", "before it"}) table.columns.push_back({head, false});
+  for (const char* head : {"agent", "end point", "leading failure", "before it"})
+    table.columns.push_back({head, false});
   for (const char* head : {"runs", "distinct", "worst run"}) table.columns.push_back({head});
   for (const FailureGroup& group : groups) {
     table.rows.push_back({printable(group.agent, 40), group.end_point, printable(group.first_cause, 80),

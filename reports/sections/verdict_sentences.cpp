@@ -125,7 +125,7 @@ Headline claim(const ReportInput& input) {
 // Cut, not rounded: no digit differs from the archive.
 double hundredths_s(SimTime t) { return static_cast<double>((t - kStart).count() / 10'000'000) / 100.0; }
 
-// What went wrong first, if it was something else, and what came before it.
+// The failure that leads, if it is something else, and what came before it.
 std::string cause_text(const FailingRun& run, const CellRecord& cell) {
   const FirstCause& cause = run.cause;
   std::string text;
@@ -134,7 +134,7 @@ std::string cause_text(const FailingRun& run, const CellRecord& cell) {
   if (run.end == OutcomeClass::Clean) {
     text = "; at " + at;
   } else if (!leads && cause.a.valid()) {
-    text = fmt::format("; first, at {}: {}", at, cause.what);
+    text = fmt::format("; leading failure, at {}: {}", at, cause.what);
     if (cause.b.valid()) text += fmt::format(" ({} and {})", body_name(cause.a, cell), body_name(cause.b, cell));
   }
   text += fmt::format("; before it: {}", name_of(cause.before));

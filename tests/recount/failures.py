@@ -1,25 +1,11 @@
-"""Failing runs by agent, end point and first cause, and when each kind was seen first."""
+"""Failing runs by agent, end point and leading failure, and when each kind was seen first."""
 from collections import defaultdict
 
-from counts import KINDS
-from known_sentences import ENDS, JUDGED
+from known_sentences import ENDS
+from leading import EMPTY, LACKS, WRONG_LOAD, failures, rows_of
 from tables import ENCOUNTERS, WORLD
 
 SERIOUS = ("contact", "violation", "crash", "hang", "indeterminate", "engine error", "stuck", "incident")
-
-
-def pair(a, b, agvs):
-    if a is None and b is None:
-        return ""
-    if a is None or b is None:
-        return ", one body"
-    return ", two AGVs" if agvs == 0 or max(a, b) < agvs else ", AGV and another body"
-
-
-def level(violation):
-    if not violation["contact"]:
-        return "safety distance broken"
-    return "contact at hazardous speed" if violation["relative_speed_um_s"] > 300000 else "contact"
 
 
 def rank_of(violation):
@@ -52,30 +38,22 @@ def before(run, faults, at_ns, a, b, is_violation):
 
 
 def failing_runs(archive):
-    """(agent, end point, first cause, before, run) in order of run index."""
-    faults = defaultdict(list)
-    for row in archive.db.execute("SELECT * FROM incidents WHERE kind >= 18 ORDER BY run_index, ordinal"):
-        faults[row["run_index"]].append(row)
-    first_violation, first_incident = {}, {}
-    for row in archive.db.execute("SELECT * FROM violations ORDER BY run_index, first_ns, ordinal"):
-        first_violation.setdefault(row["run_index"], row)
-    for row in archive.db.execute(f"SELECT * FROM incidents WHERE kind IN {JUDGED} ORDER BY run_index, ordinal"):
-        first_incident.setdefault(row["run_index"], row)
+    """(agent, end point, leading failure, before, run) in order of run index."""
+    judged = ", ".join(str(kind) for kind in (EMPTY, *WRONG_LOAD, *LACKS))
+    listed = {row[0] for row in archive.db.execute("SELECT DISTINCT run_index FROM violations UNION SELECT DISTINCT "
+                                                   f"run_index FROM incidents WHERE kind IN ({judged})")}
     for run in archive.db.execute(f"SELECT r.*, {ENDS} AS end, agent FROM runs r JOIN cells USING (cell) WHERE "
                                   "run_index < ? ORDER BY run_index", (archive.runs,)):
-        index = run["run_index"]
-        violation, incident = first_violation.get(index), first_incident.get(index)
-        end = run["end"] or ("incident" if incident else None)
-        if end is None:
+        if not run["end"] and run["run_index"] not in listed:
             continue
-        at, a, b = run["simulated_ns"], None, None
-        cause = "stuck" if end == "stuck" else run["outcome_class"]
-        began = incident and incident["last_ns" if incident["kind"] in (13, 14) else "first_ns"]
-        first = incident if incident and (not violation or began < violation["first_ns"]) else violation
-        if first:
-            at, a, b = first["first_ns"], first["entity_a"], first["entity_b"]
-            cause = (level(first) if first is violation else KINDS[first["kind"]]) + pair(a, b, run["agv_count"])
-        yield run["agent"], end, cause, before(run, faults[index], at, a, b, first and first is violation), run
+        violations, incidents = rows_of(archive.db, run["run_index"])
+        found = failures(run, violations, incidents)
+        if not found:
+            continue
+        leads = found[0]
+        faults = [row for row in incidents if row["kind"] >= 18]
+        came_before = before(run, faults, leads["at"], leads["a"], leads["b"], leads["too_close"] and leads["b"] is not None)
+        yield run["agent"], run["end"] or "incident", leads["what"], came_before, run
 
 
 def ordinal_of(archive, agent, run):

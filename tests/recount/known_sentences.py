@@ -8,11 +8,11 @@ import wording as w
 from conditions import is_sample, plan_of
 from counts import END_POINTS, KINDS
 from drawings import field_maps, gate_on_violations, grids, worlds_needed
+from leading import failures, rows_of
 from waived import sentence
 
 ENDS = "CASE WHEN contact THEN 'contact' WHEN violation THEN 'violation' WHEN crash THEN 'crash' WHEN hang THEN 'hang' " \
        "WHEN indeterminate THEN 'indeterminate' WHEN engine_error THEN 'engine error' WHEN stuck THEN 'stuck' END"
-JUDGED = "(1, 4, 5, 6, 7, 8, 9, 10, 13, 14, 16)"
 
 
 def body(number, run):
@@ -28,8 +28,7 @@ def run_sentence(archive, index):
     if run["end"]:
         text += run["end"]
     else:
-        text += KINDS[archive.one(f"SELECT kind FROM incidents WHERE run_index = ? AND kind IN {JUDGED} ORDER BY "
-                                  "ordinal LIMIT 1", index)["kind"]]
+        text += KINDS[failures(run, *rows_of(archive.db, index))[0]["kind"]]
     violations = archive.all("SELECT * FROM violations WHERE run_index = ? ORDER BY contact DESC, CASE WHEN contact "
                              "THEN -relative_speed_um_s ELSE min_clearance_um END, ordinal", index)
     if violations:
@@ -307,7 +306,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^Agent .*: [0-9]+ runs?, [0-9]+ never closer than 0.5 m(, [0-9]+ not measured)?$", compared_elsewhere),
     (r"^agent .*: ([0-9]+, the last new one in run [0-9]+ of [0-9]+|none)$", compared_elsewhere),
     (r"^.* \(agent .*, limit ", compared_elsewhere),
-    (r"^.*: (contact|violation|crash|hang|indeterminate|engine error|stuck|incident); first cause: ", compared_elsewhere),
+    (r"^.*: (contact|violation|crash|hang|indeterminate|engine error|stuck|incident); leading failure: ", compared_elsewhere),
     (r"^The runs of agent (.+?): (?:never met|too rare): ", probes_missing),
     (r"^([0-9]+) runs? ended in an error of the simulator itself", engine_errors),
     (r"^Guaranteed envelope: shown in ([0-9]+) of ([0-9]+) fields. .* in which (.+) breaks the safety distance is below "

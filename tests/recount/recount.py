@@ -156,7 +156,7 @@ def check_html(archive, sections):
         close.tables[0][1:] = sorted(close.tables[0][1:])
         same_rows("html", "How close the bodies came", close, rows)
     failures = Failures(archive)
-    check_failures(failures, sections["Runs in which something went wrong, by what came first"])
+    check_failures(failures, sections["Runs in which something went wrong, by the failure that leads"])
     legends = [plain(text) for text in sections["Would more runs tell more?"].sentences]
     for legend in discoveries(archive, failures) if archive.runs else []:
         if legend not in legends:

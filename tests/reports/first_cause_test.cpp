@@ -48,12 +48,12 @@ Incident deadlock(double first_s, double last_s) {
 
 TEST(FirstCause, ACleanRunHasNone) { EXPECT_FALSE(first_cause(run_with({}, {body(4, 1.0, 9.0)})).has_value()); }
 
-TEST(FirstCause, ADeadlockBeforeAContactLeads) {
+TEST(FirstCause, AContactLeadsEvenIfADeadlockCameBefore) {
   const auto outcome = run_with({violation(0, 1, 200.0, true)}, {deadlock(50.0, 180.0)});
   const auto cause = first_cause(outcome);
   ASSERT_TRUE(cause);
-  EXPECT_EQ(cause->what, "deadlock, two AGVs");
-  EXPECT_EQ(cause->at, at_seconds(50.0));
+  EXPECT_EQ(cause->what, "contact, two AGVs");
+  EXPECT_EQ(cause->at, at_seconds(200.0));
   EXPECT_EQ(cause->before, CameBefore::Nothing);
 }
 
@@ -104,11 +104,11 @@ TEST(CameBefore, AForeignBodyIsNamedRatherThanALaterFaultOfItsAgv) {
   EXPECT_EQ(fault_text(*cause, kAgvs), "10.00 s after a load fell");
 }
 
-TEST(CameBefore, ADeadlockAfterSomeFaultStaysUndecidedIfAContactFollows) {
+TEST(CameBefore, AContactThatFollowsADeadlockIsNotOfTheFaultOfAnother) {
   EXPECT_EQ(
       first_cause(run_with({violation(0, 1, 200.0, true)}, {fault(Fault::Kind::Freeze, 3, 5.0), deadlock(50.0, 180.0)}))
           ->before,
-      CameBefore::Undecided);
+      CameBefore::Nothing);
 }
 
 TEST(CameBefore, CountedFaultsThatNoLawNotedAreUndecided) {
@@ -159,13 +159,13 @@ TEST(ForeignBodies, AnAgvThatDrivesOnAfterwardsIsLikeAnyOther) {
   EXPECT_EQ(result_of(outcome, EndPoint::Contact), RunResult::Failed);
 }
 
-TEST(FirstCause, AStarvationIsDatedFromTheLastProgressAndLeadsOnlyIfItWasOverBefore) {
+TEST(FirstCause, AStarvationIsDatedFromTheLastProgressAndJudgedOnlyIfItWasOverBefore) {
   const Incident starvation{IncidentKind::Starvation, EntityId{2u}, {}, at_seconds(10.0), at_seconds(300.0), 1};
   const Outcome around = run_with({violation(0, 1, 17.0, true)}, {starvation});
   EXPECT_EQ(first_cause(around)->what, "contact, two AGVs");
   EXPECT_EQ(result_of(around, EndPoint::Starvation), RunResult::Unknown);
   const Outcome before = run_with({violation(0, 1, 400.0, true)}, {starvation});
-  EXPECT_EQ(first_cause(before)->what, "starvation, one body");
+  EXPECT_EQ(first_cause(before)->what, "contact, two AGVs");
   EXPECT_EQ(result_of(before, EndPoint::Starvation), RunResult::Failed);
 }
 

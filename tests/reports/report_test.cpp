@@ -89,7 +89,7 @@ TEST(Report, sections_stand_in_their_order) {
   for (const auto* title :
        {"demonstrated |", "Gates (acceptance criteria)", "By layout", "By fleet size", "How to read the tables",
         "Worst case of the contract", "Contract region: loss", "Outside the contract\n", "Weak points",
-        "Runs in which something went wrong, by what came first", "Attempts, plan and looks", "Provenance",
+        "Runs in which something went wrong, by the failure that leads", "Attempts, plan and looks", "Provenance",
         "How to read this"}) {
     const auto at = page.find(title, last);
     ASSERT_NE(at, std::string::npos) << title;
