@@ -1,6 +1,8 @@
 #include "campaign/batch/sensitivity.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/run/run_one.hpp"
@@ -25,6 +27,8 @@ CampaignPlan with_agent(CampaignPlan plan, const std::string& agent) {
   return plan;
 }
 
+bool is_over(const SensitivityOptions& options) { return options.limit != nullptr && options.limit->is_over(); }
+
 // Runs are handed out in order. So when a run has ended the campaign and those under way have finished, no earlier run
 // is missing.
 AgentTally tally_of(const CampaignPlan& plan, const AgentPrograms& programs, const SensitivityOptions& options,
@@ -35,11 +39,22 @@ AgentTally tally_of(const CampaignPlan& plan, const AgentPrograms& programs, con
   const RunOne run_one(plan, programs);
   TaskPool<RunRecord> pool(
       {.workers = options.workers, .end = std::min(options.runs, plan.run_count()), .window = kRunsAhead},
-      [&](std::uint64_t index) { return run_one(index); });
-  pool.take_all([&](std::uint64_t, const RunRecord& record) {
-    if (until_violation && record.outcome.violation) pool.stop();
-    tally.count(record, cells);
-  });
+      [&](std::uint64_t index) -> std::optional<RunRecord> {
+        try {
+          return run_one(index, nullptr,
+                         RunWatch{nullptr, {}, options.limit == nullptr ? nullptr : &options.limit->over()});
+        } catch (const RunAbandoned&) {
+          return std::nullopt;
+        }
+      });
+  pool.take_all(
+      [&](std::uint64_t, const RunRecord& record) {
+        if (until_violation && record.outcome.violation) pool.stop();
+        tally.count(record, cells);
+      },
+      [&] {
+        if (is_over(options)) pool.stop();
+      });
   return tally;
 }
 
@@ -110,7 +125,9 @@ Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& p
   for (const std::string& agent : options.agents.empty() ? faulty : options.agents) {
     const CampaignPlan worlds = with_agent(plan, agent);
     const bool until_violation = result.sound.all.with(kAccusedOfViolation) == 0;
-    result.faults.push_back(finding_of(tally_of(worlds, programs, options, until_violation), result.sound, worlds));
+    AgentTally tally = tally_of(worlds, programs, options, until_violation);
+    if (is_over(options)) break;  // not all of its runs are there
+    result.faults.push_back(finding_of(std::move(tally), result.sound, worlds));
     if (told) told(result.faults.back());
   }
   return result;

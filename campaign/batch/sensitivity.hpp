@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "campaign/batch/agent_tally.hpp"
+#include "campaign/batch/time_limit.hpp"
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "storage/records.hpp"
@@ -36,7 +37,8 @@ struct Sensitivity {
 struct SensitivityOptions {
   std::uint64_t runs = 10'000;  // of each agent, at most; never more than the plan has
   int workers = 1;
-  std::vector<std::string> agents;  // empty: all faulty agents
+  std::vector<std::string> agents;   // empty: all faulty agents
+  const TimeLimit* limit = nullptr;  // when it is over, the result has the faults that were measured; null: none
 };
 
 // Runs the sound agent and the faulty agents in the worlds of `plan`, whatever its agents are, and stores nothing.

@@ -52,13 +52,14 @@ std::vector<std::uint64_t> sample_of_runs(std::uint64_t key, std::uint64_t runs,
 }
 
 Verification verify_runs(const std::string& path, const CampaignPlan& plan, const AgentPrograms& programs,
-                         const std::vector<std::uint64_t>& sample, int workers) {
+                         const std::vector<std::uint64_t>& sample, int workers,
+                         const std::function<bool(std::size_t done)>& go_on) {
   RunHost runs(plan, programs, {.workers = workers});
   const ArchiveReader archive(path);
   Verification verification;
   TaskPool<RunRecord> pool({.workers = workers, .end = sample.size()},
                            [&](std::uint64_t place) { return runs(sample[place]); });
-  pool.take_all([&](std::uint64_t place, RunRecord record) {
+  const auto take = [&](std::uint64_t place, RunRecord record) {
     const std::uint64_t index = sample[place];
     ReplayResult result = replay(archive, plan, index, programs, [&](std::uint64_t) { return std::move(record); });
     if (result.verdict == ReplayVerdict::NotDeterministic) {
@@ -70,6 +71,11 @@ Verification verify_runs(const std::string& path, const CampaignPlan& plan, cons
     }
     verification.differing.push_back({index, plan.agent_of_cell(index).name, result.verdict, result.explanation,
                                       is_engine_at_fault(result.verdict)});
+  };
+  pool.take_all(take, [&] {
+    if (go_on(verification.agreeing + verification.differing.size())) return;
+    pool.stop();
+    runs.abandon();
   });
   std::ranges::sort(verification.differing, {}, &Disagreement::run_index);
   return verification;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,10 @@ struct Verification {
 };
 
 // Simulates these runs of the results file again, on `workers` threads, and compares each with its row. Agents of
-// plug-ins run in worker processes. Requires: `plan` is the plan in the file. Throws what ArchiveReader and RunHost
-// throw.
+// plug-ins run in worker processes. `go_on` hears how many are done; once it says no, the result has those that were
+// compared until then. Requires: `plan` is the plan in the file. Throws what ArchiveReader and RunHost throw.
 Verification verify_runs(const std::string& path, const CampaignPlan& plan, const AgentPrograms& programs,
-                         const std::vector<std::uint64_t>& sample, int workers);
+                         const std::vector<std::uint64_t>& sample, int workers,
+                         const std::function<bool(std::size_t done)>& go_on);
 
 }  // namespace fleetproof

@@ -6,14 +6,17 @@
 #include <filesystem>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/failure_words.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/case_file.hpp"
 #include "campaign/run/engine_identity.hpp"
+#include "campaign/shrink/repetitions.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/scenario/canonical_bytes.hpp"
+#include "reports/page/wording.hpp"
 #include "storage/archive_reader.hpp"
 
 namespace fleetproof::cli {
@@ -37,8 +40,8 @@ CaseSource of_run(const CaseWords& words, AgentPrograms& programs) {
   meet_plugins(words.source, archive.campaign(), {&agent, 1}, words.plugins, programs, &AgentPrograms::know);
   tell_rebuilt_plugins(archive.campaign(), {&agent, 1}, programs);
   CaseSource source;
-  if (const auto stored = archive.run(run); stored && stored->outcome.outcome_class() != OutcomeClass::Clean)
-    source.stored_failure = name_of(stored->outcome.outcome_class());
+  if (auto stored = archive.run(run)) source.stored = std::move(stored->outcome);
+  if (archive.recording(run)) source.recording = replay_command(words.source, run);
   source.name = fmt::format("{}-{}", std::filesystem::path(words.source).stem().string(), run);
   source.scenario = ScenarioSource(plan).scenario(run);
   source.agent = case_agent(plan, agent);
@@ -61,6 +64,21 @@ CaseSource of_file(const CaseWords& words, AgentPrograms& programs) {
   return source;
 }
 
+std::string recording_text(const CaseSource& source) {
+  if (!source.recording.empty()) return "; play what it did in the campaign: " + source.recording;
+  return source.stored ? "; the campaign has no recording of what it did" : "";
+}
+
+// The failure that was meant does not come again, or not each time.
+std::string unsteady_text(const CaseSource& source, const RunFailure& meant, const Repetitions& repetitions) {
+  const char* where = source.stored ? "in the campaign" : "when it was simulated first";
+  const char* why = repetitions.alike == 0 && repetitions.otherwise.size() == 1
+                        ? "the software differs, or does not always do the same"
+                        : "its agent does not always do the same";
+  return fmt::format("failed {} with {}; {}: {}{}", where, told(meant), repetitions.text(), why,
+                     recording_text(source));
+}
+
 }  // namespace
 
 void add_case_options(Options& options, CaseWords& words) {
@@ -68,15 +86,18 @@ void add_case_options(Options& options, CaseWords& words) {
   options.optional_positional("RUN", words.run, "run index");
   options.option("--agent", words.agent, "of a scenario file: the control software (default: the file's)");
   options.option("--agent-config", words.config, "of a scenario file: text handed to the agent (default: the file's)");
+  add_failure_option(options, words.failure);
   options.option("--plugin", words.plugins,
                  "shared object with the agent (default: the file that the campaign used); may be repeated");
 }
 
 CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
+  choice_of(words.failure);
   const bool is_run = !words.run.empty();
   if (is_run && (!words.agent.empty() || !words.config.empty()))
     throw InputError("--agent", "a run has its agent and its configuration; leave --agent and --agent-config out");
   CaseSource source = is_run ? of_run(words, programs) : of_file(words, programs);
+  source.failure = words.failure;
   source.scenario.expected = {};
   const bool names_agent = is_run || words.agent.empty();  // the file, not the command line
   const AgentProgram& agent =
@@ -88,21 +109,49 @@ CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
   return source;
 }
 
-FailingCase failing_case(CaseHost& host, const CaseSource& source) {
-  const auto first = failure_of(host(source.scenario)), second = failure_of(host(source.scenario));
-  if (!first && !source.stored_failure.empty())
-    throw InputError(source.name,
-                     fmt::format("does not fail any more: the campaign stores {} for this run, and nothing "
-                                 "went wrong when it was simulated now; the software differs, or does not "
-                                 "always do the same (see: fleetproof replay)",
-                                 source.stored_failure));
-  if (!first)
-    throw InputError(source.name, "does not fail: nothing went wrong when it was simulated; name a run that fails");
-  if (!second || !(first->kind == second->kind) || first->at != second->at) {
-    throw InputError(source.name, fmt::format("fails in two ways, {} and {}: its agent does not always do the same",
-                                              text_of(first->kind), second ? text_of(second->kind) : "not at all"));
+ExaminedCase failing_case(const CaseHost& host, const CaseSource& source, const WorkTime& time) {
+  const TimeLimit limit(time.end_before(0.0), is_interrupted);
+  const CaseHost within = host.within(limit);
+  const auto began = TimeLimit::Clock::now();
+  const Outcome reference = source.stored ? *source.stored : within.in_fresh_process(source.scenario, 0).outcome;
+  ExaminedCase found;
+  found.choice = choice_of(source.failure, reference);
+  const auto meant = chosen_failure(reference, found.choice);
+  if (!meant) {
+    throw InputError(source.name, source.stored ? "does not fail: nothing went wrong in it; name a run that fails"
+                                                : "does not fail: nothing went wrong when it was simulated; name a run "
+                                                  "that fails");
   }
-  return {source.scenario, *first};
+  std::optional<FailingCase> first;
+  bool is_steady = true;
+  const auto repetitions = repeated(within.looking_at(found.choice), source.scenario, [&](const CaseRun& run) {
+    const auto chosen = chosen_failure(run.outcome, found.choice);
+    if (!chosen || !is_same_failure(*chosen, *meant)) return false;
+    if (!first) first = FailingCase{source.scenario, *failure_of(run), run.outcome.digest};
+    is_steady = is_steady && run.outcome.digest == first->digest;
+    return true;
+  });
+  if (!repetitions.always_alike()) throw InputError(source.name, unsteady_text(source, *meant, repetitions));
+  if (!is_steady)
+    talk("note: {} failed so each time, but no two runs were the same; what is found may come about by chance\n",
+         source.name);
+  found.failing = *std::move(first);
+  found.others = others_line(reference, *meant, OptionNamed::Yes);
+  const std::chrono::duration<double> took = TimeLimit::Clock::now() - began;
+  found.run_s = took.count() / static_cast<double>(repetitions.of + (source.stored ? 0 : 1));
+  return found;
+}
+
+void require_steady(const CaseHost& host, const CaseSource& source, const FailingCase& found,
+                    const FailurePattern& pattern) {
+  if (source.plugin.empty()) return;
+  const auto repetitions =
+      repeated(host, found.scenario, [&](const CaseRun& run) { return pattern.match(run).has_value(); });
+  if (repetitions.always_alike()) return;
+  throw InputError(source.name,
+                   fmt::format("has no smaller case that always fails so: {}, of {}. Its agent does not always do the "
+                               "same{}",
+                               repetitions.text(), text_of(pattern.kind), recording_text(source)));
 }
 
 }  // namespace fleetproof::cli

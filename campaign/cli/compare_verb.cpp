@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/cli/waived.hpp"
@@ -61,9 +62,11 @@ int compare_releases(const CompareWords& words) {
   const ArchiveReader old_archive(words.old_archive), new_archive(words.new_archive);
   const std::string new_agent = agent_of(new_archive, words.new_archive, words.new_agent, "--agent", "");
   const std::string old_agent = agent_of(old_archive, words.old_archive, words.old_agent, "--old-agent", new_agent);
+  auto progress = reading_progress("compare", old_archive.run_count() + new_archive.run_count());
   const ReleaseRuns old_release = read_release(old_archive, words.old_archive, old_agent),
                     new_release = read_release(new_archive, words.new_archive, new_agent);
   Comparison comparison = compare(old_release, new_release, rule);
+  progress.reset();
   comparison.waived = lenient_conditions(new_release.campaign.plan_json);
   put_text((words.json ? comparison_json : comparison_text)(comparison, old_release, new_release, rule));
   return words.fail_on_regression ? exit_code_of(comparison) : kDemonstrated;

@@ -5,16 +5,19 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/case_source.hpp"
+#include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/output_file.hpp"
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/cli/work_time.hpp"
 #include "campaign/explain/sentences.hpp"
 #include "campaign/shrink/shrink.hpp"
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
+#include "core/scenario/canonical_bytes.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 
 namespace fleetproof::cli {
@@ -22,7 +25,7 @@ namespace {
 
 struct ExplainWords {
   CaseWords from;
-  std::string runs, max_time = "60";
+  std::string runs, max_time = "120";
   std::optional<std::uint64_t> jobs, trials;
   bool json = false;
 };
@@ -62,6 +65,8 @@ Json to_json(const Explanation& explanation) {
                {"telling_words", explanation.pattern.words.telling},
                {"at_s", to_seconds(explanation.original.failure.at - kStart)},
                {"small_at_s", to_seconds(explanation.small.failure.at - kStart)},
+               {"search_ended", explanation.is_smallest},
+               {"not_tried", explanation.not_tried},
                {"sentences", sentences_of(explanation)}};
   json["messages"] = Json::array();
   for (const MessageNeed& need : explanation.messages) {
@@ -83,7 +88,7 @@ Json to_json(const Explanation& explanation) {
   json["runs"] = Json::array();
   for (const Claim* claim : claims_of(explanation))
     json["runs"].push_back(
-        {{"number", json["runs"].size() + 1}, {"what", claim->sentence}, {"outcome", claim->outcome}});
+        {{"number", json["runs"].size() + 1}, {"what", claim->sentence}, {"outcome", claim->outcome.failure}});
   json["set_offs"] = set_offs_json(explanation);
   json["shares"] = Json::array();
   for (const Share& share : explanation.shares)
@@ -104,23 +109,23 @@ Json to_json(const Explanation& explanation) {
 }
 
 // Each run that a sentence names, as a scenario file; shares and branches with their own draws.
-void save_runs(const ExplainWords& words, const CaseSource& source, CaseHost& host, const Explanation& explanation) {
+void save_runs(const ExplainWords& words, const CaseSource& source, const Explanation& explanation) {
   if (words.runs.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(words.runs, error);
   if (error) throw InputError("--runs", fmt::format("{} cannot be made: {}", words.runs, error.message()));
-  const auto save = [&](const Scenario& run, const std::string& name, bool is_expected) {
+  const auto save = [&](const Scenario& run, const std::string& name, const ExpectedOutcome& expected) {
     Scenario scenario = played_by(source.agent, run);
-    if (is_expected) scenario.expected = expectation_of(host(scenario));
+    scenario.expected = expected;
     write_whole({file_in(words.runs, name), "--runs", OutputKind::Scenario}, printable_json(to_text(scenario)));
   };
   std::size_t number = 0;
-  for (const Claim* claim : claims_of(explanation)) save(claim->run, name_of_claim(++number), true);
+  for (const Claim* claim : claims_of(explanation)) save(claim->run, name_of_claim(++number), claim->outcome);
   number = 0;
-  for (const Share& share : explanation.shares) save(share.run, fmt::format("share-{}", ++number), false);
+  for (const Share& share : explanation.shares) save(share.run, fmt::format("share-{}", ++number), {});
   number = 0;
   for (const Branching& branching : explanation.no_return.curve)
-    save(branching.run, fmt::format("branch-{}", ++number), false);
+    save(branching.run, fmt::format("branch-{}", ++number), {});
 }
 
 void put_runs(const std::string& folder, const CaseSource& source) {
@@ -133,6 +138,7 @@ void put_runs(const std::string& folder, const CaseSource& source) {
 }
 
 void put_curve(const NoReturn& curve) {
+  if (curve.curve.empty()) return;
   put("\nbranches that fail, of {} with a new radio from then on:\n", kBranches);
   for (std::size_t i = 0; i < curve.curve.size(); ++i) {
     const Branching& branching = curve.curve[i];
@@ -141,27 +147,67 @@ void put_curve(const NoReturn& curve) {
   }
 }
 
+// The smallest case takes half of the time at most: what can be said of it matters more than how small it is.
+ShrinkResult search(const ExplainWords& words, const CaseHost& host, const CaseSource& source, const WorkTime& time,
+                    const FailingCase& original, const FailurePattern& pattern) {
+  TrialCache cache;
+  ShrinkResult small;
+  {
+    const TimeLimit limit(time.half_of_rest(), is_interrupted);
+    CaseHost searching = host.within(limit);
+    small = shrink(searching, cache, original, pattern, {words.trials}, [](const FailingCase&, std::string_view) {});
+  }
+  const TimeLimit limit(time.end_before(0.0), is_interrupted);
+  if (scenario_digest(small.best.scenario) != scenario_digest(original.scenario))
+    require_steady(host.within(limit), source, small.best, pattern);
+  return small;
+}
+
+Explanation explained(const ExplainWords& words, const CaseHost& host, const CaseSource& source, const WorkTime& time,
+                      const FailingCase& original, WorkProgress& progress) {
+  const TimeLimit limit(time.end_before(0.0), is_interrupted);
+  CaseHost within = host.within(limit);
+  ShrinkResult small;
+  small.best = original;
+  small.ended = true;
+  FailurePattern pattern{original.failure.kind};
+  try {
+    progress.begin("learning what its agents say when nothing fails");
+    pattern = pattern_of(within, original);
+    progress.begin("looking for the smallest case");
+    small = search(words, host, source, time, original, pattern);
+  } catch (const GivenUp&) {  // then the case is the run itself
+  }
+  return explain(within, original, small, pattern, [&](std::string_view question) { progress.begin(question); });
+}
+
 int explain_case(const ExplainWords& words) {
-  const auto deadline = std::chrono::steady_clock::now() + duration_of(words.max_time, "--max-time");
+  const WorkTime time(words.max_time);
   AgentPrograms programs;
   const CaseSource source = read_case(words.from, programs);
-  CaseHost host(source.agent, programs, worker_count(words.jobs));
-  const FailingCase original = failing_case(host, source);
-  const FailurePattern pattern = pattern_of(host, original);
-  TrialCache cache;
-  const ShrinkResult small =
-      shrink(host, cache, original, pattern, {deadline, words.trials}, [](const FailingCase&, std::string_view) {});
-  const Explanation explanation = explain(host, original, small.best, pattern);
-  save_runs(words, source, host, explanation);
-  if (words.json) {
-    put_text(shown_json(to_json(explanation)));
-    return kDemonstrated;
+  const CaseHost host(source.agent, programs, worker_count(words.jobs));
+  Explanation explanation;
+  ExaminedCase examined;
+  {
+    WorkProgress progress(
+        "explain", [&] { return host.simulated(); }, time.allowed_s());
+    progress.begin("simulating the run again");
+    examined = failing_case(host, source, time);
+    explanation = explained(words, host.looking_at(examined.choice), source, time, examined.failing, progress);
   }
-  put("{}: {}\n", source.name, text_of(pattern.kind));
-  for (const std::string& sentence : sentences_of(explanation)) put("- {}\n", sentence);
-  put_curve(explanation.no_return);
-  put_runs(words.runs, source);
-  return kDemonstrated;
+  save_runs(words, source, explanation);
+  if (words.json) {
+    Json json = to_json(explanation);
+    json["other_failures"] = examined.others;
+    put_text(shown_json(json));
+  } else {
+    put("{}: {}\n", source.name, text_of(explanation.pattern.kind));
+    if (!examined.others.empty()) put("{}\n", examined.others);
+    for (const std::string& sentence : sentences_of(explanation)) put("- {}\n", sentence);
+    put_curve(explanation.no_return);
+    put_runs(words.runs, source);
+  }
+  return is_interrupted() ? exit_code_of_signal(interrupted()) : kDemonstrated;
 }
 
 }  // namespace
@@ -171,11 +217,14 @@ Action prepare_explain(Options& options) {
   words->from.verb = "explain";
   add_case_options(options, words->from);
   options.option("--runs", words->runs, "write the runs that show what is said to this folder, as scenario files");
-  options.option("--max-time", words->max_time, "look for the smallest case so long at most (default: 60)");
-  options.option("--max-trials", words->trials, "and with so many trials; the same everywhere if --max-time suffices");
+  options.option(
+      "--max-time", words->max_time,
+      "end after this time with what was found (default: 120 s); the smallest case takes half of it at most");
+  options.option("--max-trials", words->trials,
+                 "look for the smallest case with so many trials; the same everywhere if --max-time suffices");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.flag("--json", words->json, "print JSON");
-  return [words] { return explain_case(*words); };
+  return [words] { return unless_given_up([&] { return explain_case(*words); }); };
 }
 
 }  // namespace fleetproof::cli

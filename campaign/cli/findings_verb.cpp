@@ -4,12 +4,16 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/failure_words.hpp"
 #include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/output_file.hpp"
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/cli/work_time.hpp"
 #include "campaign/explain/sentences.hpp"
 #include "campaign/findings/failure_analysis.hpp"
 #include "campaign/findings/findings_file.hpp"
@@ -28,9 +32,11 @@ namespace fleetproof::cli {
 namespace {
 
 constexpr std::uint64_t kMostFailuresLookedAt = 100, kShrinkTrials = 4000;
+constexpr std::size_t kTellEvery = 50;
+constexpr std::chrono::seconds kKeepEvery{2};
 
 struct FindingsWords {
-  std::string archive, file, out;
+  std::string archive, file, out, failure, max_time;
   std::vector<std::string> plugins;
   std::optional<std::uint64_t> most, jobs, trials;
   bool add = false, json = false;
@@ -41,13 +47,16 @@ std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::chrono:
 // One results file and the findings in it.
 class FindingsOfCampaign {
  public:
-  explicit FindingsOfCampaign(const FindingsWords& words)
+  FindingsOfCampaign(const FindingsWords& words, const WorkTime& time)
       : words_(words),
+        time_(time),
+        limit_(time.end_before(0.0), is_interrupted),
         archive_(words.archive),
         plan_(parse_plan(archive_.campaign().plan_json)),
         file_(words.file),
         out_(words.out.empty() ? findings_path(words.archive) : words.out),
-        runs_(failing_runs(archive_, plan_, words.most.value_or(kMostFailuresLookedAt))) {
+        runs_(failing_runs(archive_, plan_, words.most.value_or(kMostFailuresLookedAt), choice_of(words.failure),
+                           limit_)) {
     meet_plugins(words.archive, archive_.campaign(), plan_.agents, words.plugins, programs_, &AgentPrograms::know);
     tell_rebuilt_plugins(archive_.campaign(), plan_.agents, programs_);
     if (words.add) require_writable({words.file, "--file", OutputKind::Findings});
@@ -56,30 +65,21 @@ class FindingsOfCampaign {
 
   int find() {
     AgentHosts hosts(plan_, programs_, runs_.looked_at, worker_count(words_.jobs));
-    listen_to_interrupts();
-    const auto tell = [&, told = std::size_t{0}](std::size_t done) mutable {
-      if (done >= told + 50) talk("{} of {} failures looked at\n", told = done / 50 * 50, runs_.looked_at.size());
-      return interrupted() == 0;
-    };
-    survey_ = survey(plan_, runs_.looked_at, hosts, tell);
-    findings_ = findings_of(survey_.failures);
-    if (words_.add) add_new(hosts);
-    const std::string text = findings_text(record());
+    {
+      WorkProgress progress(
+          "findings", [&] { return hosts.simulated(); }, time_.allowed_s());
+      progress.say(fmt::format("looking at {} of {}, with up to {} runs for each of their failures",
+                               runs_.looked_at.size(), count_text(runs_.all, "failing run"), kReplaysPerFailure));
+      look(hosts, progress);
+      if (words_.add) add_new(hosts, progress);
+    }
     if (words_.json) {
-      put_text(text);
+      put_text(findings_text(record()));
     } else {
       put_lines();
     }
-    write_whole({out_, "--output", OutputKind::FoundFindings}, text);
-    if (interrupted() != 0) {
-      talk("interrupted: {} of {} failures were looked at; the findings are those of these\n", survey_.looked_at,
-           runs_.looked_at.size());
-      if (words_.add) talk("{} of {} new findings were added\n", added_, new_);
-      return exit_code_of_signal(interrupted());
-    }
-    const auto is_open = [&](const Finding& f) { return needs_attention(kept(f), today()); };
-    const bool all_seen = words_.add || std::ranges::none_of(findings_, is_open);
-    return all_seen ? kDemonstrated : kViolated;
+    write_found();
+    return tell_end();
   }
 
  private:
@@ -87,14 +87,52 @@ class FindingsOfCampaign {
   const KnownIssue* kept(const Finding& finding) const { return file_.find(finding.id()); }
   const KnownFailure& representative(const Finding& finding) const { return survey_.failures[finding.representative]; }
 
-  void add_new(AgentHosts& hosts) {
+  // The file has the findings of what was looked at so far, so that none is lost with the process.
+  void look(AgentHosts& hosts, WorkProgress& progress) {
+    progress.begin("failing runs looked at");
+    progress.count(0, runs_.looked_at.size());
+    auto kept = TimeLimit::Clock::now();
+    std::size_t told = 0;
+    survey_ = survey(plan_, runs_.looked_at, hosts, limit_, [&](std::size_t done, const auto& so_far) {
+      progress.count(done, runs_.looked_at.size());
+      if (done >= told + kTellEvery) {
+        told = done / kTellEvery * kTellEvery;
+        progress.say(fmt::format("{} of {} failures looked at", told, runs_.looked_at.size()));
+      }
+      if (TimeLimit::Clock::now() - kept < kKeepEvery) return;
+      survey_ = so_far();
+      findings_ = findings_of(survey_.failures);
+      write_found();
+      kept = TimeLimit::Clock::now();
+    });
+    findings_ = findings_of(survey_.failures);
+    write_found();
+  }
+  void write_found() const { write_whole({out_, "--output", OutputKind::FoundFindings}, findings_text(record())); }
+
+  int tell_end() const {
+    if (limit_.is_over() && (survey_.looked_at < runs_.looked_at.size() || added_ < new_)) {
+      talk("{}: {} of {} failing runs were looked at; the findings are those of these\n",
+           is_interrupted() ? "interrupted" : "the time is over", survey_.looked_at, runs_.looked_at.size());
+      if (words_.add) talk("{} of {} new findings were added\n", added_, new_);
+    }
+    if (is_interrupted()) return exit_code_of_signal(interrupted());
+    const auto is_open = [&](const Finding& f) { return needs_attention(kept(f), today()); };
+    const bool all_seen = words_.add && added_ == new_;
+    if (!all_seen && std::ranges::any_of(findings_, is_open)) return kViolated;
+    return survey_.looked_at == runs_.looked_at.size() ? kDemonstrated : kNotDemonstrated;
+  }
+
+  void add_new(AgentHosts& hosts, WorkProgress& progress) {
     std::string text = read_text_file_if_there(words_.file).value_or("# findings: what is known about failures\n");
     for (const Finding& finding : findings_) {
       if (kept(finding) != nullptr) continue;
       ++new_;
-      if (interrupted() != 0) continue;
-      talk("{}: looking for its smallest case\n", finding.id());
-      if (const auto added = keep_unless_interrupted(hosts.of(finding.agent), finding)) {
+      if (limit_.is_over()) continue;
+      progress.say(fmt::format("{}: looking for its smallest case", finding.id()));
+      progress.begin(finding.id() + ": its smallest case, its neighbours, and why it fails");
+      CaseHost host = hosts.of(finding.agent).looking_at(representative(finding).choice).within(limit_);
+      if (const auto added = keep_unless_over(host, finding)) {
         text += toml_of(*added);
         ++added_;
         write_file(text);  // each took long, and the next one may end with the process
@@ -104,8 +142,8 @@ class FindingsOfCampaign {
   }
   void write_file(const std::string& text) const { write_whole({words_.file, "--file", OutputKind::Findings}, text); }
 
-  std::optional<KnownIssue> keep_unless_interrupted(CaseHost& host, const Finding& finding) const {
-    host.simulate_while([] { return interrupted() == 0; });
+  // What is not complete is not kept.
+  std::optional<KnownIssue> keep_unless_over(CaseHost& host, const Finding& finding) const {
     try {
       return keep(host, finding);
     } catch (const GivenUp&) {
@@ -190,11 +228,28 @@ class FindingsOfCampaign {
       put("\n{}  {}  {} of {}\n", finding.id(), standing_of(kept(finding), today()),
           count_text(finding.members.size(), "failure"), finding.agent);
       put("  {}\n", finding.mechanism.text());
-      put("  fleetproof explain {} {}\n", shell_word(words_.archive), representative(finding).run);
+      const auto& end_point = representative(finding).end_point;
+      put("  fleetproof explain {} {}{}\n", shell_word(words_.archive), representative(finding).run,
+          end_point ? fmt::format(" --failure {}", name_of(*end_point)) : "");
+      if (const std::string also = also_in_its_runs(finding); !also.empty()) put("  also in its runs: {}\n", also);
     }
     if (!survey_.not_again.empty())
       put("\n{} did not fail again: {}\n", count_text(survey_.not_again.size(), "run"),
           fmt::format("{}", fmt::join(survey_.not_again, ", ")));
+  }
+
+  // "F-1c2d3e4f (too close, two AGVs) in 3"
+  std::string also_in_its_runs(const Finding& finding) const {
+    std::set<std::uint64_t> runs;
+    for (const std::size_t member : finding.members) runs.insert(survey_.failures[member].run);
+    std::vector<std::string> others;
+    for (const Finding& other : findings_) {
+      if (&other == &finding) continue;
+      const auto shared = std::ranges::count_if(
+          other.members, [&](std::size_t member) { return runs.contains(survey_.failures[member].run); });
+      if (shared > 0) others.push_back(fmt::format("{} ({}) in {}", other.id(), other.mechanism.end, shared));
+    }
+    return joined(others, ", ");
   }
 
   MechanismRecord record() const {
@@ -214,6 +269,8 @@ class FindingsOfCampaign {
   }
 
   const FindingsWords& words_;
+  const WorkTime& time_;
+  TimeLimit limit_;
   ArchiveReader archive_;
   CampaignPlan plan_;
   AgentPrograms programs_;
@@ -228,7 +285,8 @@ class FindingsOfCampaign {
 int find_findings(const FindingsWords& words) {
   if (words.most && *words.most < 1) throw InputError("--max-failures", "is 0; it is at least 1");
   if (words.add && words.file.empty()) throw InputError("--add", "name the findings file with --file");
-  return FindingsOfCampaign(words).find();
+  const WorkTime time(words.max_time);
+  return FindingsOfCampaign(words, time).find();
 }
 
 }  // namespace
@@ -241,12 +299,14 @@ Action prepare_findings(Options& options) {
   options.option("-o,--output", words->out,
                  "write the findings to this file (default: NAME.findings.json, where reports of NAME.db look)");
   options.option("--max-failures", words->most, "look at so many failing runs of each agent at most (default: 100)");
+  add_failure_option(options, words->failure);
+  options.option("--max-time", words->max_time, "end after this time with what was found, as in 90, 45m or 5h30m");
   options.option("--max-trials", words->trials, "of each smallest case, at most (default: 4000)");
   options.option("--plugin", words->plugins,
                  "shared object with an agent (default: the file that the campaign used); may be repeated");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.flag("--json", words->json, "print JSON");
-  return [words] { return find_findings(*words); };
+  return [words] { return unless_given_up([&] { return find_findings(*words); }); };
 }
 
 }  // namespace fleetproof::cli

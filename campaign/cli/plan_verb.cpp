@@ -9,6 +9,7 @@
 #include "campaign/batch/stored_plan.hpp"
 #include "campaign/batch/time_budget.hpp"
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/json_text.hpp"
@@ -225,7 +226,11 @@ int plan(const PlanWords& words) {
   std::optional<std::chrono::seconds> budget;
   if (!words.max_time.empty()) budget = duration_of(words.max_time, "--max-time");
   try_first_worlds(forecast.plan, file.places);
-  forecast.pilot = run_pilot(forecast.plan, programs, workers, {.time = kPilotLength});
+  {
+    WorkProgress progress("plan", nullptr, static_cast<double>(kPilotLength.count()));
+    progress.begin("simulating the first replicates");
+    forecast.pilot = run_pilot(forecast.plan, programs, workers, {.time = kPilotLength});
+  }
   forecast.file = {forecast.plan.replicates, forecast.pilot.forecast_s(forecast.plan.replicates)};
   if (budget) {
     const auto time_s = static_cast<double>(budget->count());

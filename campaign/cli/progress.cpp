@@ -8,7 +8,9 @@
 #include <string_view>
 
 #include "campaign/batch/time_budget.hpp"
+#include "campaign/cli/failure_words.hpp"
 #include "campaign/cli/streams.hpp"
+#include "core/outcome/run_failures.hpp"
 #include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
@@ -62,8 +64,14 @@ void ProgressTalk::run_finished(const RunRecord& record) {
   if (std::ranges::find(told_agents_, cell.agent) != told_agents_.end()) return;
   told_agents_.push_back(cell.agent);
   clear_line();
-  talk("first failure of {}: {} in run {} ({}, {} AGVs, {})\n", cell.agent, name_of(outcome.outcome_class()),
-       record.run_index, cell.layout, cell.fleet_size, factors_text(record.factors));
+  const auto leading = chosen_failure(outcome, {});
+  talk("first failure of {}: {} in run {} ({}, {} AGVs, {})\n", cell.agent,
+       leading && !leading->is_violation ? leading->what : name_of(outcome.outcome_class()), record.run_index,
+       cell.layout, cell.fleet_size, factors_text(record.factors));
+  if (leading) {
+    const std::string others = others_line(outcome, *leading, OptionNamed::No);
+    if (!others.empty()) talk("  {}\n", others);
+  }
   if (archive_path_.empty()) return;
   const std::string replay = replay_command(archive_path_, record.run_index);
   talk("  replay: {}\n", replay);
@@ -115,6 +123,93 @@ void ProgressTalk::clear_line() {
   if (!line_open_) return;
   steer_terminal("\r\033[K");
   line_open_ = false;
+}
+
+WorkProgress::WorkProgress(std::string verb, std::function<std::uint64_t()> simulated, double allowed_s)
+    : verb_(std::move(verb)),
+      simulated_(std::move(simulated)),
+      allowed_s_(allowed_s),
+      terminal_(is_terminal()),
+      thread_([this] { watch(); }) {}
+
+WorkProgress::~WorkProgress() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_leaving_ = true;
+    clear_line();
+  }
+  leaving_.notify_all();
+  thread_.join();
+}
+
+void WorkProgress::begin(std::string_view step) {
+  const std::lock_guard lock(mutex_);
+  step_ = step;
+  step_began_ = std::chrono::steady_clock::now();
+  done_ = all_ = 0;
+  is_step_told_ = false;
+}
+
+void WorkProgress::count(std::size_t done, std::size_t all) {
+  const std::lock_guard lock(mutex_);
+  done_ = done;
+  all_ = all;
+}
+
+void WorkProgress::hide() {
+  const std::lock_guard lock(mutex_);
+  clear_line();
+}
+
+void WorkProgress::say(std::string_view line) {
+  const std::lock_guard lock(mutex_);
+  clear_line();
+  talk("{}\n", line);
+}
+
+std::string WorkProgress::text() const {
+  const auto now = std::chrono::steady_clock::now();
+  const auto since = [&](auto begin) { return std::chrono::duration<double>(now - begin).count(); };
+  std::string text = fmt::format("{}: {}", verb_, step_);
+  if (all_ > 0) text += fmt::format(", {} of {}", done_, all_);
+  if (done_ > 0) {
+    const double each_s = since(step_began_) / static_cast<double>(done_);
+    text += fmt::format(", ETA {}", duration_text(each_s * static_cast<double>(all_ - std::min(all_, done_))));
+  }
+  text += simulated_ ? fmt::format("; {} runs simulated in {}", simulated_(), duration_text(since(began_)))
+                     : "; " + duration_text(since(began_));
+  if (allowed_s_ > 0.0) text += fmt::format(" of {} at most", duration_text(allowed_s_));
+  return text;
+}
+
+void WorkProgress::watch() {
+  constexpr std::chrono::milliseconds often{100}, soon{2000}, seldom{30'000};
+  auto last = began_;
+  std::unique_lock lock(mutex_);
+  while (!leaving_.wait_for(lock, often, [&] { return is_leaving_; })) {
+    if (terminal_) {
+      steer_terminal("\r\033[K" + text(), kNoPatience_ms);
+      line_open_ = true;
+    } else if (std::chrono::steady_clock::now() - last >= (is_step_told_ ? seldom : soon)) {
+      talk("{}\n", text());
+      is_step_told_ = true;
+      last = std::chrono::steady_clock::now();
+    }
+  }
+}
+
+void WorkProgress::clear_line() {
+  if (!line_open_) return;
+  steer_terminal("\r\033[K");
+  line_open_ = false;
+}
+
+std::unique_ptr<WorkProgress> reading_progress(const std::string& verb, std::uint64_t runs) {
+  constexpr std::uint64_t few = 100'000;
+  if (runs <= few) return nullptr;
+  auto progress = std::make_unique<WorkProgress>(verb, nullptr);
+  progress->begin("reading " + count_text(runs, "run"));
+  return progress;
 }
 
 }  // namespace fleetproof::cli

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/failure_words.hpp"
 #include "campaign/cli/known_ends.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/run_observers.hpp"
@@ -47,6 +48,15 @@ void print_json(const ReplayResult& result, const CellRecord& cell, const Printe
                {"fleet_size", cell.fleet_size}};
   for (const FactorInfo& factor : kFactors) json[std::string(factor.key)] = result.recomputed.factors[factor.id];
   json["outcome"] = name_of(outcome.outcome_class());
+  json["failures"] = Json::array();
+  for (const RunFailure& failure : failures_of(outcome))
+    json["failures"].push_back({{"what", failure.what},
+                                {"end_point", failure.end_point ? Json(name_of(*failure.end_point)) : Json(nullptr)},
+                                {"at_s", to_seconds(failure.at - kStart)},
+                                {"a", failure.a.valid() ? Json(failure.a.value) : Json(nullptr)},
+                                {"b", failure.b.valid() ? Json(failure.b.value) : Json(nullptr)},
+                                {"judged", failure.is_judged},
+                                {"over", failure.is_over}});
   json["violations"] = outcome.violations.size();
   json["digest_stored"] = fmt::format("{:016x}", result.stored.outcome.digest);
   json["digest_recomputed"] = fmt::format("{:016x}", outcome.digest);
@@ -124,6 +134,11 @@ void print_text(const ReplayResult& result, const CellRecord& cell, const Scenar
   if (!result.explanation.empty()) put("  {}\n", result.explanation);
   if (result.from_recording)
     put("  from the recording of what its agents did; --in-process or --plugin runs the software itself\n");
+  if (const auto leading = chosen_failure(result.recomputed.outcome, {})) {
+    put("  failure: {}\n", told(*leading));
+    const std::string others = others_line(result.recomputed.outcome, *leading, OptionNamed::No);
+    if (!others.empty()) put("  {}\n", others);
+  }
   put_text(outcome_text(scenario, result.recomputed.outcome));
   const bool other_outcome =
       result.verdict == ReplayVerdict::SoftwareDiffers || result.verdict == ReplayVerdict::NotDeterministic;

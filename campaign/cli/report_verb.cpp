@@ -9,6 +9,7 @@
 #include "campaign/cli/evidence_set.hpp"
 #include "campaign/cli/film_maker.hpp"
 #include "campaign/cli/output_file.hpp"
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/render.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
@@ -73,7 +74,9 @@ int html_report(const ArchiveReader& archive, const ReportWords& words) {
   if (!words.out.empty() || words.json || words.format != "text")
     throw InputError(words.html.empty() ? "--evidence" : "--html",
                      "writes files of its own; leave out --output, --json and --format, or call report twice");
+  auto progress = reading_progress("report", archive.run_count());
   HtmlInput input = read_html_input(archive, words.archive);
+  progress.reset();
   add_exit_code(input.report);
   input.report.waived = lenient_conditions(input.report.campaign.plan_json);
   add_baseline(input.report, archive, words);
@@ -95,7 +98,9 @@ int report(const ReportWords& words) {
   if (!words.baseline.empty() && !is_page)
     throw InputError("--baseline",
                      "stands on pages for people (text, markdown, --html); see: fleetproof compare --json");
+  auto progress = reading_progress("report", archive.run_count());
   ReportInput input = read_report_input(archive, words.archive);
+  progress.reset();
   add_exit_code(input);
   input.waived = lenient_conditions(input.campaign.plan_json);
   add_baseline(input, archive, words);

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/interrupts.hpp"
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/cli/work_time.hpp"
 #include "campaign/findings/findings_file.hpp"
 #include "campaign/findings/retest.hpp"
 #include "core/base/error.hpp"
@@ -131,6 +135,12 @@ class RetestHosts {
     return *hosts_.emplace_back(agent, std::make_unique<CaseHost>(agent, programs_, workers_)).second;
   }
 
+  std::uint64_t simulated() const {
+    std::uint64_t sum = 0;
+    for (const auto& [agent, host] : hosts_) sum += host->simulated();
+    return sum;
+  }
+
  private:
   const AgentPrograms& programs_;
   int workers_;
@@ -160,12 +170,27 @@ int retest_findings(const RetestWords& words) {
     const auto usual = std::clamp<std::uint64_t>(finding.neighbours.of, kNeighbours, kMostNeighbours);
     return static_cast<std::uint32_t>(words.neighbours.value_or(usual));
   };
-  for (std::size_t i = 0; i < findings.size(); ++i) {
-    all.push_back({*findings[i], retest(*host_of[i], failures[i], findings[i]->neighbours, neighbours_of(*findings[i]),
-                                        file.known_runs(*findings[i]))});
-    if (!words.json) put_line(all.back());
+  listen_to_interrupts();
+  const TimeLimit limit({}, is_interrupted);
+  std::optional<WorkProgress> progress;
+  progress.emplace("retest", [&] { return hosts.simulated(); });
+  try {
+    for (std::size_t i = 0; i < findings.size(); ++i) {
+      progress->begin(fmt::format("{} ({} of {})", findings[i]->id, i + 1, findings.size()));
+      CaseHost host = host_of[i]->within(limit);
+      all.push_back({*findings[i], retest(host, failures[i], findings[i]->neighbours, neighbours_of(*findings[i]),
+                                          file.known_runs(*findings[i]))});
+      progress->hide();
+      if (!words.json) put_line(all.back());
+    }
+  } catch (const GivenUp&) {  // a signal: what was found stands
   }
+  progress.reset();
   if (words.json) put_json(all);
+  if (all.size() < findings.size()) {
+    talk("interrupted: {} of {} were retested\n", all.size(), count_text(findings.size(), "finding"));
+    return exit_code_of_signal(interrupted());
+  }
   if (std::ranges::any_of(all, is_bad)) return kViolated;
   const auto is_fixed = [](const Retested& one) { return one.result.verdict == RetestVerdict::Fixed; };
   if (std::ranges::all_of(all, is_fixed)) return kDemonstrated;

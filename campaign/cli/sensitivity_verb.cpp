@@ -6,10 +6,12 @@
 
 #include "campaign/cli/archive_name.hpp"
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/sensitivity_summary.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/cli/work_time.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
@@ -63,7 +65,8 @@ void put_text_of(const SensitivityRecord& record, const std::vector<SeededSensit
 std::vector<SeededSensitivity> measure(CampaignPlan plan, const AgentPrograms& programs,
                                        const SensitivityOptions& options, std::uint64_t seeds) {
   std::vector<SeededSensitivity> measured;
-  for (std::uint64_t i = 0; i < seeds; ++i, ++plan.seed) {
+  talk("seed {}: the sound agent first, then each fault\n", plan.seed);
+  for (std::uint64_t i = 0; i < seeds && !options.limit->is_over(); ++i, ++plan.seed) {
     std::size_t done = 0;
     Sensitivity found = measure_sensitivity(plan, programs, options, [&](const FaultDetection& finding) {
       talk("seed {}: {}: {} {}\n", plan.seed, ++done, finding.tally.agent,
@@ -110,6 +113,9 @@ int sensitivity(const SensitivityWords& words) {
   const OutputFile file{words.out.empty() ? usual : words.out, "--output", OutputKind::Sensitivity};
   require_writable(file);
   if (words.out.empty()) keep_fuller_measurement(usual, options.agents, worlds_of(plan_text(plan)));
+  listen_to_interrupts();
+  const TimeLimit limit({}, is_interrupted);
+  options.limit = &limit;
   try_first_worlds(plan, campaign.places);
   const auto measured = measure(plan, programs, options, seeds);
   const SensitivityRecord record = summary_of(plan, programs, measured);
@@ -117,6 +123,10 @@ int sensitivity(const SensitivityWords& words) {
     put_text(sensitivity_text(record));
   } else {
     put_text_of(record, measured);
+  }
+  if (limit.is_over()) {
+    talk("interrupted: the faults above were measured; no file is written\n");
+    return exit_code_of_signal(interrupted());
   }
   write_whole(file, sensitivity_text(record));
   talk("{}: {}\n", shell_word(file.path),

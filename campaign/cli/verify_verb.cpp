@@ -1,13 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "campaign/batch/verification.hpp"
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/interrupts.hpp"
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/cli/work_time.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
@@ -65,6 +69,10 @@ void print_json(const VerifyWords& words, const IntactFile& file, const Verifica
 
 int verify(const VerifyWords& words) {
   const int workers = worker_count(words.jobs);
+  std::atomic<std::size_t> done = 0;
+  std::optional<WorkProgress> progress;
+  progress.emplace("verify", [&] { return done.load(); });
+  progress->begin("reading every row of " + words.archive);
   const IntactFile file = read_intact(words.archive);
   const std::uint64_t size = sample_size(words.sample, file.runs);
   const CampaignPlan plan = parse_plan(file.campaign.plan_json);
@@ -72,9 +80,20 @@ int verify(const VerifyWords& words) {
   meet_plugins(words.archive, file.campaign, plan.agents, words.plugins, programs, &AgentPrograms::know);
   tell_rebuilt_plugins(file.campaign, plan.agents, programs);
   const auto sample = sample_of_runs(file.content_digest, file.runs, size);
-  const Verification verification = verify_runs(words.archive, plan, programs, sample, workers);
+  listen_to_interrupts();
+  progress->begin("simulating runs again");
+  const Verification verification =
+      verify_runs(words.archive, plan, programs, sample, workers, [&](std::size_t compared) {
+        progress->count(done = compared, sample.size());
+        return !is_interrupted();
+      });
+  progress.reset();
   words.json ? print_json(words, file, verification) : print_text(words, file, verification);
   const auto& differing = verification.differing;
+  if (is_interrupted()) {
+    talk("interrupted: {} of {} were simulated again\n", done.load(), count_text(sample.size(), "run"));
+    return exit_code_of_signal(interrupted());
+  }
   if (std::ranges::any_of(differing, &Disagreement::engine_at_fault)) return kEngineFault;
   return differing.empty() && file.runs > 0 ? kDemonstrated : kNotDemonstrated;
 }

@@ -8,8 +8,6 @@ bool avoids(const CaseRun& run, const FailingCase& failing, const FailurePattern
   return failing.failure.is_violation ? run.outcome.violations.empty() : !pattern.match(run);
 }
 
-std::string outcome_text(const std::optional<Failure>& failure) { return failure ? text_of(failure->kind) : "none"; }
-
 std::string name_of_body(const Scenario& scenario, EntityId body) {
   if (body.index() < scenario.agvs.size()) return scenario.agvs[body.index()].name;
   const std::size_t obstacle = body.index() - scenario.agvs.size();

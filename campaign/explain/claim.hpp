@@ -13,7 +13,7 @@ namespace fleetproof {
 struct Claim {
   std::string sentence;
   Scenario run;
-  std::string outcome;               // of the run: "contact, two AGVs (driving, driving)", or "none"
+  ExpectedOutcome outcome;           // what the run shows
   bool avoids = false;               // the failure
   std::vector<std::string> words{};  // all that the fleet declared in the run, sorted; of runs without a thing only
 };
@@ -31,9 +31,6 @@ struct Share {
 // Whether a changed run avoids the failure: if bodies came too close, none do in any way; otherwise it does not fail in
 // the same way.
 bool avoids(const CaseRun& run, const FailingCase& failing, const FailurePattern& pattern);
-
-// What the run with this scenario shows: how it fails, or "none".
-std::string outcome_text(const std::optional<Failure>& failure);
 
 // "AGV 3": as its scenario names it.
 std::string name_of_body(const Scenario& scenario, EntityId body);

@@ -23,37 +23,71 @@ FailingCase with_more_time(CaseHost& host, const FailingCase& small, const Faili
 }
 
 // Of the AGVs of the failure that were on no drive then.
-std::vector<Departure> past_drives(const Explanation& of, const Itinerary& itinerary) {
+std::vector<Departure> past_drives(const CaseRun& run, const Failure& failure) {
+  const auto on_drives = failed_drives(run, failure);
   std::vector<Departure> found;
-  for (const EntityId body : {of.small.failure.a, of.small.failure.b}) {
-    if (!body.valid() || std::ranges::count(of.set_offs, body, &SetOff::agv) > 0) continue;
-    const Departure* last = last_departure(itinerary.departures, body, of.small.failure.at);
+  for (const EntityId body : {failure.a, failure.b}) {
+    if (!body.valid() || std::ranges::count(on_drives, body, &Departure::agv) > 0) continue;
+    const Departure* last = last_departure(run.itinerary.departures, body, failure.at);
     if (last != nullptr) found.push_back(*last);
   }
   return found;
 }
 
-}  // namespace
+// Asks one question after the other until the time is over.
+class Asking {
+ public:
+  Asking(std::vector<std::string>& not_tried, const OnQuestion& on_question)
+      : not_tried_(not_tried), on_question_(on_question) {}
 
-Explanation explain(CaseHost& host, const FailingCase& original, const FailingCase& small,
-                    const FailurePattern& pattern) {
-  Explanation found;
-  found.original = original;
-  found.pattern = pattern;
-  found.small = with_more_time(host, small, original, pattern);
-  found.messages = needs_of_messages(host, found.small, pattern);
-  found.things = without_each_thing(host, found.small, pattern);
-  found.stops = last_stops(host, found.small, pattern);
-  found.set_offs = set_offs(host, found.small, pattern);
+  void ask(const std::string& question, const std::function<void()>& find) {
+    if (!not_tried_.empty()) return not_tried_.push_back(question);
+    on_question_(question);
+    try {
+      find();
+    } catch (const GivenUp&) {
+      not_tried_.push_back(question + " (begun, not finished)");
+    }
+  }
+
+ private:
+  std::vector<std::string>& not_tried_;
+  const OnQuestion& on_question_;
+};
+
+void look_at_small_case(CaseHost& host, Explanation& found) {
   CaseRun run = host(found.small.scenario, Deliveries::Kept);
-  found.past_drives = past_drives(found, run.itinerary);
+  found.past_drives = past_drives(run, found.small.failure);
   found.notes = std::move(run.notes);
   found.doing = std::move(run.doing);
   found.ended = std::move(run.outcome.message);
   CaseRun undisturbed = host(with_deliveries_only(found.small.scenario, {}));
   if (!failure_of(undisturbed)) found.undisturbed_words = std::move(undisturbed.all_words);
-  found.shares = shares_of(host, original, pattern);
-  found.no_return = curve_of_no_return(host, original, pattern);
+}
+
+}  // namespace
+
+Explanation explain(CaseHost& host, const FailingCase& original, const ShrinkResult& small,
+                    const FailurePattern& pattern, const OnQuestion& on_question) {
+  Explanation found;
+  found.original = original;
+  found.pattern = pattern;
+  found.small = small.best;
+  found.is_smallest = !small.ended;
+  found.has_notes = false;
+  Asking asking(found.not_tried, on_question);
+  asking.ask("what the AGVs did, said and knew", [&] {
+    found.small = with_more_time(host, small.best, original, pattern);
+    look_at_small_case(host, found);
+    found.has_notes = true;
+  });
+  asking.ask("which messages it needs", [&] { add_message_needs(host, found.small, pattern, found.messages); });
+  asking.ask("which AGVs, orders, faults and obstacles it needs",
+             [&] { found.things = without_each_thing(host, found.small, pattern); });
+  asking.ask("until when braking avoids it", [&] { add_last_stops(host, found.small, pattern, found.stops); });
+  asking.ask("what let the AGVs set off", [&] { add_set_offs(host, found.small, pattern, found.set_offs); });
+  asking.ask("how often the run fails with other draws", [&] { add_shares(host, original, pattern, found.shares); });
+  asking.ask("from when on it was certain", [&] { found.no_return = curve_of_no_return(host, original, pattern); });
   return found;
 }
 

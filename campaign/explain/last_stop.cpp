@@ -23,9 +23,9 @@ Scenario stopped_at(const Scenario& scenario, EntityId agv, SimTime at) {
 
 Claim stop_claim(CaseHost& host, const FailingCase& failing, EntityId agv, SimTime at) {
   Scenario stopped = stopped_at(failing.scenario, agv, at);
-  const auto failure = failure_of(host(stopped));
+  ExpectedOutcome outcome = expectation_of(host(stopped));
   return {fmt::format("{} brakes at {:.1f} s", name_of_body(failing.scenario, agv), to_seconds(at - kStart)),
-          std::move(stopped), outcome_text(failure)};
+          std::move(stopped), std::move(outcome)};
 }
 
 LastStop last_stop_of(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern, EntityId agv) {
@@ -48,13 +48,12 @@ LastStop last_stop_of(CaseHost& host, const FailingCase& failing, const FailureP
 
 }  // namespace
 
-std::vector<LastStop> last_stops(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
-  std::vector<LastStop> stops;
+void add_last_stops(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
+                    std::vector<LastStop>& found) {
   for (const EntityId body : {failing.failure.a, failing.failure.b}) {
     if (body.valid() && body.index() < failing.scenario.agvs.size())
-      stops.push_back(last_stop_of(host, failing, pattern, body));
+      found.push_back(last_stop_of(host, failing, pattern, body));
   }
-  return stops;
 }
 
 }  // namespace fleetproof

@@ -13,6 +13,8 @@ struct LastStop {
   std::optional<SimTime> at;  // absent: no stop of this AGV that was tried avoids it
   std::vector<Claim> claims;  // the stop that avoids it, and the next one, which does not; or the earliest of all
 };
-std::vector<LastStop> last_stops(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
+// If the time of the host is over, GivenUp is thrown, and `found` has those that were found until then.
+void add_last_stops(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
+                    std::vector<LastStop>& found);
 
 }  // namespace fleetproof

@@ -71,14 +71,14 @@ MessageNeed need_of(CaseHost& host, const FailingCase& failing, const FailurePat
   need.is_needed = avoids(run, failing, pattern);
   need.claims.push_back({fmt::format("{} arrived at once", message_text(failing.scenario, message)),
                          std::move(arrived),
-                         outcome_text(failure_of(run)),
+                         expectation_of(run),
                          need.is_needed,
                          {}});
   if (need.is_needed) need.latest = latest_that_saves(host, failing, pattern, delivery);
   if (!need.latest) return need;
   for (const Duration late : {need.latest->in_time, need.latest->too_late}) {
     Scenario later = with_delivery(failing.scenario, arriving_after(delivery, late));
-    std::string outcome = outcome_text(failure_of(host(later)));
+    ExpectedOutcome outcome = expectation_of(host(later));
     need.claims.push_back({fmt::format("it arrived at {:.3f} s", to_seconds(delivery.sent + late)), std::move(later),
                            std::move(outcome)});
   }
@@ -207,16 +207,15 @@ std::vector<Without> things_of(const Scenario& scenario) {
 
 }  // namespace
 
-std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
+void add_message_needs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
+                       std::vector<MessageNeed>& found) {
   const auto messages = host(failing.scenario, Deliveries::Kept).deliveries;
-  std::vector<MessageNeed> needs;
   for (const GivenDelivery& delivery : failing.scenario.deliveries) {
     const auto sent = std::ranges::find_if(
         messages, [&](const MessageDelivery& message) { return is_same_message(message.delivery, delivery); });
-    if (sent != messages.end()) needs.push_back(need_of(host, failing, pattern, *sent));  // or it changed nothing
+    if (sent != messages.end()) found.push_back(need_of(host, failing, pattern, *sent));  // or it changed nothing
   }
-  if (CaseSize::of(failing.scenario).deliveries_are_drawn) add_drawn(host, failing, pattern, messages, needs);
-  return needs;
+  if (CaseSize::of(failing.scenario).deliveries_are_drawn) add_drawn(host, failing, pattern, messages, found);
 }
 
 std::vector<Claim> without_each_thing(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
@@ -230,12 +229,11 @@ std::vector<Claim> without_each_thing(CaseHost& host, const FailingCase& failing
   std::vector<Claim> claims;
   for (std::size_t i = 0; i < things.size(); ++i) {
     if (!runs[i]) continue;
-    const auto failure = failure_of(*runs[i]);
     const bool avoided = avoids(*runs[i], failing, pattern);
     const char* how = pattern.match(*runs[i]) ? "fails in the same way"
                       : avoided               ? "does not fail so"
                                               : "fails a little otherwise";
-    claims.push_back({fmt::format("{} without {}", how, things[i].what), *make(i), outcome_text(failure), avoided,
+    claims.push_back({fmt::format("{} without {}", how, things[i].what), *make(i), expectation_of(*runs[i]), avoided,
                       runs[i]->all_words});
   }
   return claims;

@@ -20,7 +20,9 @@ struct MessageNeed {
 };
 // Of all messages whose losses and delays the scenario names. While the radio draws, also of the last ones between the
 // two bodies of the failure that it lost or delayed, of which only those that are needed are kept.
-std::vector<MessageNeed> needs_of_messages(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
+// If the time of the host is over, GivenUp is thrown, and `found` has those that were found until then.
+void add_message_needs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
+                       std::vector<MessageNeed>& found);
 
 // For each AGV, order, fault and obstacle of the case, and for each bend on which a body of the failure was: the run
 // without it.

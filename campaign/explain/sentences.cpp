@@ -26,9 +26,12 @@ class Words {
     for (const LastStop& stop : of_.stops) last_stop(stop);
     for (const SetOff& drive : of_.set_offs) set_off(drive);
     for (const Departure& drive : of_.past_drives) past_drive(drive);
-    for (const EntityId agv : involved()) knowledge(agv);
+    if (of_.has_notes) std::ranges::for_each(involved(), [&](EntityId agv) { knowledge(agv); });
     shares();
     no_return();
+    if (!of_.is_smallest)
+      say("The search for a smaller case was ended before it was done: a longer one may find a smaller case.");
+    if (!of_.not_tried.empty()) say("Not tried, because the time was over: {}.", fmt::join(of_.not_tried, "; "));
     return std::move(lines_);
   }
 
@@ -58,7 +61,8 @@ class Words {
     std::string who;
     if (failure.a.valid()) who = " of " + name_of_body(scenario_, failure.a);
     if (failure.b.valid()) who += " and " + name_of_body(scenario_, failure.b);
-    say("The smallest case fails at {:.3f} s: {}{}.", seconds_of(failure.at), failure.kind.what, who);
+    say("The {} fails at {:.3f} s: {}{}.", of_.is_smallest ? "smallest case" : "case found so far",
+        seconds_of(failure.at), failure.kind.what, who);
     std::vector<std::string> doings;
     for (std::size_t i = 0; i < std::min(involved().size(), of_.doing.size()); ++i)
       doings.push_back(fmt::format("{} {}", name_of_body(scenario_, involved()[i]), past_of(of_.doing[i])));

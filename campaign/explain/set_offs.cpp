@@ -76,7 +76,7 @@ class Inquiry {
     return {sets_off,
             {fmt::format("without {}, it {} then", what, sets_off ? "sets off" : "does not set off"),
              without_messages(failing_.scenario, messages),
-             outcome_text(failure_of(run)),
+             expectation_of(run),
              avoids(run, failing_, pattern_),
              {}}};
   }
@@ -210,12 +210,11 @@ std::vector<Departure> failed_drives(const CaseRun& run, const Failure& failure)
   return found;
 }
 
-std::vector<SetOff> set_offs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
+void add_set_offs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
+                  std::vector<SetOff>& found) {
   const CaseRun run = host(failing.scenario, Deliveries::Kept);
-  std::vector<SetOff> found;
   for (const Departure& drive : failed_drives(run, failing.failure))
     found.push_back(Inquiry(host, failing, pattern, run, drive).find());
-  return found;
 }
 
 }  // namespace fleetproof

@@ -47,8 +47,10 @@ struct SetOff {
 inline constexpr Duration kLookedAt = std::chrono::seconds(10);
 
 // Messages are lost one by one, and all of a kind from one sender, also those that it sends because others are lost;
-// each in a run of its own. "Then" is within 5 ms.
-std::vector<SetOff> set_offs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern);
+// each in a run of its own. "Then" is within 5 ms. If the time of the host is over, GivenUp is thrown, and `found` has
+// those that were found until then.
+void add_set_offs(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern,
+                  std::vector<SetOff>& found);
 
 // The last that an AGV began until then. Null: none. Requires: departures in order of time.
 const Departure* last_departure(std::span<const Departure> departures, EntityId agv, SimTime until);

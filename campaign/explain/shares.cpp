@@ -63,7 +63,7 @@ bool changes_it(const WorldChange& change, const Scenario& scenario) {
 
 }  // namespace
 
-std::vector<Share> shares_of(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern) {
+void add_shares(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern, std::vector<Share>& found) {
   auto changes = changes_of(failing.scenario);
   std::erase_if(changes, [&, first = true](const WorldChange& change) mutable {
     return !std::exchange(first, false) && !changes_it(change, failing.scenario);
@@ -73,21 +73,19 @@ std::vector<Share> shares_of(CaseHost& host, const FailingCase& failing, const F
     changes.push_back({failing.scenario.agvs[i].name + " is not there",
                        [i](Scenario& s) { s = with_agvs(s, [i](std::size_t other) { return other != i; }); }});
   }
-  std::vector<Share> shares;
+  const auto draw = [](std::size_t rank) { return static_cast<std::uint32_t>(rank + 1); };
   for (const WorldChange& change : changes) {
     Share share{.what = change.what, .run = failing.scenario, .failing_draws = {}, .of = kRunsPerShare};
     change.edit(share.run);
-    if (is_fair(share.run)) shares.push_back(std::move(share));
+    if (!is_fair(share.run)) continue;
+    const auto runs = all_runs(host, {kRunsPerShare, [&](std::size_t rank) {
+                                        return std::optional(with_other_draws(share.run, draw(rank)));
+                                      }});
+    for (std::size_t rank = 0; rank < runs.size(); ++rank) {
+      if (pattern.match(*runs[rank])) share.failing_draws.push_back(draw(rank));
+    }
+    found.push_back(std::move(share));
   }
-  const auto draw = [](std::size_t rank) { return static_cast<std::uint32_t>(rank % kRunsPerShare + 1); };
-  const auto make = [&](std::size_t rank) {
-    return std::optional(with_other_draws(shares[rank / kRunsPerShare].run, draw(rank)));
-  };
-  const auto runs = all_runs(host, {shares.size() * kRunsPerShare, make});
-  for (std::size_t rank = 0; rank < runs.size(); ++rank) {
-    if (pattern.match(*runs[rank])) shares[rank / kRunsPerShare].failing_draws.push_back(draw(rank));
-  }
-  return shares;
 }
 
 }  // namespace fleetproof

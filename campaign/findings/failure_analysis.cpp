@@ -43,9 +43,9 @@ FailureAnalysis analysis_of(CaseHost& host, const Finding& finding, const Failur
   FailureAnalysis record;
   const FailurePattern pattern = pattern_of(host, world);
   TrialCache cache;
-  const FailingCase smallest =
-      shrink(host, cache, world, pattern, {{}, trials}, [](const FailingCase&, std::string_view) {}).best;
-  record.explanation = explain(host, world, smallest, pattern);
+  const ShrinkResult small = shrink(host, cache, world, pattern, {trials}, [](const FailingCase&, std::string_view) {});
+  const FailingCase& smallest = small.best;
+  record.explanation = explain(host, world, small, pattern);
   record.kept = {smallest.scenario, world.scenario, finding.mechanism.end, {finding.mechanism.needs}};
   auto of_case = needs_of(host, record.kept.smallest);
   keep_what_it_shows(of_case, finding, pattern, record.kept);

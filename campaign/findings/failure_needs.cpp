@@ -64,12 +64,13 @@ class Reduction {
  public:
   Reduction(CaseHost& host, const Scenario& scenario) : host_(host), original_(scenario) {}
 
-  std::optional<FailureNeeds> find() {
+  std::optional<FailureNeeds> find(const RunFailure* stored) {
     const CaseRun run = simulate(original_, Deliveries::Kept);
     const auto failure = failure_of(run);
-    if (!failure) return std::nullopt;
+    const auto chosen = chosen_failure(run.outcome, run.choice);
+    if (!failure || (stored != nullptr && !is_same_failure(*chosen, *stored))) return std::nullopt;
     likeness_.end = end_of(*failure);
-    best_ = {original_, *failure};
+    best_ = {original_, *failure, run.outcome.digest};
     learn_words(run);
     found_.end = likeness_.end;
     const auto ingredients = ingredients_of(original_, adverse_kinds(run.deliveries));
@@ -192,7 +193,7 @@ class Reduction {
     if (replays_ >= kReplaysPerFailure - 1) return false;
     const CaseRun run = simulate(scenario);
     auto failure = likeness_.match(run);
-    if (failure) best_ = {std::move(scenario), *std::move(failure)};
+    if (failure) best_ = {std::move(scenario), *failure, run.outcome.digest};
     if (!failure_of(run)) learner_->hear_passing(run);
     return failure.has_value();
   }
@@ -247,8 +248,8 @@ std::optional<Failure> FailureLikeness::match(const CaseRun& run) const {
   return failure;
 }
 
-std::optional<FailureNeeds> needs_of(CaseHost& host, const Scenario& scenario) {
-  return Reduction(host, scenario).find();
+std::optional<FailureNeeds> needs_of(CaseHost& host, const Scenario& scenario, const RunFailure* stored) {
+  return Reduction(host, scenario).find(stored);
 }
 
 }  // namespace fleetproof

@@ -49,7 +49,8 @@ struct FailureLikeness {
 // What the bodies of a failure did, beside driving on: "one turns"; sorted.
 std::vector<std::string> doings_of(const CaseRun& run);
 
-// Absent if the scenario does not fail. Threads: may be called from several, for one host.
-std::optional<FailureNeeds> needs_of(CaseHost& host, const Scenario& scenario);
+// Absent if the scenario does not fail, or not as it did before: `stored`. Threads: may be called from several, for one
+// host.
+std::optional<FailureNeeds> needs_of(CaseHost& host, const Scenario& scenario, const RunFailure* stored = nullptr);
 
 }  // namespace fleetproof

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct KnownFailure {
   std::uint64_t run = 0;
   std::string agent;
   FailureNeeds needs;
+  FailureChoice choice{};               // with which it is found in its run
+  std::optional<EndPoint> end_point{};  // of a failure that does not lead its run
 };
 
 // Failures of one agent that have one mechanism.

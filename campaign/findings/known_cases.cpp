@@ -12,10 +12,10 @@ std::vector<PlayedCase> play_known_cases(const FindingsFile& file, const Campaig
                                          const std::function<bool()>& go_on) {
   std::vector<KeptFailure> kept;
   for (const KnownIssue& finding : file.findings()) kept.push_back(file.failure(finding));
+  const TimeLimit limit({}, [&] { return !go_on(); });
   std::vector<PlayedCase> played;
   for (const AgentFactor& agent : plan.agents) {
-    CaseHost host(case_agent(plan, agent), programs, workers);
-    host.simulate_while(go_on);
+    CaseHost host = CaseHost(case_agent(plan, agent), programs, workers).within(limit);
     const auto runs = all_runs(host, {kept.size(), [&](std::size_t i) { return std::optional(kept[i].smallest); }});
     for (std::size_t i = 0; i < kept.size(); ++i) {
       const auto failure = failure_of(*runs[i]);

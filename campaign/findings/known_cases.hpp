@@ -20,7 +20,7 @@ struct PlayedCase {
 
 // All cases of a findings file with all agents of the plan, in this order. They tell at once what is back; they count
 // in no claim, because they were chosen for their failures. Throws GivenUp once
-// `go_on` says no.
+// `go_on` says no, also out of the middle of a run.
 std::vector<PlayedCase> play_known_cases(const FindingsFile& file, const CampaignPlan& plan,
                                          const AgentPrograms& programs, int workers,
                                          const std::function<bool()>& go_on);

@@ -11,7 +11,6 @@
 #include "core/engine/simulation.hpp"
 #include "core/outcome/note_records.hpp"
 #include "laws/laws.hpp"
-#include "reports/evidence/first_cause.hpp"
 
 namespace fleetproof {
 namespace {
@@ -136,22 +135,13 @@ class CaseSink final : public TraceSink {
   Deliveries wanted_;
 };
 
-// From when on the first cause was what it is: a violation may become a contact after it began.
-SimTime seen_at(const FirstCause& cause, const Outcome& outcome) {
-  for (const Violation& violation : outcome.violations) {
-    if (violation.first == cause.at && violation.a == cause.a && violation.b == cause.b) return violation.closest_at;
-  }
-  for (const Incident& incident : outcome.incidents) {
-    if (incident.first == cause.at && incident.a == cause.a && incident.b == cause.b) return incident.last;
-  }
-  return cause.at;
-}
-
 }  // namespace
 
 CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std::string& agent_config,
-                 const std::vector<std::string>& laws_left_out, Deliveries deliveries, const RunWatch& watch) {
+                 const std::vector<std::string>& laws_left_out, Deliveries deliveries, const RunWatch& watch,
+                 FailureChoice choice) {
   CaseRun run;
+  run.choice = choice;
   CaseSink sink(scenario, deliveries);
   const auto laws = make_default_laws(scenario, laws_left_out);
   run.outcome = simulate(scenario, agent, laws, &sink, agent_config.c_str(), watch);
@@ -161,7 +151,7 @@ CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std
   }
   run.all_words = sink.declared.words({}, kForever);
   run.first_said = sink.declared.first();
-  const auto cause = first_cause(run.outcome);
+  const auto cause = chosen_failure(run.outcome, choice);
   if (!cause) return run;
   std::vector<EntityId> agvs;
   for (const EntityId body : {cause->a, cause->b}) {
@@ -186,13 +176,10 @@ ExpectedOutcome expectation_of(const CaseRun& run) {
 }
 
 std::optional<Failure> failure_of(const CaseRun& run) {
-  auto cause = first_cause(run.outcome);
-  if (!cause) return std::nullopt;
-  const SimTime seen = seen_at(*cause, run.outcome);
-  Failure failure{{std::move(cause->what), run.states}, cause->at, seen, cause->a, cause->b};
-  failure.is_violation = std::ranges::any_of(run.outcome.violations, [&](const Violation& violation) {
-    return violation.first == cause->at && violation.a == cause->a && violation.b == cause->b;
-  });
+  auto chosen = chosen_failure(run.outcome, run.choice);
+  if (!chosen) return std::nullopt;
+  Failure failure{{std::move(chosen->what), run.states}, chosen->at, chosen->seen, chosen->a, chosen->b};
+  failure.is_violation = chosen->is_violation;
   std::ranges::sort(failure.kind.states);
   return failure;
 }

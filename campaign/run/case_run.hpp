@@ -8,7 +8,7 @@
 #include "campaign/run/itinerary.hpp"
 #include "campaign/run/message_deliveries.hpp"
 #include "core/engine/run_watch.hpp"
-#include "core/outcome/outcome.hpp"
+#include "core/outcome/run_failures.hpp"
 #include "core/scenario/scenario.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
@@ -21,7 +21,8 @@ inline constexpr const char *kTurning = "turn", *kOnABend = "bend", *kBackward =
 // One scenario, simulated to learn how it fails.
 struct CaseRun {
   Outcome outcome;
-  // What the agents of the bodies of the first cause had last declared when it happened, in the order of the bodies.
+  FailureChoice choice{};  // the failure that all of this is about
+  // What the agents of the bodies of that failure had last declared when it happened, in the order of the bodies.
   // Empty: the run did not fail, no body is known, or no agent declares anything.
   std::vector<std::string> states;
   // What these AGVs did then, in the order of the bodies.
@@ -39,11 +40,11 @@ enum class Deliveries : bool { Ignored, Kept };
 // Under the default laws without those in `laws_left_out`.
 CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std::string& agent_config,
                  const std::vector<std::string>& laws_left_out, Deliveries deliveries = Deliveries::Ignored,
-                 const RunWatch& watch = {});
+                 const RunWatch& watch = {}, FailureChoice choice = {});
 
 // How a run failed: two runs fail in the same way if their kinds are equal.
 struct FailureKind {
-  std::string what;                 // of the first cause: "contact, two AGVs"
+  std::string what;                 // "contact, two AGVs"
   std::vector<std::string> states;  // of its AGVs, sorted
 
   friend bool operator==(const FailureKind&, const FailureKind&) = default;
@@ -61,7 +62,8 @@ struct Failure {
   EntityId a, b;              // each invalid if not known
   bool is_violation = false;  // the two came too close
 };
-// Absent if nothing went wrong. Of a crash or a hang, `at` is the end of the run.
+// The failure that the run was to be looked at for; absent if it has none. Of a crash or a hang, `at` is the end of the
+// run.
 std::optional<Failure> failure_of(const CaseRun& run);
 
 }  // namespace fleetproof

@@ -1,6 +1,29 @@
 #include "campaign/shrink/case_host.hpp"
 
+#include <atomic>
+
 namespace fleetproof {
+
+struct CaseHost::Shared {
+  Shared(const CaseAgent& agent, const AgentPrograms& its_programs, int its_workers)
+      : programs(its_programs), workers(its_workers) {
+    AgentFactor& factor = plan.agents.emplace_back();
+    factor.name = factor.program = programs.program(agent.program, "agent").name;
+    plan.agent_config = agent.config;
+    plan.laws_left_out = agent.laws_left_out;
+    plan.limits = agent.limits;
+    if (!programs.is_plugin(agent.program)) return;
+    Hosting hosting;
+    hosting.workers = workers;
+    isolated = std::make_unique<IsolatedRuns>(plan, programs, hosting);
+  }
+
+  CampaignPlan plan;  // its one agent; no layouts
+  const AgentPrograms& programs;
+  int workers;
+  std::unique_ptr<IsolatedRuns> isolated;  // null: a reference agent
+  std::atomic<std::uint64_t> simulated = 0;
+};
 
 CaseAgent case_agent(const CampaignPlan& plan, const AgentFactor& agent) {
   return {agent.program, plan.config_of(agent), plan.laws_left_out, plan.limits};
@@ -14,28 +37,61 @@ Scenario played_by(const CaseAgent& agent, Scenario scenario) {
 }
 
 CaseHost::CaseHost(const CaseAgent& agent, const AgentPrograms& programs, int workers)
-    : programs_(programs), workers_(workers) {
-  AgentFactor& factor = plan_.agents.emplace_back();
-  factor.name = factor.program = programs.program(agent.program, "agent").name;
-  plan_.agent_config = agent.config;
-  plan_.laws_left_out = agent.laws_left_out;
-  plan_.limits = agent.limits;
-  if (!programs.is_plugin(agent.program)) return;
-  Hosting hosting;
-  hosting.workers = workers;
-  isolated_ = std::make_unique<IsolatedRuns>(plan_, programs, hosting);
+    : shared_(std::make_shared<Shared>(agent, programs, workers)) {}
+
+CaseHost CaseHost::looking_at(FailureChoice choice) const {
+  CaseHost other = *this;
+  other.choice_ = choice;
+  return other;
 }
 
-CaseRun CaseHost::operator()(const Scenario& scenario, Deliveries deliveries) {
-  if (!go_on_()) throw GivenUp("no more cases are simulated");
-  if (isolated_) return isolated_->of_case(scenario, deliveries);
-  return run_case(scenario, programs_.find(plan_.agents.front().program, "agent"), plan_.agent_config,
-                  plan_.laws_left_out, deliveries);
+CaseHost CaseHost::within(const TimeLimit& limit) const {
+  CaseHost other = *this;
+  other.limit_ = &limit;
+  return other;
 }
 
-std::optional<std::vector<KnownEnd>> CaseHost::ends_in(const Scenario& scenario) {
-  if (!isolated_) return std::vector<KnownEnd>();
-  return isolated_->ends_in(scenario);
+CaseRun CaseHost::operator()(const Scenario& scenario, Deliveries deliveries) const {
+  CaseWishes wishes;
+  wishes.deliveries = deliveries;
+  return simulate(scenario, wishes);
 }
+
+CaseRun CaseHost::in_fresh_process(const Scenario& scenario, std::uint64_t number) const {
+  CaseWishes wishes;
+  wishes.as_audit = number;
+  return simulate(scenario, wishes);
+}
+
+CaseRun CaseHost::simulate(const Scenario& scenario, const CaseWishes& wishes) const {
+  constexpr const char* over = "the time for cases is over";
+  if (is_over()) throw GivenUp(over);
+  CaseWishes mine = wishes;
+  mine.choice = choice_;
+  if (limit_ != nullptr) mine.abandon = &limit_->over();
+  try {
+    CaseRun run;
+    if (shared_->isolated) {
+      run = shared_->isolated->of_case(scenario, mine);
+    } else {
+      RunWatch watch;
+      watch.abandon = mine.abandon;
+      run = run_case(scenario, shared_->programs.find(shared_->plan.agents.front().program, "agent"),
+                     shared_->plan.agent_config, shared_->plan.laws_left_out, mine.deliveries, watch, choice_);
+    }
+    ++shared_->simulated;
+    return run;
+  } catch (const RunAbandoned&) {
+    throw GivenUp(over);
+  }
+}
+
+std::optional<std::vector<KnownEnd>> CaseHost::ends_in(const Scenario& scenario) const {
+  if (!shared_->isolated) return std::vector<KnownEnd>();
+  return shared_->isolated->ends_in(scenario);
+}
+
+int CaseHost::workers() const { return shared_->workers; }
+std::uint64_t CaseHost::simulated() const { return shared_->simulated; }
 
 }  // namespace fleetproof

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "campaign/batch/time_limit.hpp"
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/run/case_run.hpp"
@@ -26,34 +27,43 @@ CaseAgent case_agent(const CampaignPlan& plan, const AgentFactor& agent);
 // The scenario for a file, with what else decides its outcome: agent, configuration, and the laws that are left out.
 Scenario played_by(const CaseAgent& agent, Scenario scenario);
 
-// A case was to be simulated after the time for that was over.
+// The time for cases was over before one of them had been simulated.
 class GivenUp : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 // Simulates cases: a reference agent on the thread of the caller, a plug-in in worker processes, so that a crash costs
-// one case. Threads: as many as there are workers.
+// one case. Hosts that are made from another one share its workers. Threads: as many as there are workers.
 class CaseHost {
  public:
-  // `programs` outlive it. Throws InputError if the
-  // agent is not known.
+  // `programs` outlive it. Throws InputError if the agent is not known.
   CaseHost(const CaseAgent& agent, const AgentPrograms& programs, int workers);
 
-  CaseRun operator()(const Scenario& scenario, Deliveries deliveries = Deliveries::Ignored);
+  // The same, but of each run this failure is looked at.
+  CaseHost looking_at(FailureChoice choice) const;
+  // The same, but a call throws GivenUp once the time is over, also out of the middle of a run. That ends whatever the
+  // cases were needed for. `limit` outlives it.
+  CaseHost within(const TimeLimit& limit) const;
+
+  CaseRun operator()(const Scenario& scenario, Deliveries deliveries = Deliveries::Ignored) const;
+  // A plug-in plays it in a process that has hosted nothing before, with a memory disturbed as in an audit; each number
+  // disturbs it in another way.
+  CaseRun in_fresh_process(const Scenario& scenario, std::uint64_t number) const;
   // As IsolatedRuns::ends_in; none of a reference agent.
-  std::optional<std::vector<KnownEnd>> ends_in(const Scenario& scenario);
-  int workers() const { return workers_; }
-  // From now on, a call throws GivenUp once `go_on` says no. That ends whatever the cases were needed for. Call it
-  // while no case is simulated. Several threads call `go_on` at once.
-  void simulate_while(std::function<bool()> go_on) { go_on_ = std::move(go_on); }
+  std::optional<std::vector<KnownEnd>> ends_in(const Scenario& scenario) const;
+
+  int workers() const;
+  bool is_over() const { return limit_ != nullptr && limit_->is_over(); }
+  std::uint64_t simulated() const;  // by all hosts that share the workers
 
  private:
-  CampaignPlan plan_;  // its one agent; no layouts
-  const AgentPrograms& programs_;
-  int workers_;
-  std::unique_ptr<IsolatedRuns> isolated_;  // null: a reference agent
-  std::function<bool()> go_on_ = [] { return true; };
+  struct Shared;
+  CaseRun simulate(const Scenario& scenario, const CaseWishes& wishes) const;
+
+  std::shared_ptr<Shared> shared_;
+  FailureChoice choice_{};
+  const TimeLimit* limit_ = nullptr;  // null: none
 };
 
 }  // namespace fleetproof

@@ -4,12 +4,13 @@
 #include <utility>
 
 #include "campaign/shrink/adverse_deliveries.hpp"
+#include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/other_draws.hpp"
 
 namespace fleetproof {
 namespace {
 
-constexpr std::uint32_t kRunsWithOtherDraws = 16;
+constexpr std::size_t kRunsWithOtherDraws = 16;
 
 }  // namespace
 
@@ -27,17 +28,19 @@ FailurePattern pattern_of(CaseHost& host, const FailingCase& failing) {
   const CaseRun undisturbed = host(with_deliveries_only(failing.scenario, {}));
   const bool undisturbed_fails = failure_of(undisturbed).has_value();
   if (!undisturbed_fails) learner.hear_undisturbed(undisturbed);
-  std::vector<CaseRun> others;
-  for (std::uint32_t i = 1; i <= kRunsWithOtherDraws && !run.words.empty(); ++i) {
-    others.push_back(host(with_other_timeline(failing.scenario, i, kLatest)));
-    if (!failure_of(others.back())) learner.hear_passing(others.back());
+  const auto other = [&](std::size_t i) {
+    return std::optional(with_other_timeline(failing.scenario, static_cast<std::uint32_t>(i + 1), kLatest));
+  };
+  const auto others = all_runs(host, {run.words.empty() ? 0 : kRunsWithOtherDraws, other});
+  for (const auto& passing : others) {
+    if (!failure_of(*passing)) learner.hear_passing(*passing);
   }
   FailurePattern pattern{failing.failure.kind, failing.failure.kind.states, {{}, learner.pattern().usual}};
   std::erase_if(pattern.states, [&](const std::string& state) { return learner.is_ordinary(state); });
   auto& states = pattern.states;  // they are sorted
   states.erase(std::unique(states.begin(), states.end()), states.end());
-  for (const CaseRun& other : others) {
-    if (pattern.match(other)) learner.hear_failing(other);
+  for (const auto& alike : others) {
+    if (pattern.match(*alike)) learner.hear_failing(*alike);
   }
   pattern.words = learner.pattern();
   if (undisturbed_fails && learner.passing() == 0) pattern.words.telling.clear();  // nothing to compare with

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ namespace fleetproof {
 struct FailingCase {
   Scenario scenario;
   Failure failure;
+  std::uint64_t digest = 0;  // of the trace of its run
+
+  ExpectedOutcome expectation() const { return {text_of(failure.kind), digest}; }  // as a saved case has it
 };
 
 // What counts as the same failure: what went wrong between which bodies, and what their agents declared before it.

@@ -191,12 +191,8 @@ std::string why_not_known(const ShrinkResult& result, bool ended) {
   return "";
 }
 
-}  // namespace
-
 // When the deliveries of messages are written down, each further step must keep the timeline of the run up to them.
-ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& original, const FailurePattern& pattern,
-                    const TrialLimits& limits, const OnSmaller& on_smaller) {
-  Trials trials(host, cache, pattern, limits);
+FailingCase smallest_of(Trials& trials, const FailingCase& original, const OnSmaller& on_smaller) {
   Shrinker shrinker(trials, FewestLosses(trials, original, on_smaller).find(), on_smaller);
   for (bool smaller = true; smaller && !trials.ended();) {
     smaller = take_out_deliveries(shrinker);
@@ -206,13 +202,30 @@ ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& origin
     smaller |= shrinker.shorten();
     smaller |= simplify_numbers(shrinker);
   }
+  return shrinker.best();
+}
+
+}  // namespace
+
+ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& original, const FailurePattern& pattern,
+                    const TrialLimits& limits, const OnSmaller& on_smaller) {
+  Trials trials(host, cache, pattern, limits);
   ShrinkResult result;
-  result.best = shrinker.best();
+  result.best = original;
+  const OnSmaller keep = [&](const FailingCase& smaller, std::string_view pass) {
+    result.best = smaller;
+    on_smaller(smaller, pass);
+  };
+  try {
+    result.best = smallest_of(trials, original, keep);
+    result.ended = trials.ended();
+  } catch (const GivenUp&) {  // in the middle of a pass: what was found until then stands
+    result.ended = true;
+  }
   result.before = CaseSize::of(original.scenario);
   result.after = CaseSize::of(result.best.scenario);
   result.trials = trials.count();
-  result.ended = trials.ended();
-  result.why_not = why_not_known(result, trials.ended());
+  result.why_not = why_not_known(result, result.ended);
   result.one_minimal = result.why_not.empty();
   return result;
 }

@@ -30,7 +30,7 @@ struct ShrinkResult {
   CaseSize before, after;
   std::uint64_t trials = 0;  // that one worker would have made
   bool one_minimal = false;
-  bool ended = false;  // by a limit
+  bool ended = false;  // by a limit: a longer search may find a smaller case
   std::string why_not;
 };
 
@@ -39,8 +39,8 @@ using OnSmaller = std::function<void(const FailingCase& smaller, std::string_vie
 
 // Makes a failing scenario smaller as long as it fails in the same way: fewer AGVs, fewer losses and delays on the
 // radio, fewer transports, faults and obstacles, a smaller plant, a shorter run, simpler numbers. The result is the
-// same for any number of workers, unless the deadline ends the work. Requires: `original` fails as it says, and shows
-// the pattern.
+// same for any number of workers, unless the time of the host ends the work: then it is the smallest case so far.
+// Requires: `original` fails as it says, and shows the pattern.
 ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& original, const FailurePattern& pattern,
                     const TrialLimits& limits, const OnSmaller& on_smaller);
 

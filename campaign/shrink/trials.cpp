@@ -20,27 +20,23 @@ void TrialCache::add(std::uint64_t digest, bool fails) {
   verdicts_.emplace(digest, fails);
 }
 
-bool Trials::is_over() const {
-  return (limits_.deadline && std::chrono::steady_clock::now() >= *limits_.deadline) ||
-         (limits_.trials && count_ >= *limits_.trials);
-}
+bool Trials::is_over() const { return host_.is_over() || (limits_.trials && count_ >= *limits_.trials); }
 
 std::optional<FailingCase> Trials::attempt(Scenario scenario) {
   const std::uint64_t digest = scenario_digest(scenario);
   if (cache_.find(digest) == false) return std::nullopt;
-  const auto failure = pattern_.match(host_(scenario));
+  const CaseRun run = host_(scenario);
+  const auto failure = pattern_.match(run);
   cache_.add(digest, failure.has_value());
   if (!failure) return std::nullopt;
-  return FailingCase{std::move(scenario), *failure};
+  return FailingCase{std::move(scenario), *failure, run.outcome.digest};
 }
 
-// Passes over the candidates that an earlier search has tried. Their answers need no workers and no time of the search:
-// else a search with little time would end before it is where the earlier one ended. Returns the first rank that is
-// still to be tried.
+// Passes over the candidates that an earlier search has tried: their answers need no workers. Returns the first rank
+// that is still to be tried.
 std::size_t Trials::pass_known(const Candidates& candidates, std::size_t end, std::optional<Found>& found) {
-  const auto begin = std::chrono::steady_clock::now();
   std::size_t rank = 0;
-  for (; rank < end && all_known_ && !found; ++rank) {
+  for (; rank < end && all_known_ && !found && !host_.is_over(); ++rank) {
     auto scenario = candidates.make(rank);
     if (!scenario) continue;
     const auto known = cache_.find(scenario_digest(*scenario));
@@ -50,7 +46,6 @@ std::size_t Trials::pass_known(const Candidates& candidates, std::size_t end, st
       if (auto failing = attempt(*std::move(scenario))) found = Found{rank, *std::move(failing)};
     }
   }
-  if (limits_.deadline) *limits_.deadline += std::chrono::steady_clock::now() - begin;
   return rank;
 }
 
@@ -72,7 +67,12 @@ std::optional<Trials::Found> Trials::first_failing(const Candidates& candidates)
       if (rank > best || late) return std::nullopt;
       auto scenario = candidates.make(rank);
       if (!scenario) return std::nullopt;
-      auto failing = attempt(*std::move(scenario));
+      std::optional<FailingCase> failing;
+      try {
+        failing = attempt(*std::move(scenario));
+      } catch (const GivenUp&) {
+        late = true;
+      }
       std::size_t lowest = best;
       while (failing && rank < lowest && !best.compare_exchange_weak(lowest, rank)) {
       }
@@ -85,7 +85,7 @@ std::optional<Trials::Found> Trials::first_failing(const Candidates& candidates)
         },
         [&] {
           if (best < end) pool.stop();
-          if (limits_.deadline && std::chrono::steady_clock::now() >= *limits_.deadline) late = true;
+          if (host_.is_over()) late = true;
         });
   }
   count_ += found ? found->rank + 1 : end;

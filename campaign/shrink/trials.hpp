@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -21,9 +20,7 @@ struct Candidates {
 };
 
 struct TrialLimits {
-  // Put off by what it takes to repeat the answers of an earlier search.
-  std::optional<std::chrono::steady_clock::time_point> deadline;
-  std::optional<std::uint64_t> trials;  // counted as one worker would make them
+  std::optional<std::uint64_t> trials{};  // counted as one worker would make them
 };
 
 // Verdicts on scenarios by their digest, so that none that passes is simulated twice. They may come from a file.
@@ -50,7 +47,8 @@ class Trials {
   Trials(CaseHost& host, TrialCache& cache, FailurePattern pattern, const TrialLimits& limits)
       : host_(host), cache_(cache), pattern_(std::move(pattern)), limits_(limits) {}
 
-  // The first candidate that fails in the same way. None if there is none, or if a limit was met before it was found.
+  // The first candidate that fails in the same way. None if there is none, or if the time of the host or a limit was
+  // over before it was found.
   std::optional<Found> first_failing(const Candidates& candidates);
   // Whether a limit was met. No trial is made then.
   bool ended() const { return ended_; }

@@ -124,13 +124,22 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls, H
   return record;
 }
 
-CaseRun IsolatedRuns::of_case(const Scenario& scenario, Deliveries deliveries) {
-  RunOrder order{0, {}, false, cases_.write(scenario), deliveries == Deliveries::Kept, false};
-  return answer_of(order).run;
+CaseRun IsolatedRuns::of_case(const Scenario& scenario, const CaseWishes& wishes) {
+  RunOrder order;
+  order.run_index = wishes.as_audit.value_or(0);
+  order.scenario = cases_.write(scenario);
+  order.deliveries = wishes.deliveries == Deliveries::Kept;
+  order.choice = wishes.choice;
+  order.is_audit = wishes.as_audit.has_value();
+  order.abandon = wishes.abandon;
+  CaseRun run = answer_of(order, wishes.as_audit ? HostProcess::Own : HostProcess::Shared).run;
+  run.choice = wishes.choice;
+  return run;
 }
 
 std::optional<std::vector<KnownEnd>> IsolatedRuns::ends_in(const Scenario& scenario) {
-  RunOrder order{0, {}, false, cases_.write(scenario), false, false};
+  RunOrder order;
+  order.scenario = cases_.write(scenario);
   if (!answer_of(order).explained) return std::nullopt;
   return std::move(order.known_ends);
 }
@@ -143,6 +152,11 @@ RunAnswer IsolatedRuns::answer_of(RunOrder& order, HostProcess process) {
     if (process == HostProcess::Own) retire(member);
     give_back(std::move(member));
     return answer;
+  } catch (const RunAbandoned&) {
+    if (member.worker.pid != 0) ::kill(member.worker.pid, SIGKILL);  // it is in the middle of the run
+    retire(member);
+    give_back(std::move(member));
+    throw;
   } catch (...) {
     give_back(std::move(member));
     throw;
@@ -204,12 +218,13 @@ IsolatedRuns::Attempt IsolatedRuns::attempt(Member& member, const RunOrder& orde
                                             bool alone) {
   const Turn turn(*this, alone);
   for (;;) {
-    if (abandoned_) throw RunAbandoned();
+    if (abandoned_ || (order.abandon != nullptr && *order.abandon)) throw RunAbandoned();
     slots_[member.slot].call.number = 0;  // before the start: the worker may die while it loads
     if (const auto state = start(member)) return lost(member, order.run_index, *state);
     member.worker.channel.post(encode(order));
     RunAnswer answer;
-    if (const auto state = take_answer(member, limits, answer)) return lost(member, order.run_index, *state);
+    if (const auto state = take_answer(member, limits, answer, order.abandon))
+      return lost(member, order.run_index, *state);
     if (answer.declined && !member.fresh) {
       retire(member);
       continue;
@@ -243,7 +258,8 @@ void IsolatedRuns::retire(Member& member) {
   member.fresh = true;
 }
 
-std::optional<WorkerState> IsolatedRuns::take_answer(Member& member, WorkerWatch::Limits limits, RunAnswer& answer) {
+std::optional<WorkerState> IsolatedRuns::take_answer(Member& member, WorkerWatch::Limits limits, RunAnswer& answer,
+                                                     const std::atomic<bool>* abandon) {
   Channel& channel = member.worker.channel;
   WorkerWatch watch(member.worker.pid, limits, slots_[member.slot].call.number);
   for (;;) {
@@ -259,7 +275,7 @@ std::optional<WorkerState> IsolatedRuns::take_answer(Member& member, WorkerWatch
       case Channel::Wait::Gone:
         return WorkerState::Closed;
       case Channel::Wait::NotYet:
-        if (abandoned_) throw RunAbandoned();
+        if (abandoned_ || (abandon != nullptr && *abandon)) throw RunAbandoned();
         if (const auto state = watch.look(std::chrono::duration<double>(kLookEvery).count())) return state;
     }
   }
@@ -305,12 +321,7 @@ IsolatedRuns::Member IsolatedRuns::take_member() {
   return member;
 }
 
-// A worker that is in the middle of an abandoned run goes with it.
 void IsolatedRuns::give_back(Member member) {
-  if (abandoned_ && member.worker.pid != 0) {
-    ::kill(member.worker.pid, SIGKILL);
-    member.worker.channel.close();
-  }
   const std::lock_guard lock(mutex_);
   idle_.push_back(std::move(member));
   member_back_.notify_one();

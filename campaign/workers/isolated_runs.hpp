@@ -50,6 +50,14 @@ struct Hosting {
 // Which process hosts a run: one that hosts others, too, or one that hosts no other.
 enum class HostProcess : bool { Shared, Own };
 
+// How one scenario is simulated.
+struct CaseWishes {
+  Deliveries deliveries = Deliveries::Ignored;
+  FailureChoice choice{};
+  const std::atomic<bool>* abandon = nullptr;  // true: its worker is ended within a second, and RunAbandoned thrown
+  std::optional<std::uint64_t> as_audit{};     // in a process of its own, with a memory disturbed as by this audit
+};
+
 // Simulates runs of plug-ins in worker processes: software that crashes or hangs there costs its run, and no more. A
 // worker hosts many runs, one after the other, until it has used 20 times the CPU time of its start and first run. Each
 // run gives the record that RunOne would give, if the software allows it. A run that ends its worker is repeated in a
@@ -64,7 +72,7 @@ class IsolatedRuns {
   // changed. `record`: the record of a failed run, and that of every audit, has a recording of what its agents did.
   RunRecord operator()(std::uint64_t run_index, bool record = false, HostProcess process = HostProcess::Shared);
   // The same for one scenario and the first agent of the plan.
-  CaseRun of_case(const Scenario& scenario, Deliveries deliveries);
+  CaseRun of_case(const Scenario& scenario, const CaseWishes& wishes);
   // The calls at which the agents' software crashes or hangs in it, in their order: where these are known, the scenario
   // can be simulated in this process. Nothing if the software does not end at the same call twice.
   std::optional<std::vector<KnownEnd>> ends_in(const Scenario& scenario);
@@ -99,7 +107,8 @@ class IsolatedRuns {
   Attempt attempt(Member& member, const RunOrder& order, WorkerWatch::Limits limits, bool alone = false);
   // Of these two, empty: the worker may take an order, or has answered. Throws EngineError if it says that it cannot.
   std::optional<WorkerState> start(Member& member);
-  std::optional<WorkerState> take_answer(Member& member, WorkerWatch::Limits limits, RunAnswer& answer);
+  std::optional<WorkerState> take_answer(Member& member, WorkerWatch::Limits limits, RunAnswer& answer,
+                                         const std::atomic<bool>* abandon = nullptr);
   void retire(Member& member);
   Attempt lost(Member& member, std::uint64_t run_index, WorkerState state);
   RunAnswer repeat(Member& member, RunOrder& order, const CauseOfDeath& first);

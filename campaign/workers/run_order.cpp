@@ -56,6 +56,7 @@ std::string encode(const RunOrder& order) {
   sink.text(order.scenario.scenario);
   sink.u8(order.deliveries ? 1 : 0);
   sink.u8(order.is_audit ? 1 : 0);
+  sink.u32(order.choice.end_points);
   return sink.take();
 }
 
@@ -75,6 +76,7 @@ RunOrder decode_order(std::string_view bytes) {
   order.scenario.scenario = source.text();
   order.deliveries = source.flag();
   order.is_audit = source.flag();
+  order.choice.end_points = source.u32();
   source.end();
   return order;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,6 +22,9 @@ struct RunOrder {
   CaseText scenario{};      // empty: the run of the plan
   bool deliveries = false;  // of a scenario: of its messages
   bool is_audit = false;    // of the run, which has been simulated before
+  FailureChoice choice{};   // of a scenario: the failure that is looked at
+  // Not sent. True: nobody waits for the answer any more. Null: somebody does in any case.
+  const std::atomic<bool>* abandon = nullptr;
 };
 std::string encode(const RunOrder& order);
 RunOrder decode_order(std::string_view bytes);  // throws EngineError on bytes that `encode` did not write

@@ -186,8 +186,9 @@ class Worker {
       const AgentFactor& agent = plan_.agents.front();
       const AgentProgram& program = programs_.program(agent.program, "agent");
       watch.foreign = program.handles.get();
-      answer.run = run_case(cases_.read(order.scenario), programs_.find(agent.program, "agent"), plan_.config_of(agent),
-                            plan_.laws_left_out, order.deliveries ? Deliveries::Kept : Deliveries::Ignored, watch);
+      answer.run =
+          run_case(cases_.read(order.scenario), programs_.find(agent.program, "agent"), plan_.config_of(agent),
+                   plan_.laws_left_out, order.deliveries ? Deliveries::Kept : Deliveries::Ignored, watch, order.choice);
     }
     left_behind_->run_ended();
     log_.label(order.run_index);

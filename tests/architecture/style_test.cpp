@@ -39,6 +39,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"reports/attempts/attempt_ledger.hpp Attempt", "plain data: everything that a ledger says of one"},
     {"campaign/batch/audit_queue.hpp AuditQueue", "one queue: what waits, what was found, and the threads between"},
     {"campaign/workers/isolated_runs.hpp IsolatedRuns", "the workers of one plan, and whose turn it is"},
+    {"campaign/explain/explanation.hpp Explanation", "plain data: all that is found out about one failing run"},
     {"campaign/findings/findings_file.hpp KnownIssue", "plain data: all that a findings file says of one"},
     {"campaign/plan/plan.hpp CampaignPlan", "plain data: everything that a campaign file says"},
     {"campaign/batch/task_pool.cpp AnyTaskPool::Impl", "two threads' sides of one pool, under one mutex"},

@@ -79,8 +79,11 @@ TEST(Channel, RefusesWhatIsNoFrame) {
 }
 
 TEST(RunOrder, IsWhatWasEncoded) {
-  const RunOrder order{4711, {{17, false, "stack overflow"}, {18, true, ""}}, true, {5, "a plant", "{}"}, true};
+  const RunOrder order{4711, {{17, false, "stack overflow"}, {18, true, ""}}, true, {5, "a plant", "{}"}, true, true,
+                       {77}};
   const RunOrder decoded = decode_order(encode(order));
+  EXPECT_EQ(decoded.choice, order.choice);
+  EXPECT_TRUE(decoded.is_audit);
   EXPECT_EQ(decoded.run_index, order.run_index);
   EXPECT_EQ(decoded.known_ends, order.known_ends);
   EXPECT_TRUE(decoded.record && decoded.deliveries);

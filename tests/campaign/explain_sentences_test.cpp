@@ -21,7 +21,8 @@ TEST(Explain, MessagesThatTheRadioDrewAreAskedForToo) {
     if (!failure) continue;
     ++failures;
     const FailingCase failing{scenario, *failure};
-    const auto needs = needs_of_messages(host, failing, pattern_of(host, failing));
+    std::vector<MessageNeed> needs;
+    add_message_needs(host, failing, pattern_of(host, failing), needs);
     needed += needs.size();
     EXPECT_LE(needs.size(), 4U);
     for (const MessageNeed& need : needs) {
@@ -49,7 +50,9 @@ TEST(Explain, TheLastDriveOfAnAgvThatStandsIsKept) {
   const auto failure = failure_of(host(scenario));
   ASSERT_TRUE(failure);
   const FailingCase failing{scenario, *failure};
-  const Explanation is = explain(host, failing, failing, pattern_of(host, failing));
+  ShrinkResult small;
+  small.best = failing;
+  const Explanation is = explain(host, failing, small, pattern_of(host, failing));
   ASSERT_EQ(is.set_offs.size(), 1U);
   EXPECT_EQ(is.set_offs[0].agv, EntityId{1U});
   ASSERT_EQ(is.past_drives.size(), 1U);
@@ -110,7 +113,7 @@ TEST(Explain, TheSentencesTellThatTwoMessagesSayTheSame) {
   second.delivery = {.sender = made.b, .receiver = made.a, .sent = seconds(2.0)};
   MessageDelivery first = second;
   first.number = 8;
-  const Claim held{"", {}, "none", true, {}};
+  const Claim held{"", {}, {"none", 0}, true, {}};
   const auto is_told = [&] {
     const Leave leave{made.b, {}, {}, {}, {{second, held, {}, {}, false}, {first, held, {}, {}, false}}};
     made.is.set_offs = {{made.a, {made.a, kStart, kStart, StationId{0U}, StationId{1U}}, {leave}}};

@@ -30,8 +30,10 @@ struct Explained {
     }
     pattern = pattern_of(host, original);
     TrialCache cache;
-    small = shrink(host, cache, original, pattern, {{}, 10000}, [](const FailingCase&, std::string_view) {}).best;
-    is = explain(host, original, small, pattern);
+    const ShrinkResult result =
+        shrink(host, cache, original, pattern, {10000}, [](const FailingCase&, std::string_view) {});
+    small = result.best;
+    is = explain(host, original, result, pattern);
   }
 
   AgentPrograms programs;
@@ -49,7 +51,7 @@ TEST(Explain, NoClaimIsFalse) {
     ASSERT_FALSE(is.messages.empty());
     for (const Claim* claim : claims_of(is)) {
       const auto failure = failure_of(explained.host(claim->run));
-      EXPECT_EQ(claim->outcome, failure ? text_of(failure->kind) : "none") << claim->sentence;
+      EXPECT_EQ(claim->outcome.failure, failure ? text_of(failure->kind) : "none") << claim->sentence;
     }
     for (const MessageNeed& need : is.messages) {
       const auto fails = [&](const Claim& claim) { return !explained.host(claim.run).outcome.violations.empty(); };
@@ -127,7 +129,7 @@ TEST(Explain, TheSentencesTellWhatLetItSetOff) {
   asked.kind = "REQUEST";
   asked.number = 5;
   asked.delivery = {.sender = agv, .receiver = other, .sent = seconds(1.0)};
-  const Claim held{"", {}, "none", true, {}};
+  const Claim held{"", {}, {"none", 0}, true, {}};
   grant.content = "answers 7";
   MessageDelivery last = asked;
   last.number = 6;
@@ -193,9 +195,9 @@ TEST(Explain, AWordIsComparedWithRunsThatAvoidTheFailure) {
   const EntityId agv = is.small.failure.a;
   is.doing = {kTurning, kStanding};
   is.notes.declared = {{agv, "driving", kStart}, {agv, "granted-by-count", kStart + std::chrono::seconds(2)}};
-  is.things = {{"fails in the same way without A", {}, "", false, {"driving", "granted-by-count"}},
-               {"does not fail so without B", {}, "none", true, {"driving"}},
-               {"does not fail so without C", {}, "none", true, {"driving", "idle"}}};
+  is.things = {{"fails in the same way without A", {}, {}, false, {"driving", "granted-by-count"}},
+               {"does not fail so without B", {}, {"none", 0}, true, {"driving"}},
+               {"does not fail so without C", {}, {"none", 0}, true, {"driving", "idle"}}};
   const auto sentences = sentences_of(is);
   const auto count = [&](std::string_view words) {
     return std::ranges::count_if(sentences, [&](const std::string& s) { return s.find(words) != std::string::npos; });

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <thread>
 
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/scenario_source.hpp"
@@ -92,7 +93,7 @@ duplicates = 0.1
   const Scenario scenario = ScenarioSource(plan).scenario(47);
   const auto failure = failure_of(bench.host(scenario));
   ASSERT_TRUE(failure.has_value());
-  const ShrinkResult result = bench.shrunk({scenario, *failure}, {.deadline = {}, .trials = 60000});
+  const ShrinkResult result = bench.shrunk({scenario, *failure}, {.trials = 60000});
   EXPECT_LE(result.best.scenario.agvs.size(), 3U);
 }
 
@@ -145,7 +146,7 @@ TEST(Shrink, GivesTheSameCaseForAnyNumberOfWorkers) {
   std::vector<std::string> texts;
   for (const int workers : {1, 2, 7}) {
     Bench bench("timeout-grant", workers);
-    texts.push_back(to_text(bench.shrunk(bench.failing_by_radio(3), {{}, 3000}).best.scenario));
+    texts.push_back(to_text(bench.shrunk(bench.failing_by_radio(3), {3000}).best.scenario));
   }
   EXPECT_EQ(texts[0], texts[1]);
   EXPECT_EQ(texts[0], texts[2]);
@@ -163,11 +164,11 @@ class ShrinkFile : public testing::Test {
 TEST_F(ShrinkFile, GoesOnWhereItEnded) {
   Bench bench("timeout-grant");
   const FailingCase failing = bench.failing_by_radio(3);
-  const std::string whole = to_text(bench.shrunk(failing, {{}, 3000}).best.scenario);
+  const std::string whole = to_text(bench.shrunk(failing, {3000}).best.scenario);
   const std::string path = folder_ / "case.json.trials";
   for (const std::uint64_t trials : {50U, 400U, 3000U}) {
     TrialFile file(path, "of this case");
-    const ShrinkResult result = bench.shrunk(failing, {{}, trials}, &file);
+    const ShrinkResult result = bench.shrunk(failing, {trials}, &file);
     if (trials == 3000) {
       EXPECT_EQ(to_text(result.best.scenario), whole);
     } else {
@@ -190,7 +191,13 @@ TEST_F(ShrinkFile, VerdictsOnAnotherCaseAreDropped) {
 TEST(Shrink, EndsInTime) {
   Bench bench("timeout-grant");
   const FailingCase failing = bench.failing_by_radio(1);
-  const ShrinkResult result = bench.shrunk(failing, {std::chrono::steady_clock::now(), {}});
+  const FailurePattern pattern = pattern_of(bench.host, failing);
+  const TimeLimit limit(TimeLimit::Clock::now());
+  while (!limit.is_over()) std::this_thread::yield();
+  CaseHost host = bench.host.within(limit);
+  TrialCache cache;
+  const ShrinkResult result = shrink(host, cache, failing, pattern, {}, kNobody);
+  EXPECT_TRUE(result.ended);
   EXPECT_FALSE(result.one_minimal);
   EXPECT_EQ(result.trials, 0U);
   EXPECT_EQ(scenario_digest(result.best.scenario), scenario_digest(failing.scenario));

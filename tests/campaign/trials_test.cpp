@@ -75,7 +75,7 @@ TEST(Trials, NoneIsMadeBeyondTheLimit) {
   AgentPrograms programs;
   CaseHost host({"timeout-grant", ""}, programs, 2);
   CountingCache cache;
-  Trials trials(host, cache, FailurePattern{{"never seen", {}}}, {{}, 7});
+  Trials trials(host, cache, FailurePattern{{"never seen", {}}}, {7});
   EXPECT_FALSE(trials.first_failing(draws.from(0)));
   EXPECT_EQ(trials.count(), 7U);
   EXPECT_EQ(cache.added, 7U);
@@ -85,33 +85,43 @@ TEST(Trials, NoneIsMadeBeyondTheLimit) {
   EXPECT_EQ(cache.added, 7U);
 }
 
-// A search with little time gets to where the earlier one ended: what that one has found out costs no time.
-TEST(Trials, KnownAnswersTakeNoTimeAndNoWorkers) {
+// What an earlier search has found out is asked of nobody again.
+TEST(Trials, KnownAnswersTakeNoWorkers) {
   using namespace std::chrono_literals;
   const Draws draws;
   AgentPrograms programs;
-  CaseHost host({"timeout-grant", ""}, programs, 2);
+  const CaseHost any_time({"timeout-grant", ""}, programs, 2);
+  const TimeLimit limit(TimeLimit::Clock::now() + 2s);
+  CaseHost host = any_time.within(limit);
   const FailurePattern none{{"never seen", {}}};
   TrialCache cache;
   EXPECT_FALSE(Trials(host, cache, none, {}).first_failing(draws.from(1)));
+  const std::uint64_t simulated = host.simulated();
   const auto caller = std::this_thread::get_id();
-  const Candidates slow{kDraws - 1, [&](std::size_t rank) {
-                          EXPECT_EQ(std::this_thread::get_id(), caller);
-                          std::this_thread::sleep_for(5ms);
-                          return draws.from(1).make(rank);
-                        }};
-  Trials again(host, cache, none, {std::chrono::steady_clock::now() + 100ms, {}});
-  EXPECT_FALSE(again.first_failing(slow));
-  EXPECT_FALSE(again.first_failing(slow));
-  EXPECT_FALSE(again.ended());
-  EXPECT_EQ(again.count(), 2 * (kDraws - 1));
-  const Candidates unknown{1, [&](std::size_t) {
-                             std::this_thread::sleep_for(500ms);
-                             return draws.from(0).make(0);
-                           }};
-  EXPECT_FALSE(again.first_failing(unknown));
-  EXPECT_FALSE(again.first_failing(unknown));
-  EXPECT_TRUE(again.ended());
+  const Candidates known{kDraws - 1, [&](std::size_t rank) {
+                           EXPECT_EQ(std::this_thread::get_id(), caller);
+                           return draws.from(1).make(rank);
+                         }};
+  Trials again(host, cache, none, {});
+  EXPECT_FALSE(again.first_failing(known));
+  EXPECT_EQ(again.count(), kDraws - 1);
+  EXPECT_EQ(host.simulated(), simulated);
+}
+
+// The bound holds for all that a search does, and in the middle of a run, too.
+TEST(Trials, NoneIsMadeWhenTheTimeIsOver) {
+  const Draws draws;
+  AgentPrograms programs;
+  const CaseHost any_time({"timeout-grant", ""}, programs, 2);
+  const TimeLimit limit(TimeLimit::Clock::now());
+  while (!limit.is_over()) std::this_thread::yield();
+  CaseHost host = any_time.within(limit);
+  TrialCache cache;
+  Trials trials(host, cache, FailurePattern{{"never seen", {}}}, {});
+  EXPECT_FALSE(trials.first_failing(draws.from(0)));
+  EXPECT_TRUE(trials.ended());
+  EXPECT_EQ(host.simulated(), 0U);
+  EXPECT_THROW(host(draws.scenario), GivenUp);
 }
 
 }  // namespace

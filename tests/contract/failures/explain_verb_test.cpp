@@ -66,7 +66,8 @@ transports_per_agv_hour = 60
 
 // The numbers that the page gives are those of the files: each share and each branch is simulated again by hand.
 TEST_F(ExplainVerb, EverySentenceHasItsRuns) {
-  const auto explained = run("explain case.json --agent timeout-grant --max-trials 1500 --runs runs --json");
+  const auto explained =
+      run("explain case.json --agent timeout-grant --max-trials 1500 --max-time 1h --runs runs --json");
   ASSERT_EQ(explained.exit_code, 0) << explained.err;
   const json page = json::parse(explained.out);
   std::size_t number = 0;
@@ -108,7 +109,7 @@ TEST_F(ExplainVerb, EverySentenceHasItsRuns) {
 }
 
 TEST_F(ExplainVerb, ThePageTellsHowToSimulateThem) {
-  const auto explained = run("explain case.json --agent timeout-grant --max-trials 300 --runs runs");
+  const auto explained = run("explain case.json --agent timeout-grant --max-trials 300 --max-time 1h --runs runs");
   EXPECT_THAT(explained.out, HasSubstr(" of 59 [share 1]."));
   EXPECT_THAT(explained.out, HasSubstr("fleetproof simulate runs/share-1.json --draw N"));
   EXPECT_THAT(explained.out, HasSubstr("fleetproof simulate runs/branch-1.json --radio-draw N"));
@@ -119,6 +120,57 @@ TEST_F(ExplainVerb, ADrawIsACountingNumber) {
     const auto refused = run("simulate case.json --agent reckless " + words);
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.err, HasSubstr("it lies from 1 to 4294967295"));
+  }
+}
+
+// Twenty AGVs: 59 runs with each change take longer than any of these times.
+class LongCase : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("a.toml", R"(
+name = "a"
+seed = 3
+horizon_s = 1800
+replicates = 1
+[factors]
+agents = ["timeout-grant"]
+layouts = ["aisle-grid"]
+fleet_sizes = [20]
+loss = [0.3]
+delay_s = [1]
+[world]
+transports_per_agv_hour = 20
+)");
+    run("run a.toml --db a.db");
+  }
+};
+
+TEST_F(LongCase, WhatWasFoundInTheTimeIsToldWithWhatWasNotTried) {
+  const auto explained = run("explain a.db 0 --jobs 1 --max-time 12 --max-trials 50");
+  ASSERT_EQ(explained.exit_code, 0) << explained.err;
+  EXPECT_THAT(explained.out, HasSubstr("\n- The case found so far fails at "));
+  EXPECT_THAT(explained.out, HasSubstr("\n- Not tried, because the time was over: "));
+  EXPECT_THAT(explained.out, testing::Not(HasSubstr("smallest")));
+  EXPECT_THAT(explained.err, HasSubstr("explain: ")) << "it is not silent";
+  const json page = json::parse(run("explain a.db 0 --jobs 1 --max-time 12 --max-trials 50 --json").out);
+  EXPECT_FALSE(page["search_ended"].get<bool>());
+  EXPECT_FALSE(page["not_tried"].empty());
+  const json shrunk = json::parse(run("shrink a.db 0 --max-time 12 --max-trials 50 --json -o s.json").out);
+  EXPECT_FALSE(shrunk["search_ended"].get<bool>());
+  EXPECT_THAT(run("simulate s.json").out, HasSubstr("  as expected: "));
+  const auto findings = run("findings a.db --jobs 1 --max-time 2");
+  EXPECT_EQ(findings.exit_code, 4) << "nothing was found, and not all was looked at";
+  EXPECT_THAT(findings.err, HasSubstr("the time is over: 0 of 1 failing runs were looked at"));
+}
+
+TEST_F(LongCase, ASignalEndsItWithWhatItHas) {
+  for (const std::string verb : {"explain", "shrink"}) {
+    const auto finished = shell("\"$FLEETPROOF\" " + verb + R"( a.db 0 --max-time 1h & pid=$!
+for i in $(seq 600); do grep -q 'looking for' "../$(basename "$PWD")/stderr.txt" && break; sleep 0.1; done
+kill -TERM $pid; wait $pid)");
+    EXPECT_EQ(finished.exit_code, 143) << verb << finished.err;
+    EXPECT_THAT(finished.out, HasSubstr(verb == "explain" ? "- Not tried" : "  after:  ")) << finished.err;
   }
 }
 

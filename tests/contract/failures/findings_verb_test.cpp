@@ -59,7 +59,8 @@ TEST_F(FindingsVerb, WhatIsNewIsAddedAndKnownFromThenOn) {
   ASSERT_FALSE(findings.empty());
   EXPECT_EQ(findings[0]["standing"], "known");
   const std::string id = findings[0]["id"];
-  EXPECT_THAT(read(path("known/" + id + ".md")), HasSubstr("\n- The smallest case fails at "));
+  EXPECT_THAT(read(path("known/" + id + ".md")),
+              testing::ContainsRegex("\n- The (smallest case|case found so far) fails at "));
   EXPECT_THAT(run("simulate known/" + id + ".case.json").out, HasSubstr("as expected: "));
   EXPECT_EQ(run("findings a.db --file known/findings.toml").exit_code, 0);
 
@@ -164,6 +165,37 @@ kill -INT $pid; wait $pid)";
   EXPECT_EQ(members, left["looked_at"]) << "what was not looked at counts nowhere";
   EXPECT_TRUE(left["not_again"].empty());
   EXPECT_THAT(finished.out, HasSubstr(left["looked_at"].dump() + " of "));
+}
+
+// Whatever ends the program, the file has what was found a little before, and so has the log how long it takes.
+TEST_F(FindingsVerb, EachIsKeptAsItComes) {
+  write("b.toml",
+        std::string(kCampaign).replace(std::string(kCampaign).find("replicates = 4"), 14, "replicates = 900"));
+  ASSERT_TRUE(test::has_verdict(run("run b.toml --db b.db")));
+  const auto finished = shell(R"(
+"$FLEETPROOF" findings b.db --jobs 1 --max-failures 900 & pid=$!
+for i in $(seq 600); do
+  grep -q '"looked_at": [1-9]' b.findings.json && grep -q 'ETA' "../$(basename "$PWD")/stderr.txt" && break; sleep 0.1
+done
+kill -KILL $pid; wait $pid)");
+  EXPECT_EQ(finished.exit_code, 137);
+  EXPECT_THAT(finished.err, HasSubstr(" failing runs, with up to 200 runs for each of their failures"));
+  EXPECT_THAT(finished.err, HasSubstr(", ETA "));
+  const auto left = nlohmann::json::parse(read(path("b.findings.json")));
+  EXPECT_GT(left["looked_at"], 0);
+  EXPECT_LT(left["looked_at"], left["failing_runs"]);
+  EXPECT_FALSE(left["findings"].empty());
+}
+
+TEST_F(FindingsVerb, TheTimeThatItMayTakeIsABoundOfAllThatItDoes) {
+  write("b.toml",
+        std::string(kCampaign).replace(std::string(kCampaign).find("replicates = 4"), 14, "replicates = 900"));
+  ASSERT_TRUE(test::has_verdict(run("run b.toml --db b.db")));
+  const auto finished = run("findings b.db --jobs 1 --max-failures 900 --file f.toml --add --max-time 3");
+  EXPECT_EQ(finished.exit_code, 1) << "there are findings, and no time to add them";
+  EXPECT_THAT(finished.err, HasSubstr("the time is over: "));
+  EXPECT_THAT(finished.err, HasSubstr(" new findings were added\n"));
+  EXPECT_FALSE(nlohmann::json::parse(read(path("b.findings.json")))["findings"].empty());
 }
 
 // The search for a smallest case ends at once, too. What is not complete is not kept.
