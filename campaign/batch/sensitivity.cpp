@@ -41,8 +41,9 @@ AgentTally tally_of(const CampaignPlan& plan, const AgentPrograms& programs, con
       {.workers = options.workers, .end = std::min(options.runs, plan.run_count()), .window = kRunsAhead},
       [&](std::uint64_t index) -> std::optional<RunRecord> {
         try {
-          return run_one(index, nullptr,
-                         RunWatch{nullptr, {}, options.limit == nullptr ? nullptr : &options.limit->over()});
+          RunWatch watch;
+          if (options.limit != nullptr) watch.abandon = &options.limit->over();
+          return run_one(index, nullptr, watch);
         } catch (const RunAbandoned&) {
           return std::nullopt;
         }
