@@ -46,8 +46,8 @@ class RegularFile {
 
 // The first bytes of a file, `most` of them if it has so many. Throws as RegularFile.
 std::string read_beginning(const std::string& path, std::size_t most);
-// The whole file. Throws as RegularFile, and if it is larger than kLargestTextFile, which is known before it is read, or
-// packed (gzip, ZIP, ...).
+// The whole file. Throws as RegularFile, and if it is packed (gzip, ZIP, ...) or larger than kLargestTextFile, which is
+// known before it is read.
 std::string read_text_file(const std::string& path);
 // The same; nothing if nothing has the name.
 std::optional<std::string> read_text_file_if_there(const std::string& path);

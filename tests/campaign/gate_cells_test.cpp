@@ -121,6 +121,7 @@ TEST(GateCells, PlansThatNameNoCellsKeepTheirHash) {
   const CampaignPlan plan = plan_of(
       "name = \"old\"\nseed = 5\nreplicates = 3\nhorizon_s = 60\n[factors]\nagents = [\"hull-lock\", \"reckless\"]\n"
       "layouts = [\"aisle-grid\"]\nfleet_sizes = [3]\nloss = [0, 0.4]\n[agent_clock]\ncall_cost_s = 0.01\n"
+      "[limits]\ncpu_s = 10\n"
       "[[gate]]\nname = \"g\"\nagent = \"hull-lock\"\nlimit = 0.9\nmethod = \"fixed\"\n");
   EXPECT_THAT(plan_text(plan), Not(HasSubstr("\"fleet_size\":")));
   EXPECT_EQ(name_hash(plan_text(plan)), 0x10b92e1e77060e3dU);

@@ -47,7 +47,7 @@ TEST(SameCampaign, AKeyThatAnOlderVersionDidNotKnowHasItsDefault) {
   stored.plan_json.erase(limits, stored.plan_json.find("},", limits) + 2 - limits);
   EXPECT_EQ(refusal(stored, record_of(plan)), "");
   plan.limits.cpu_s = 20.0;
-  EXPECT_THAT(refusal(stored, record_of(plan)), HasSubstr("plan/limits/cpu_s: stored 10.0, now 20.0"));
+  EXPECT_THAT(refusal(stored, record_of(plan)), HasSubstr("plan/limits/cpu_s: stored 5.0, now 20.0"));
 }
 
 TEST(SameCampaign, EveryOtherDifferenceIsNamed) {

@@ -126,7 +126,7 @@ TEST_F(Waived, ManySmallStepsHideNoLargeOne) {
   Tables tables = usual();
   tables[""] = "horizon_s = 599\nstuck_after_s = 120.1\n";
   tables["law"] = "safety_distance_m = 0.0999\nreaction_s = 10.1\n";
-  tables["limits"] = "memory_mb = 4097\ncpu_s = 10.1\n";
+  tables["limits"] = "memory_mb = 4097\ncpu_s = 5.1\n";
   tables["audit"] = "share = 0.0099\n";
   tables["gate"] += "confidence = 0.9499\n";
   tables["vehicle"] = "length_m = 0.29\n";
