@@ -49,7 +49,8 @@ bool has_placeholder(const std::string& path) {
 }
 
 // Files that are no part of the tree, each with the reason.
-const std::map<std::string, std::string> kElsewhere = {{"report.md", "what ./get-started leaves"}};
+const std::map<std::string, std::string> kElsewhere = {{"report.md", "what ./get-started leaves"},
+                                                       {"Python.h", "what Python installs"}};
 
 bool is_path(const std::string& word) {
   if (word.starts_with('.') && !word.starts_with(".ci/")) return false;  // an ending
