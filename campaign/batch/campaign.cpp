@@ -11,6 +11,7 @@
 #include "campaign/batch/same_campaign.hpp"
 #include "campaign/batch/stop_rules.hpp"
 #include "campaign/batch/stored_plan.hpp"
+#include "campaign/batch/stored_sample.hpp"
 #include "campaign/plan/first_worlds.hpp"
 #include "reports/evidence/quiet_run.hpp"
 #include "storage/archive_reader.hpp"
@@ -35,6 +36,11 @@ class CampaignPolicy final : public SessionPolicy {
     if (!session_.options().audits) verdict_.audits_end();
     for (std::size_t agent = 0; agent < audit_counts_.agent_count(); ++agent)
       session_.runs().record(agent, audit_counts_.needs_recordings(agent));
+  }
+
+  // Before any other run: rows that are not those of this campaign would count in what is published.
+  void simulate_some_again(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path) const {
+    sample_.simulate_again(session_, plan, programs, path);
   }
 
   TaskRange runs_to_do() const {
@@ -92,7 +98,8 @@ class CampaignPolicy final : public SessionPolicy {
               session_.count(run);
               count(run);
               // Another engine's run may well differ.
-              if (stored_runs_are_ours_ && !audited_before_.contains(run.run_index)) session_.audits().offer(run);
+              if (!stored_runs_are_ours_ || audited_before_.contains(run.run_index)) return;
+              if (!session_.audits().offer(run) && !run.outcome.is_failure()) sample_.add(run);
             }};
   }
 
@@ -120,6 +127,7 @@ class CampaignPolicy final : public SessionPolicy {
   RunLedger ledger_;
   bool stored_runs_are_ours_ = true;
   std::unordered_set<std::uint64_t> audited_before_;  // in an earlier session
+  StoredSample sample_;
   AuditCounts audit_counts_;
   VerdictWatch verdict_;
   ArchiveWriter archive_;
@@ -156,6 +164,7 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
   Session session(plan, programs, options, listener);
   CampaignPolicy policy(session, plan, programs, stored, path);
   listener.started();
+  policy.simulate_some_again(plan, programs, path);
   CampaignResult result = session.run(policy, policy.runs_to_do());
   policy.publish(result, plan.keep);
   return result;

@@ -1,6 +1,7 @@
 // A campaign that is stopped, killed, extended or disturbed leaves the file of an undisturbed one, byte for byte.
 #include <dirent.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
@@ -116,6 +117,57 @@ TEST_F(Resume, KilledAtAnyMomentItIsTheFileOfAnUndisturbedRun) {
   }
   EXPECT_GE(killed["supervisor"], 5);
   EXPECT_GE(killed["forker or worker"], 5);
+}
+
+// In the file of a session that was killed, somebody puts the rows of another campaign in the place of its own. They
+// have good checksums, and nothing failed in them.
+TEST_F(Resume, RowsOfAnotherCampaignAreNotGoneOnWith) {
+  const auto text = [](const std::string& agent, int seed, int fleet, int replicates) {
+    return fmt::format(
+        "name = \"c\"\nseed = {}\nreplicates = {}\nhorizon_s = 60\n[factors]\nagents = [\"{}\"]\n"
+        "layouts = [\"aisle-grid\"]\nfleet_sizes = [{}]\nloss = [0.4]\ndelay_s = [2]\n",
+        seed, replicates, agent, fleet);
+  };
+  struct Other {
+    std::string agent;
+    int seed, fleet;
+  };
+  for (const auto& [agent, seed, fleet] : {Other{"hull-lock", 1, 4}, {"reckless", 2, 4}, {"reckless", 1, 1}}) {
+    write("a.toml", text("reckless", 1, 4, 100'000));
+    write("b.toml", text(agent, seed, fleet, 300));
+    const auto swapped = shell(R"sh(
+"$FLEETPROOF" run b.toml --db b.db --overwrite >/dev/null 2>&1
+rm -f a.db*
+"$FLEETPROOF" run a.toml --db a.db >/dev/null 2>&1 & pid=$!
+for i in $(seq 200); do
+  python3 -c '
+import sqlite3, sys
+sys.exit(sqlite3.connect("a.db.partial").execute("SELECT count(*) FROM runs").fetchone()[0] < 300)' 2>/dev/null && break
+  sleep 0.1
+done
+kill -9 $pid; wait $pid
+python3 - <<'END'
+import sqlite3
+db = sqlite3.connect("a.db.partial")
+db.execute("ATTACH 'b.db' AS other")
+tables = [n for (n,) in db.execute("SELECT name FROM main.sqlite_schema WHERE type = 'table'")]
+for table in tables:
+    columns = [c[1] for c in db.execute(f"PRAGMA main.table_info({table})")]
+    if "run_index" in columns:
+        db.execute(f"DELETE FROM main.{table}")
+        shared = [c[1] for c in db.execute(f"PRAGMA other.table_info({table})")]
+        both = ", ".join(c for c in columns if c in shared)
+        db.execute(f"INSERT INTO main.{table} ({both}) SELECT {both} FROM other.{table}")
+db.commit()
+print(db.execute("SELECT count(*) FROM main.runs").fetchone()[0], "rows")
+END
+)sh");
+    ASSERT_THAT(swapped.out, HasSubstr("300 rows")) << swapped.err;
+    const auto refused = run("run a.toml --db a.db");
+    EXPECT_EQ(refused.exit_code, 3) << refused.out << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("is stored otherwise than this program simulates it"));
+    EXPECT_FALSE(fs::exists(path("a.db")));
+  }
 }
 
 TEST_F(Resume, AForkerThatSomebodyKillsIsStartedAgain) {
