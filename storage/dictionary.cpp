@@ -20,11 +20,9 @@ constexpr std::string_view kJudgedRule =
     "The flags (violation, contact, stuck, crash, hang) say what happened in the run; failed and unknown say what the "
     "software answers for, and reports count these. It does not answer for a violation with a fallen load or an "
     "obstacle, which no software is told of, nor for one with an AGV that hit such a body and still touches it: "
-    "without "
-    "another failure the end point is unknown. Deadlock, livelock, starvation and standstill count if they began "
-    "before "
-    "the first contact and while no such body lay on the floor; else they are unknown. After a crash, a hang or an "
-    "early end, what was not decided before is unknown.";
+    "without another failure the end point is unknown. Deadlock, livelock, starvation and standstill count if they "
+    "began before the first contact and while no such body lay on the floor; else they are unknown. After a crash, a "
+    "hang or an early end, what was not decided before is unknown.";
 
 class Dictionary {
  public:

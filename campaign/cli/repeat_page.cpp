@@ -29,9 +29,8 @@ std::string command(const std::string& words, const std::string& ending) {
 
 std::string program_text(const EngineIdentity& engine) {
   return fmt::format(
-      "| version | {} |\n|---|---|\n| source commit | {} |\n| SHA-256 of the program | {} |\n| compiler | {} |\n| "
-      "flags "
-      "| {} |\n| libraries | {} |\n",
+      "| version | {} |\n|---|---|\n| source commit | {} |\n| SHA-256 of the program | {} |\n| compiler | {} |\n"
+      "| flags | {} |\n| libraries | {} |\n",
       engine.version, engine.source_commit.empty() ? "not recorded" : engine.source_commit, engine.program_sha256,
       engine.compiler, engine.flags, printable(engine.libraries, 2000));
 }
@@ -49,8 +48,7 @@ std::string plugin_words(const RepeatWords& words) {
 std::string repeat_page(const ReportInput& input, const RepeatWords& words) {
   std::string text = fmt::format(
       "# How to repeat this evidence\n\nCampaign {}, seed {}. Call everything in this folder, in a copy of it if it "
-      "must "
-      "stay as it is.\n\n## 1. Nothing was changed\n",
+      "must stay as it is.\n\n## 1. Nothing was changed\n",
       printable(input.campaign.name, 100), input.campaign.seed);
   text += command("sha256sum -c SHA256SUMS", "Ends with 0, and says OK for each file.");
   text += "\n## 2. The program\n\nThis program made the results:\n\n" + program_text(input.campaign.engine) +

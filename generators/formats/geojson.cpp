@@ -44,9 +44,8 @@ constexpr Topic kLinesOnTheSpot{"{0} lines lead from a point to itself and are l
 constexpr Topic kLineCosts{
     "{0} kinds of costs of lines are left out ({1}); control software chooses its ways by itself"};
 constexpr Topic kShares{
-    "{0} lines have a speed_limit ({1}), which is a share of an AGV's speed in Nav2; it is left out (abs_speed_limit, "
-    "in "
-    "m/s, is read)"};
+    "{0} lines have a speed_limit ({1}), which is a share of an AGV's speed in Nav2; it is left out "
+    "(abs_speed_limit, in m/s, is read)"};
 constexpr Topic kOperations{"{0} kinds of operations are left out ({1})"};
 constexpr Topic kFrames{"points lie in {0} frames ({1}); here they are one"};
 constexpr Topic kGraphDetails{"{0} kinds of details are left out ({1})"};

@@ -28,7 +28,8 @@ def differences(program, archive, run, expected, is_shrunk):
         yield f"run {index}: replay tells {same[:2]}, expected {wanted[:2]}"
     if not is_shrunk:
         return
-    for verb in (["shrink", "-o", f"{index}.case.json", "--max-trials", "1"], ["explain", "--max-time", "1"]):
+    in_short = ["shrink", "-o", f"{index}.case.json", "--max-trials", "1"], ["explain", "--max-time", "10"]
+    for verb in in_short:
         told = asked(program, verb[0], archive, index, "--json", *verb[1:])
         if not told.get("failure", "").startswith(expected[0]["what"]):
             yield f"run {index}: {verb[0]} tells {told.get('failure', told)}, expected {expected[0]['what']}"

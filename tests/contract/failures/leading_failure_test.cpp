@@ -96,7 +96,7 @@ TEST_F(LeadingFailure, TheOthersAreNamedAndCanBeChosen) {
   ASSERT_EQ(chosen.exit_code, 0) << chosen.err;
   EXPECT_THAT(chosen.out, StartsWith(other));
   EXPECT_THAT(run("simulate chosen.json").out, HasSubstr("  as expected: " + other)) << "although another one leads";
-  EXPECT_THAT(run("explain " + run_words + " --max-time 1 " + choose).out, StartsWith("c-" + index + ": " + other));
+  EXPECT_THAT(run("explain " + run_words + " --max-time 10 " + choose).out, StartsWith("c-" + index + ": " + other));
   const auto both = json::parse(run("findings c.db --json --max-failures 1000 --max-time 1h").out);
   std::size_t times = 0;
   for (const auto& finding : both["findings"]) {
