@@ -179,6 +179,11 @@ class SmapReader {
            fmt::format("{} curves of the class DegenerateBezier are taken for cubic Bezier curves; two quadratic ones "
                        "with the same control points would be up to {:.3f} m away",
                        degenerate_.count, degenerate_.off_m));
+    if (!beside_.names.empty())
+      warn(root.at("advancedCurveList"),
+           fmt::format(
+               "{} curves begin or end beside their points ({}), by up to {:.3f} m; they are drawn to the points",
+               beside_.names.size(), name_list(beside_.names), beside_.most_m));
     shift_far_plant(layout_, source_, warnings_);
     fit_floor(layout_, kFloorMargin_m);
     refuse_problems(root);
@@ -280,6 +285,7 @@ class SmapReader {
     segment.to = station_in(curve.at("endPos"));
     if (segment.from == segment.to) return things_.add(kCurvesOnTheSpot, curve.place(), text_at(curve, "instanceName"));
     segment.name = free_name(curve, segment);
+    compare_ends(curve, segment);
     bend(curve, segment);
     const Properties properties(curve);
     const double direction = properties.number("direction").value_or(0.0);
@@ -297,6 +303,18 @@ class SmapReader {
     }
     layout_.segments.push_back(std::move(segment));
     curves_.push_back(curve);
+  }
+
+  // The file says twice where a curve begins and ends.
+  void compare_ends(const JsonReader& curve, const Segment& segment) {
+    const auto beside_m = [&](std::string_view key, StationId id) {
+      const auto place = curve.at(key).find("pos");
+      return place ? (pos_of(*place) - layout_.stations[id.index()].position_m).norm() : 0.0;
+    };
+    const double most_m = std::max(beside_m("startPos", segment.from), beside_m("endPos", segment.to));
+    if (most_m <= kOnTheNode_m) return;
+    beside_.names.push_back(segment.name);
+    beside_.most_m = std::max(beside_.most_m, most_m);
   }
 
   void bend(const JsonReader& curve, Segment& segment) {
@@ -365,6 +383,10 @@ class SmapReader {
     std::size_t count = 0;
     double off_m = 0.0;
   } degenerate_;
+  struct {
+    std::vector<std::string> names;
+    double most_m = 0.0;
+  } beside_;
 };
 
 }  // namespace

@@ -171,6 +171,9 @@ const JsonValue* JsonValue::find(std::string_view key) const {
 JsonValue parse_json(std::string_view text, std::string_view source) {
   if (text.empty()) throw InputError(source, "is empty; expected a JSON object");
   require_utf8(text, source);
+  // The parser would take it for the end of the text.
+  if (const auto zero = text.find('\0'); zero != text.npos)
+    throw InputError(at_line(source, position_in(text, zero).line), "has a byte 0, as no text has; save it as UTF-8");
   const char* reached = text.data();
   TreeBuilder builder(text, source, &reached);
   nlohmann::json::sax_parse(CountingIterator(text.data(), &reached),

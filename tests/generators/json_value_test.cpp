@@ -40,6 +40,7 @@ TEST(JsonValue, SyntaxErrorsNameLineAndColumn) {
   EXPECT_EQ(refusal("\xff\xfe{"), "f.json: is in UTF-16; save it as UTF-8");
   EXPECT_NE(refusal("[1e999]").find("f.json:1:"), std::string::npos) << refusal("[1e999]");
   EXPECT_NE(refusal("[NaN]").find("f.json:1:2: not JSON: "), std::string::npos) << refusal("[NaN]");
+  EXPECT_EQ(refusal(std::string("{}\n\0[", 5)), "f.json:2: has a byte 0, as no text has; save it as UTF-8");
   EXPECT_NE(refusal("{} {}").find("f.json:1:4: not JSON: "), std::string::npos) << refusal("{} {}");
 }
 

@@ -11,6 +11,7 @@ namespace {
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 // Zeros are left out, as in every file of this kind.
 const std::string kMap = R"({"header": {"mapName": "hall", "resolution": 0.02},
@@ -128,6 +129,15 @@ TEST(Smap, OtherShapesAreTold) {
   EXPECT_THAT(nurbs.warnings, Contains(HasSubstr("1 curves of the class NURBS6 (\"CP4-PP5\")")));
   EXPECT_THAT(import(replaced(kMap, "\"direction\", \"int32Value\": 0", "\"direction\", \"int32Value\": 2")).warnings,
               Contains(HasSubstr("direction other than 0 or 1 (\"LM1-LM2\")")));
+}
+
+TEST(Smap, CurvesThatEndBesideTheirPointsAreTold) {
+  EXPECT_THAT(import(kMap).warnings, Not(Contains(HasSubstr("beside their points"))));
+  for (const std::string place : {"\"LM1\", \"pos\": {}}", "\"LM2\", \"pos\": {\"x\": 4.0}}"}) {
+    const auto beside = place.substr(0, 5) + ", \"pos\": {\"x\": 2.0}}";
+    EXPECT_THAT(import(replaced(kMap, "{\"instanceName\": " + place, "{\"instanceName\": " + beside)).warnings,
+                Contains(HasSubstr("1 curves begin or end beside their points (\"LM1-LM2\"), by up to 2.000 m")));
+  }
 }
 
 TEST(Smap, FaultsAreRefusedAtTheirLine) {
