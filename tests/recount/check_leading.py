@@ -28,7 +28,7 @@ def differences(program, archive, run, expected, is_shrunk):
         yield f"run {index}: replay tells {same[:2]}, expected {wanted[:2]}"
     if not is_shrunk:
         return
-    in_short = ["shrink", "-o", f"{index}.case.json", "--max-trials", "1"], ["explain", "--max-time", "10"]
+    in_short = ["shrink", "-o", f"{index}.case.json", "--max-trials", "1"], ["explain", "--max-time", "3"]
     for verb in in_short:
         told = asked(program, verb[0], archive, index, "--json", *verb[1:])
         if not told.get("failure", "").startswith(expected[0]["what"]):
