@@ -161,7 +161,7 @@ void AuditQueue::audit(const Batch& batch) {
     const std::lock_guard lock(mutex_);
     findings_.push_back(std::move(finding));
     if (++found_ >= kAuditsToPass) wanted_ = kBatch;
-    // Each costs eleven times the limit.
+    // Each costs five times the limit, and the limit once more for each further AGV.
     if (record.outcome.hang && ++hung_ >= kMostHangs)
       throw MachineError(fmt::format("{} runs hang in an audit and did not before", hung_));
   }

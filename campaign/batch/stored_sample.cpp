@@ -12,7 +12,7 @@
 namespace fleetproof {
 namespace {
 
-// If a fifth of all rows was exchanged, so many miss each of them once in two hundred times.
+// If a fifth of all rows was exchanged, a sample of this size holds none of them once in two hundred times.
 constexpr std::size_t kSample = 24;
 constexpr std::chrono::seconds kLongest{2};
 

@@ -31,7 +31,7 @@ EndPoint end_point_of(const std::string& word) {
                                             fmt::join(end_point_words(), ", ")));
 }
 
-// The levels of a violation, each of which is also all before it.
+// The levels of a violation from the mildest on. A worse one is also every milder one: each contact is a violation.
 constexpr std::array kLevels = {EndPoint::Violation, EndPoint::Contact, EndPoint::HazardousContact};
 
 double shown_s(SimTime t) { return to_seconds(t - kStart); }

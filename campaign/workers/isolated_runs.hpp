@@ -61,8 +61,8 @@ struct CaseWishes {
 // Simulates runs of plug-ins in worker processes: software that crashes or hangs there costs its run, and no more. A
 // worker hosts many runs, one after the other, until it has used 20 times the CPU time of its start and first run. Each
 // run gives the record that RunOne would give, if the software allows it. A run that ends its worker is repeated in a
-// fresh worker; what ends it there is filed in the record, as a crash or hang at that call of an agent, and the run
-// goes on without that agent. Threads: as many as there are workers.
+// fresh worker, unless it crashed in one; what ends it there is filed in the record, as a crash or hang at that call of
+// an agent, and the run goes on without that agent. Threads: as many as there are workers.
 class IsolatedRuns {
  public:
   // `plan` and `programs` outlive it.
