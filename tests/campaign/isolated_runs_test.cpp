@@ -293,7 +293,7 @@ TEST(IsolatedRuns, AnAbandonedRunTakesItsWorkerWithIt) {
 // The first AGV that hangs costs the limit, and four times as much in the repeat; each further one the limit once.
 TEST(IsolatedRuns, ARunBeyondItsLimitIsToldWhileItIsRepeated) {
   CampaignPlan plan = failing_plan("every-loop 1");
-  plan.limits.cpu_s = 0.2;
+  plan.limits.cpu_s = 0.5;
   AgentPrograms programs;
   programs.know(FLEETPROOF_FAILING_AGENT);
   IsolatedRuns runs(plan, programs, Hosting{});
@@ -311,12 +311,13 @@ TEST(IsolatedRuns, ARunBeyondItsLimitIsToldWhileItIsRepeated) {
   watcher.join();
   EXPECT_TRUE(outcome.hang);
   ASSERT_EQ(told.size(), 1 + outcome.agv_count);
-  EXPECT_EQ(told.front(), (RunRepeat{3, 0.2, 4 * 0.2, 0}));
-  for (std::size_t hangs = 1; hangs < told.size(); ++hangs) EXPECT_EQ(told[hangs], (RunRepeat{3, 0.2, 0.2, hangs}));
+  EXPECT_EQ(told.front(), (RunRepeat{3, 0.5, 4 * 0.5, 0}));
+  for (std::size_t hangs = 1; hangs < told.size(); ++hangs) EXPECT_EQ(told[hangs], (RunRepeat{3, 0.5, 0.5, hangs}));
   EXPECT_TRUE(runs.repeats().empty());
   const auto losses = runs.take_losses();
   ASSERT_EQ(losses.size(), 1 + outcome.agv_count) << "no call is tried twice but the first";
-  EXPECT_LT(losses.back().death.cpu_s, losses[1].death.cpu_s) << "the repeat of the first has four times the limit";
+  EXPECT_LT(2.0 * losses.back().death.cpu_s, losses[1].death.cpu_s)
+      << "the repeat of the first has four times the limit";
 }
 
 // What a fresh worker does needs no second one: of two that crash in one run, each costs a start.
