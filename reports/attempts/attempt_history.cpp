@@ -148,6 +148,8 @@ std::string attempts_sentence(const AttemptHistory& history, double risk) {
         " Another release was tried in the same worlds before ({}): failures that were mended since do not count as "
         "evidence. seed = \"fresh\" gives each release worlds of its own.",
         history.same_worlds.back().begun_utc.empty() ? "date unknown" : history.same_worlds.back().begun_utc);
+  } else if (!history.own->fresh_seed) {
+    text += " A person chose the seed: whether these worlds were seen before in a search, no ledger tells.";
   }
   return text + trouble_sentences(history);
 }

@@ -115,6 +115,15 @@ Seen Coverage::seen(std::string_view probe) const {
   return found == told.end() ? Seen{} : found->second;
 }
 
+std::optional<std::uint64_t> runs_beyond_following(const Coverage& coverage) {
+  if (coverage.seen(kEncounterProbe).runs == 0) return std::nullopt;
+  std::uint64_t most = 0;
+  for (const EncounterKind kind : kValuesOf<EncounterKind>) {
+    if (kind != EncounterKind::Following) most = std::max(most, coverage.seen(name_of(kind)).runs);
+  }
+  return most;
+}
+
 std::vector<MissingProbe> missing_probes(const Coverage& coverage, const std::vector<std::string>& required) {
   std::vector<MissingProbe> missing;
   for (std::string name : required) {

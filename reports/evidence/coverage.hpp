@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -82,6 +83,10 @@ struct MissingProbe {
 // A probe that fewer than one of this many runs met is too rare to have tested anything. A probe that was never met is
 // missing, also if there are only few runs.
 inline constexpr std::uint64_t kRunsPerProbe = 20'000;
+
+// The runs that met the most frequent of head-on, crossing and merging: what an encounter is besides one AGV behind
+// another. Empty: no run had an encounter.
+std::optional<std::uint64_t> runs_beyond_following(const Coverage& coverage);
 
 // A required name that ends in "?" is required only of agents that declare any probe.
 std::vector<MissingProbe> missing_probes(const Coverage& coverage, const std::vector<std::string>& required);

@@ -60,6 +60,19 @@ std::vector<Remark> crash_notes(const ReportInput& input) {
   return notes;
 }
 
+std::vector<Remark> meeting_notes(const ReportInput& input) {
+  std::vector<Remark> notes;
+  for (const auto& [agent, coverage, missing, incidents] : input.evidence.agent_coverage()) {
+    if (!is_under_test(input.evidence.plan(), agent)) continue;
+    const auto others = runs_beyond_following(coverage);
+    if (!others || *others * kRunsPerProbe >= coverage.runs()) continue;
+    notes.emplace_back().text = fmt::format(
+        "{} only followed other AGVs: {} had two AGVs that came head-on, crossed or merged.", printable(agent, 40),
+        *others == 0 ? "no run" : fmt::format("fewer than one in {} runs", kRunsPerProbe));
+  }
+  return notes;
+}
+
 std::vector<Remark> foreign_code_notes(const ReportInput& input) {
   std::vector<std::string> plugins;
   for (const AgentAudit& audit : input.evidence.audits().agents()) {

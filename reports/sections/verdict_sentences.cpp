@@ -92,6 +92,7 @@ Headline claim(const ReportInput& input) {
   headline.details.emplace_back().text = gates_by_verdict(input);
   std::ranges::move(stall_notes(input), std::back_inserter(headline.details));
   std::ranges::move(crash_notes(input), std::back_inserter(headline.details));
+  std::ranges::move(meeting_notes(input), std::back_inserter(headline.details));
   for (std::size_t i = 0; i < std::min(kGatesTold, speaking.size()); ++i) {
     const GateResult& result = input.gates[speaking[i]];
     std::string text = i == 0 ? "" : subject(input, speaking[i]) + ". ";

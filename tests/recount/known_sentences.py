@@ -286,6 +286,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
      foreign_body_runs),
     (r"^(.+) stalled in ([0-9]+) of ([0-9]+) worlds of the contract region: ", stalled),
     (r"^(.+) (crashed|hung) in ([0-9]+) of ([0-9]+) runs of the contract region\. No gate judges", crashed),
+    (r"^.+ only followed other AGVs: fewer than one in 20000 runs had ", constant),
     (r"^No run ended in an error of the simulator\. ([0-9]+) runs? w(?:as|ere) simulated once more", soundness),
     (r"^Plan digest ([0-9a-f]{16}) was fixed before run 0, at ", plan_time),
     (r"^When plan digest ([0-9a-f]{16}) was fixed is not known", plan_time),

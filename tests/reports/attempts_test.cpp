@@ -67,6 +67,14 @@ TEST_F(Attempts, AreUnknownWithoutALedgerAndNeverTheFirst) {
   EXPECT_THAT(sentence(campaign(2)), HasSubstr("no ledger of attempts tells of this campaign"));
 }
 
+TEST_F(Attempts, WithAChosenSeedMayFollowASearch) {
+  tried(1, "demonstrated");
+  EXPECT_THAT(sentence(campaign(1)), HasSubstr("whether these worlds were seen before in a search, no ledger tells"));
+  AttemptHistory fresh = attempt_history(AttemptLedger(path_), campaign(1));
+  fresh.own->fresh_seed = true;
+  EXPECT_THAT(attempts_sentence(fresh, 0.05), Not(HasSubstr("search")));
+}
+
 TEST_F(Attempts, WithOtherSeedsAreToldWithTheirVerdictsAndTheAddedRisk) {
   tried(1, "violated");
   tried(2, "");

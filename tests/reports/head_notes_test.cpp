@@ -60,6 +60,22 @@ TEST(HeadNotes, WhatAContactExplainsIsNoStall) {
   EXPECT_THAT(stall_notes(input), IsEmpty());
 }
 
+TEST(HeadNotes, NameAPlantOnWhichAgvsOnlyFollowEachOther) {
+  const auto meeting = [](const std::vector<ProbeCount>& probes) {
+    return meeting_notes(stalling(EndPoint::Violation, [&](RunRecord& run) {
+      run.outcome.probes.clear();
+      file_probes(run.outcome, probes);
+    }));
+  };
+  const ProbeCount following{ProbeSource::World, "following", 9};
+  EXPECT_THAT(meeting({following}),
+              ElementsAre(Field(&Remark::text, HasSubstr("ours only followed other AGVs: no run"))));
+  for (const char* other : {"head-on", "crossing", "merging"})
+    EXPECT_THAT(meeting({following, {ProbeSource::World, other, 1}}), IsEmpty()) << other;
+  EXPECT_THAT(meeting({}), IsEmpty()) << "that nobody was met is told elsewhere";
+  EXPECT_THAT(meeting({following, {ProbeSource::Agent, "crossing", 1}}), Not(IsEmpty())) << "an agent declares it";
+}
+
 TEST(HeadNotes, SayThatTheSimulatorWasChecked) {
   const auto with = [](const std::vector<AuditedRun>& audits) { return stalling(EndPoint::Violation, {}, audits); };
   EXPECT_THAT(texts(soundness_notes(with({}))), HasSubstr("No run was simulated once more"));

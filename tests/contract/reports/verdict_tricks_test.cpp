@@ -388,5 +388,26 @@ INSTANTIATE_TEST_SUITE_P(
               "90 worlds of each, drawn from other seeds"}),
     [](const auto& trick) { return std::string(trick.param.name); });
 
+// A ring of one-way segments: nobody comes towards or across anybody.
+TEST_F(VerdictTricks, APlantOnWhichAgvsOnlyFollowEachOtherIsNamed) {
+  std::string ring = "id,x,y,purposes\n";
+  for (int i = 0; i < 8; ++i)
+    ring += fmt::format("s{},{},{},storage\n", i, i < 4 ? 20 * i : 20 * (7 - i), i < 4 ? 0 : 20);
+  ring += "from,to,bidirectional\n";
+  for (int i = 0; i < 8; ++i) ring += fmt::format("s{},s{},false\n", i, (i + 1) % 8);
+  write("ring.csv", ring);
+  const auto demonstrated_on = [&](const std::string& layout) {
+    write("c.toml", "replicates = 60\n[factors]\nagents = [\"hull-lock\"]\nlayouts = [" + layout +
+                        "]\nfleet_sizes = [3]\nloss = [0.4]\ndelay_s = [2]\n[world]\ntransports_per_agv_hour = 30\n"
+                        "[[gate]]\nname = \"g\"\nagent = \"hull-lock\"\nlimit = 0.2\n");
+    const auto finished = run("run c.toml --db c.db --overwrite");
+    EXPECT_EQ(finished.exit_code, 0) << finished.out << finished.err;
+    return finished.out;
+  };
+  const auto named = HasSubstr("hull-lock only followed other AGVs: no run had two AGVs that came head-on");
+  EXPECT_THAT(demonstrated_on("{ file = \"ring.csv\" }"), named);
+  EXPECT_THAT(demonstrated_on("\"aisle-grid\""), testing::Not(named));
+}
+
 }  // namespace
 }  // namespace fleetproof::verdict_tricks_test
