@@ -92,7 +92,10 @@ std::string AgentPrograms::know(const std::string& path, bool global_symbols) {
 
 void AgentPrograms::load_unchanged(const AgentProgram& known) {
   if (sha256_of_file(known.file) != known.sha256)
-    throw EngineError(fmt::format("{}: this file was changed while the campaign ran", known.file));
+    throw MachineError(
+        fmt::format("{}: this file was changed while the campaign ran; begin again with the new one, or "
+                    "put the old one back",
+                    known.file));
   load(known.file, known.global_symbols);
 }
 

@@ -270,6 +270,7 @@ std::optional<WorkerState> IsolatedRuns::take_answer(Member& member, WorkerWatch
         } catch (const EngineError&) {
           return WorkerState::Garbled;
         }
+        if (answer.failed && answer.machine) throw MachineError(answer.message);
         if (answer.failed) throw EngineError(answer.message);
         return std::nullopt;
       case Channel::Wait::Gone:

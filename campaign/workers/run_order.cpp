@@ -84,6 +84,7 @@ RunOrder decode_order(std::string_view bytes) {
 std::string encode(const RunAnswer& answer) {
   ByteSink sink;
   sink.u8(answer.failed ? 1 : 0);
+  sink.u8(answer.machine ? 1 : 0);
   sink.u8(answer.declined ? 1 : 0);
   sink.text(answer.message);
   sink.u64(answer.cpu_ns);
@@ -106,6 +107,7 @@ RunAnswer decode_answer(std::string_view bytes) {
   ByteSource source(bytes, "an answer of a worker");
   RunAnswer answer;
   answer.failed = source.flag();
+  answer.machine = source.flag();
   answer.declined = source.flag();
   answer.message = source.text();
   answer.cpu_ns = source.u64();

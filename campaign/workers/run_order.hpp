@@ -30,9 +30,9 @@ std::string encode(const RunOrder& order);
 RunOrder decode_order(std::string_view bytes);  // throws EngineError on bytes that `encode` did not write
 
 // What a worker answers; the first answer says that it has loaded its plug-ins. Failed: `message` says why no run can
-// be simulated in a worker.
+// be simulated in a worker; `machine`: a file or the machine is the reason, not the engine.
 struct RunAnswer {
-  bool failed = false;
+  bool failed = false, machine = false;
   bool declined = false;  // this worker hosts no more runs; another one has to take the order
   bool explained = true;  // not sent: false if no worker brought the run to its end, and nobody knows why
   // Not sent: how the run ended in a worker before, if that did not come again.

@@ -232,6 +232,9 @@ class Worker {
   } catch (const std::exception& error) {
     RunAnswer failed;
     failed.failed = true;
+    // The main process has loaded the same files: if they cannot be loaded now, something happened to them.
+    failed.machine =
+        dynamic_cast<const MachineError*>(&error) != nullptr || dynamic_cast<const InputError*>(&error) != nullptr;
     failed.message = error.what();
     channel.send(encode(failed));
   }

@@ -95,7 +95,7 @@ TEST(RunOrder, IsWhatWasEncoded) {
 TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   RunAnswer answer;
   answer.message = "why";
-  answer.failed = true;
+  answer.failed = answer.machine = true;
   answer.cpu_ns = 5;
   answer.scenario_digest = 6;
   answer.run.outcome.digest = 7;
@@ -115,7 +115,7 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   answer.run.itinerary.done = {{AgvId{2U}, 4, at_ns(10)}};
   const std::string bytes = encode(answer);
   const RunAnswer decoded = decode_answer(bytes);
-  EXPECT_TRUE(decoded.failed);
+  EXPECT_TRUE(decoded.failed && decoded.machine);
   EXPECT_EQ(decoded.message, "why");
   EXPECT_EQ(decoded.cpu_ns, 5U);
   EXPECT_EQ(decoded.scenario_digest, 6U);

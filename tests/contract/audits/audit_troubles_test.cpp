@@ -37,12 +37,46 @@ TEST_F(AuditTroubles, APluginThatIsRebuiltMeanwhile) {
                               "touch gate; wait $program");
   EXPECT_EQ(finished.exit_code, undisturbed.exit_code) << finished.err;
   EXPECT_THAT(finished.err, HasSubstr("the audits ended early: "));
-  EXPECT_THAT(finished.err, HasSubstr("failing.so: this file was changed while the campaign ran; the runs themselves "
-                                      "are not affected\n"));
+  EXPECT_THAT(finished.err, HasSubstr("failing.so: this file was changed while the campaign ran; begin again with the "
+                                      "new one, or put the old one back; the runs themselves are not affected\n"));
   EXPECT_EQ(outcomes(path("c.db")).size(), 60U);
   EXPECT_EQ(outcomes(path("c.db")), outcomes(path("one.db")));
   EXPECT_EQ(audits("c.db").at("failing").at("audited"), 0);
   EXPECT_GE(audits("one.db").at("failing").at("audited"), 20) << "the test is about something";
+}
+
+// The first runs of a shard are simulated before all others, in workers of their own.
+TEST_F(AuditTroubles, APluginThatIsRebuiltBetweenTwoWorkersIsNoFaultOfTheEngine) {
+  write_campaign(failing("burn 1"), 4, 0.0, "[limits]\ncpu_s = 100\n");
+  const auto finished = shell(started("run c.toml --shard 1/1 --out part -j 1") + until("[ -e part/plan.db ]") +
+                              "cp failing.so rebuilt.so; echo >>rebuilt.so; mv rebuilt.so failing.so\n"
+                              "touch gate; wait $program");
+  EXPECT_EQ(finished.exit_code, 3);
+  EXPECT_THAT(finished.err, testing::StartsWith("error: "));
+  EXPECT_THAT(finished.err, HasSubstr("failing.so: this file was changed while the campaign ran; begin again with the "
+                                      "new one, or put the old one back\n"));
+}
+
+// Then nobody knows whether that software does the same again.
+TEST_F(AuditTroubles, AShardThatCouldNotAuditLeavesTheClaimOpen) {
+  const std::string gate =
+      "[coverage]\nprobes = []\n[[gate]]\nname = \"g\"\nagent = \"failing\"\nlimit = 0.9\n"
+      "min_transports_per_agv_hour = 0.5\n";
+  write_campaign(failing("audit-burn 1"), 100, 1.0, "[limits]\ncpu_s = 100\n" + gate);
+  write("gate", "open");
+  ASSERT_EQ(run("run c.toml --shard 1/1 --out whole").exit_code, 0);
+  EXPECT_EQ(run("merge whole --db whole.db").exit_code, 0);
+  // The first runs of a shard are simulated twice before all others, and do not wait.
+  const auto shard =
+      shell(started("run c.toml --shard 1/1 --out part -j 1 2>talk.txt") + until("[ -e part/canary.txt ]") +
+            "rm gate\n" + until("{ kill -USR1 $program; grep -q 'audits to do' talk.txt; }") +
+            "cp failing.so rebuilt.so; echo >>rebuilt.so; mv rebuilt.so failing.so\n"
+            "touch gate; wait $program");
+  EXPECT_THAT(read(path("talk.txt")), HasSubstr("the audits ended early: "));
+  const auto merged = run("merge part --db part.db");
+  EXPECT_EQ(merged.exit_code, 4) << merged.err;
+  EXPECT_THAT(merged.out, testing::ContainsRegex("[0-9]+ audits are due, and were not done"));
+  EXPECT_EQ(outcomes(path("part.db")), outcomes(path("whole.db")));
 }
 
 TEST_F(AuditTroubles, RunsThatHangInAnAuditOnly) {
