@@ -9,7 +9,7 @@
 namespace fleetproof {
 
 Approach::Approach(const Scenario& scenario)
-    : map_(*scenario.map), last_(scenario.agvs.size()), drives_(scenario.agvs.size()) {
+    : map_(*scenario.map), last_(scenario.agvs.size()), drives_(scenario.agvs.size()), answers_(scenario.agvs.size()) {
   here_.reserve(last_.size()), passed_.reserve(4 * last_.size());
   for (const AgvSetup& agv : scenario.agvs) here_.push_back(agv.start);
   begin_anew();
@@ -32,29 +32,31 @@ void Approach::set_down(EntityId agv, StationId at) {
   here_[agv.index()] = was_[agv.index()] = at;
   last_[agv.index()] = kNone;
   drives_[agv.index()] = {};
+  answers_[agv.index()] = {};
 }
 
 void Approach::begin_anew() {
   was_ = here_;
   passed_.clear();
   std::ranges::fill(last_, kNone);
+  std::ranges::fill(answers_, Answer{});
 }
 
 double Approach::gained_m(EntityId agv, StationId goal) {
-  const double before_m = length_m(was_[agv.index()], goal);
-  double nearest_m = before_m;
-  for (std::uint32_t at = last_[agv.index()]; at != kNone; at = passed_[at].before)
-    nearest_m = std::min(nearest_m, length_m(passed_[at].station, goal));
-  return before_m < std::numeric_limits<double>::infinity() ? before_m - nearest_m : 0.0;
+  const std::vector<double>& lengths_m = lengths_to_m(goal);
+  const double before_m = lengths_m[was_[agv.index()].index()];
+  Answer& answer = answers_[agv.index()];
+  if (answer.goal != goal) answer = {goal, before_m};
+  for (std::uint32_t at = last_[agv.index()]; at != answer.until; at = passed_[at].before)
+    answer.nearest_m = std::min(answer.nearest_m, lengths_m[passed_[at].station.index()]);
+  answer.until = last_[agv.index()];
+  return before_m < std::numeric_limits<double>::infinity() ? before_m - answer.nearest_m : 0.0;
 }
 
-double Approach::length_m(StationId from, StationId to) {
-  const auto [known, is_new] = lengths_m_.try_emplace({from, to}, std::numeric_limits<double>::infinity());
-  if (is_new) {
-    const ShortestWay way = shortest_ways(map_, from, to).back();
-    if (way.to == to) known->second = way.length_m;
-  }
-  return known->second;
+const std::vector<double>& Approach::lengths_to_m(StationId goal) {
+  std::vector<double>& lengths_m = lengths_m_[goal];
+  if (lengths_m.empty()) lengths_m = lengths_to(map_, goal);
+  return lengths_m;
 }
 
 }  // namespace fleetproof

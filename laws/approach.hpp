@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <map>
-#include <utility>
 #include <vector>
 
 #include "core/scenario/scenario.hpp"
@@ -25,11 +24,11 @@ class Approach {
   void begin_anew();
 
   // From the station where the AGV was then, to the one nearest to the goal that it has been at since. 0 if no way
-  // leads to the goal.
+  // leads to the goal. If it is asked again for the same goal, it looks only at the stations passed since.
   double gained_m(EntityId agv, StationId goal);
 
  private:
-  double length_m(StationId from, StationId to);
+  const std::vector<double>& lengths_to_m(StationId goal);
 
   const LogicalMap& map_;
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -45,7 +44,13 @@ class Approach {
     bool cut_short = false;
   };
   std::vector<Drive> drives_;  // by AGV: the last one
-  std::map<std::pair<StationId, StationId>, double> lengths_m_;
+  struct Answer {
+    StationId goal;  // invalid: none is known
+    double nearest_m = 0.0;
+    std::uint32_t until = kNone;  // place in passed_ up to which that holds
+  };
+  std::vector<Answer> answers_;                         // by AGV: the last one since begin_anew()
+  std::map<StationId, std::vector<double>> lengths_m_;  // by goal, by station
 };
 
 }  // namespace fleetproof

@@ -6,48 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/tolerances.hpp"
 #include "core/outcome/trace_records.hpp"
 #include "core/outcome/work_and_progress.hpp"
-#include "core/scenario/ways.hpp"
 #include "laws/approach.hpp"
 #include "laws/fault_watch.hpp"
+#include "laws/inferred_waits.hpp"
 
 namespace fleetproof {
-namespace {
-
-constexpr double kPoseStep_m = 0.1;  // between poses of the way
-
-}  // namespace
-
-const Lane* first_lane_of_way(const LaneRules& rules, StationId from, StationId to) {
-  const ShortestWay way = shortest_ways(rules.map, from, to, &rules).back();
-  return way.to == to ? way.first : nullptr;
-}
-
-StationId station_of(const LogicalMap& map, const Vec2& position_m) {
-  const auto& stations = map.layout().stations;
-  for (std::size_t i = 0; i < stations.size(); ++i) {
-    if ((stations[i].position_m - position_m).norm() <= kAtStation_m) return StationId{i};
-  }
-  return {};
-}
-
-EntityId first_in_the_way(const Scenario& scenario, const Whereabouts& bodies, EntityId agv, const Lane& lane,
-                          SimTime now) {
-  const Footprint& footprint = bodies.of(agv).footprint;
-  const int steps = static_cast<int>(lane.curve.length_m() / kPoseStep_m) + 1;
-  for (int step = 0; step <= steps; ++step) {
-    const OrientedRectangle mine = placed(footprint, lane.curve.pose_at(lane.curve.length_m() * step / steps));
-    for (std::size_t i = 0; i < bodies.body_count(); ++i) {
-      const EntityId other{i};
-      if (other == agv || !bodies.on_floor(other) || bodies.moves(other)) continue;
-      if (clearance_m(mine, bodies.of(other).body_at(now)) < scenario.law.safety_distance_m) return other;
-    }
-  }
-  return {};
-}
-
 namespace {
 
 constexpr int kLooksPerStuckAfter = 12;
@@ -117,7 +82,7 @@ class ProgressLaw final : public Law {
   void look_for_livelock(SimTime now);
   Duration longest_way();
   void look_for_starvation(SimTime now);
-  Wait wait_of(EntityId agv, SimTime now) const;
+  Wait wait_of(EntityId agv, SimTime now);
   void file_circle(const std::vector<EntityId>& circle, const std::map<EntityId, Wait>& waits, SimTime now);
   void file_waits(const std::vector<EntityId>& agvs, const std::map<EntityId, Wait>& waits, SimTime first, SimTime now,
                   std::int64_t value);
@@ -127,6 +92,7 @@ class ProgressLaw final : public Law {
   const Scenario& scenario_;
   Duration stuck_after_, look_every_;
   Whereabouts bodies_;
+  InferredWaits inferred_waits_;
   FaultWatch faults_;
   Approach approach_;
   std::vector<AgvState> agvs_;
@@ -149,6 +115,7 @@ ProgressLaw::ProgressLaw(const Scenario& scenario)
       stuck_after_(scenario.stuck_after),
       look_every_(std::max(kShortestLook, stuck_after_ / kLooksPerStuckAfter)),
       bodies_(scenario),
+      inferred_waits_(scenario, bodies_),
       faults_(scenario),
       approach_(scenario),
       agvs_(scenario.agvs.size()),
@@ -305,15 +272,11 @@ bool ProgressLaw::goes_on(const Incident& incident) {
   return is_new;
 }
 
-Wait ProgressLaw::wait_of(EntityId agv, SimTime now) const {
+Wait ProgressLaw::wait_of(EntityId agv, SimTime now) {
   const AgvState& state = agvs_[agv.index()];
   if (state.declared.valid()) return {state.declared, false};
-  const StationId here = station_of(*scenario_.map, bodies_.position_m(agv, now));
-  if (!here.valid()) return {};
   const TransportOrder& order = *orders_[state.carried.value_or(state.open.front()).index()].what;
-  const LaneRules rules{*scenario_.map, scenario_.type_of(scenario_.agvs[agv.index()]).name, state.carried.has_value()};
-  const Lane* lane = first_lane_of_way(rules, here, state.carried ? order.to : order.from);
-  return lane == nullptr ? Wait{} : Wait{first_in_the_way(scenario_, bodies_, agv, *lane, now), true};
+  return {inferred_waits_.of(agv, state.carried ? order.to : order.from, state.carried.has_value(), now), true};
 }
 
 void ProgressLaw::look_for_deadlocks(SimTime now) {

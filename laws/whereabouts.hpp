@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/base/tolerances.hpp"
@@ -12,8 +13,15 @@ class Whereabouts {
  public:
   explicit Whereabouts(const Scenario& scenario) : scenario_(scenario), bodies_(scenario.body_count()) {}
 
-  void note(const Piece& piece) { bodies_[piece.entity.index()] = {&piece, true}; }
-  void note_leaving(EntityId body) { bodies_[body.index()].on_floor = false; }
+  void note(const Piece& piece) { bodies_[piece.entity.index()] = {&piece, true, ++changes_}; }
+  void note_leaving(EntityId body) {
+    bodies_[body.index()].on_floor = false;
+    ++changes_;
+  }
+  // As long as it stays the same, all pieces are the same.
+  std::uint64_t changes() const { return changes_; }
+  // The same for one body: each of its pieces has another number, above zero.
+  std::uint64_t piece_number(EntityId body) const { return bodies_[body.index()].number; }
   bool on_floor(EntityId body) const { return bodies_[body.index()].on_floor; }
   std::size_t agv_count() const { return scenario_.agvs.size(); }
   std::size_t body_count() const { return bodies_.size(); }
@@ -31,8 +39,10 @@ class Whereabouts {
   struct Body {
     const Piece* piece = nullptr;  // the last one
     bool on_floor = false;
+    std::uint64_t number = 0;
   };
   std::vector<Body> bodies_;
+  std::uint64_t changes_ = 0;
 };
 
 }  // namespace fleetproof

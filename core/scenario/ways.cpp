@@ -24,6 +24,19 @@ class NearestFirst {
   std::priority_queue<Open, std::vector<Open>, std::greater<>> heap_;
 };
 
+// A map whose lanes are driven from their ends to their beginnings.
+class Reversed {
+ public:
+  explicit Reversed(const LogicalMap& map) : lanes_into_(map.station_count()) {
+    for (std::uint32_t i = 0; i < map.lanes().size(); ++i) lanes_into_[map.lanes()[i].to.index()].push_back(i);
+  }
+  std::size_t station_count() const { return lanes_into_.size(); }
+  const std::vector<std::uint32_t>& lanes_from(StationId station) const { return lanes_into_[station.index()]; }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> lanes_into_;  // by station
+};
+
 }  // namespace
 
 std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, StationId until, const LaneRules* rules) {
@@ -44,6 +57,21 @@ std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, St
     return station != until;
   });
   return ways;
+}
+
+std::vector<double> lengths_to(const LogicalMap& map, StationId goal) {
+  std::vector<double> lengths_m(map.station_count(), std::numeric_limits<double>::infinity());
+  std::vector<ReachedStation<double>> reached;
+  NearestFirst open;
+  const auto hop = [&](std::uint32_t index) {
+    const Lane& lane = map.lanes()[index];
+    return std::pair(lane.from.value, lane.curve.length_m());
+  };
+  search_ways(Reversed(map), goal, open, reached, hop, [&](StationId station) {
+    lengths_m[station.index()] = reached[station.index()].cost;
+    return true;
+  });
+  return lengths_m;
 }
 
 }  // namespace fleetproof

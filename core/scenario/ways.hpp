@@ -28,8 +28,9 @@ struct ReachedStation {
 // `open` is an empty queue: push({cost, station}); pop() gives such a pair with the least cost; empty().
 // `hop` gives {station, cost} of a lane: where it leads, and what it costs; no cost is below zero.
 // `arrive(station)` is called for each station in order of cost, when its way is final; false ends the search.
-template <class Cost, class Queue, class Hop, class Arrive>
-void search_ways(const LogicalMap& map, StationId from, Queue& open, std::vector<ReachedStation<Cost>>& reached,
+// `map` is a LogicalMap, or says as one does how many stations there are, and which lanes leave each.
+template <class Map, class Cost, class Queue, class Hop, class Arrive>
+void search_ways(const Map& map, StationId from, Queue& open, std::vector<ReachedStation<Cost>>& reached,
                  const Hop& hop, const Arrive& arrive) {
   reached.assign(map.station_count(), {});
   reached[from.index()].cost = Cost{};
@@ -65,5 +66,8 @@ struct ShortestWay {
 // whatever its heading.
 std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, StationId until = {},
                                        const LaneRules* rules = nullptr);
+
+// The lengths of the shortest ways from all stations to this one, by station; infinity where none leads to it.
+std::vector<double> lengths_to(const LogicalMap& map, StationId goal);
 
 }  // namespace fleetproof

@@ -56,5 +56,21 @@ TEST(ShortestWays, KeepOneWayLanesOneWay) {
   EXPECT_DOUBLE_EQ(way_to(ways, 1).length_m, std::sqrt(13.0) + 4.0) << "round by s2";
 }
 
+TEST(LengthsTo, AreThoseOfTheShortestWays) {
+  const LogicalMap map = small_map();
+  for (std::uint32_t goal = 0; goal < map.station_count(); ++goal) {
+    const auto lengths_m = lengths_to(map, StationId{goal});
+    ASSERT_EQ(lengths_m.size(), map.station_count());
+    for (std::uint32_t from = 0; from < map.station_count(); ++from) {
+      const ShortestWay way = shortest_ways(map, StationId{from}, StationId{goal}).back();
+      if (way.to == StationId{goal}) {
+        EXPECT_DOUBLE_EQ(lengths_m[from], way.length_m) << from << " to " << goal;
+      } else {
+        EXPECT_TRUE(std::isinf(lengths_m[from])) << from << " to " << goal;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof::ways_test

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "core/base/random.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace fleetproof::test::approach_test {
@@ -47,6 +50,29 @@ TEST_F(OnItsWay, AHaltOnTheWayTurnsNobodyRound) {
   approach_.begin_anew();
   approach_.drive_begins(agv_, SegmentId{2U});
   EXPECT_DOUBLE_EQ(approach_.gained_m(agv_, StationId{4U}), 4.0) << "back, and there again: none was cut short";
+}
+
+// Asked after each drive, and for one goal or two by turns, it says the same as if it was never asked before.
+TEST_F(OnItsWay, WhatItWasAskedBeforeChangesNothing) {
+  Draws draws(7);
+  std::vector<SegmentId> driven;
+  double most_m = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    if (i % 50 == 0) {
+      approach_.begin_anew();
+      approach_.set_down(agv_, StationId{1U});
+      driven.clear();
+    }
+    driven.push_back(SegmentId{draws.below(5)});
+    approach_.drive_begins(agv_, driven.back());
+    const StationId goal{i % 100 < 50 ? 5U : draws.below(6)};
+    Approach never_asked(scenario_);
+    for (const SegmentId segment : driven) never_asked.drive_begins(agv_, segment);
+    const double gained_m = approach_.gained_m(agv_, goal);
+    ASSERT_EQ(gained_m, never_asked.gained_m(agv_, goal)) << i;
+    most_m = std::max(most_m, gained_m);
+  }
+  EXPECT_GT(most_m, 7.0);
 }
 
 }  // namespace

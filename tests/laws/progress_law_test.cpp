@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "laws/inferred_waits.hpp"
 #include "tests/laws/told.hpp"
 #include "tests/support/at_seconds.hpp"
 #include "tests/support/worlds.hpp"
