@@ -33,7 +33,6 @@ namespace {
 
 constexpr double kNewestVersion = 7.0;
 constexpr double kLargestAngle_deg = 1e5;
-constexpr double kToleratedLength = 0.02;  // share by which a stored length may be wrong
 
 constexpr Topic kSpelledTwice{
     "{0} points have a coordinate twice, as positionX or Y and as xPosition or yPosition, with different values ({1}); "
@@ -150,6 +149,7 @@ class ModelReader {
     if (type == "REPORT_POSITION") changed_.add(kReportPosition, xml_.place(point), station.name);
     stations_.emplace(station.name, StationId{layout_.stations.size()});
     layout_.stations.push_back(std::move(station));
+    points_.push_back(point);
   }
 
   // In degrees, counterclockwise from the x axis; NaN: none.
@@ -204,13 +204,49 @@ class ModelReader {
   }
 
   void note_shapes(const pugi::xml_node& model) {
-    const auto moved = settle_positions(layout_, drawing_.points_m, choice_.positions);
+    const auto moved = settle_positions(layout_, drawing_.points_m, stored_m(), choice_.positions);
+    if (!moved.empty()) warn(model, moved);
+    join_points(model);
     shapes_.redraw(layout_);
     auto sentences = shapes_.sentences(layout_);
-    sentences.insert(sentences.end(), {moved, detours_of(layout_)});
+    sentences.push_back(detours_of(layout_));
     for (const auto& sentence : sentences) {
       if (!sentence.empty()) warn(model, sentence);
     }
+  }
+
+  StoredLengths stored_m() const {
+    StoredLengths lengths_m;
+    for (const auto& path : paths_) {
+      double stored_mm = 0.0;
+      const bool is_read = read_number(path.attribute("length").value(), stored_mm);
+      lengths_m.push_back(is_read ? std::optional(stored_mm / 1000.0) : std::nullopt);
+    }
+    return lengths_m;
+  }
+
+  // No AGV can drive a path between two points on one spot.
+  void join_points(const pugi::xml_node& model) {
+    const auto lengths_m = stored_m();
+    if (const auto bad = spot_with_length(layout_, lengths_m)) {
+      const auto& [path, segment] = std::pair(paths_[*bad], layout_.segments[*bad]);
+      const auto name = [&](StationId end) { return in_quotes(layout_.stations[end.index()].name); };
+      xml_.refuse(path, fmt::format("<path> {}: it has no length, because its points {} and {} are on one spot{}; move "
+                                    "them apart, or leave the path out",
+                                    in_quotes(segment.name), name(segment.from), name(segment.to),
+                                    lengths_m[*bad] ? fmt::format(" (stored: {:.3f} m)", *lengths_m[*bad]) : ""));
+    }
+    const auto joined = join_spots(layout_, lengths_m);
+    if (joined.sentence.empty()) return;
+    warn(model, joined.sentence);
+    for (auto& [name, id] : stations_) id = joined.station[id.index()];
+    const auto keep = [](std::vector<pugi::xml_node>& nodes, const std::vector<std::size_t>& left) {
+      for (std::size_t i = 0; i < left.size(); ++i) nodes[i] = nodes[left[i]];
+      nodes.resize(left.size());
+    };
+    keep(points_, joined.stations);
+    keep(paths_, joined.segments);
+    std::erase_if(headed_, [&](const auto& name) { return !layout_.stations[stations_.at(name).index()].heading; });
   }
 
   static LocationWords words_of(const pugi::xml_node& type, const pugi::xml_node& operations_in) {
@@ -317,9 +353,7 @@ class ModelReader {
     const auto digits = pointer.substr(std::min(pointer.size(), pointer.find('/', 1) + 1));
     if (!read_number(digits.substr(0, digits.find('/')), index)) return model;
     if (of_segment) return paths_[static_cast<std::size_t>(index)];
-    return pointer.starts_with("/stations/")
-               ? *std::next(model.children("point").begin(), static_cast<std::ptrdiff_t>(index))
-               : model;
+    return pointer.starts_with("/stations/") ? points_[static_cast<std::size_t>(index)] : model;
   }
 
   void refuse_problems(const pugi::xml_node& model) {
@@ -333,14 +367,14 @@ class ModelReader {
   void compare_lengths(const pugi::xml_node& model) {
     std::vector<std::string> unreadable, wrong;
     std::string example;
+    const auto lengths_m = stored_m();
     for (std::size_t i = 0; i < paths_.size(); ++i) {
-      double stored_mm = 0.0;
       const auto& name = layout_.segments[i].name;
       const double length_m = segment_curve(layout_, layout_.segments[i]).length_m();
-      if (!read_number(paths_[i].attribute("length").value(), stored_mm)) {
+      if (!lengths_m[i]) {
         unreadable.push_back(name);
-      } else if (std::abs(stored_mm / 1000.0 - length_m) > kToleratedLength * length_m) {
-        if (wrong.empty()) example = fmt::format("{:.3f} m instead of {:.3f} m", stored_mm / 1000.0, length_m);
+      } else if (!fits(*lengths_m[i], length_m)) {
+        if (wrong.empty()) example = fmt::format("{:.3f} m instead of {:.3f} m", *lengths_m[i], length_m);
         wrong.push_back(name);
       }
     }
@@ -363,6 +397,7 @@ class ModelReader {
   OpenTcsShapes shapes_;
   OpenTcsSpeeds speeds_{xml_};
   Layout layout_;
+  std::vector<pugi::xml_node> points_;                  // by station
   std::vector<pugi::xml_node> paths_;                   // by segment, as long as no two of them are merged
   std::vector<std::string> headed_;                     // names of points
   std::map<std::string, std::set<std::string>> taken_;  // names, by element

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <set>
+#include <utility>
 
 #include "core/base/outside_text.hpp"
 #include "core/base/tolerances.hpp"
@@ -18,6 +21,8 @@ namespace {
 constexpr double kMuchLonger = 1.5;
 // A half circle is 1.6 times as long as its chord, three quarters of a circle 3.3 times.
 constexpr double kDetour = 4.0;
+constexpr double kToleratedLength = 0.02;   // share by which a stored length may be wrong
+constexpr double kStoredRounding_m = 1e-3;  // editors store whole millimetres, and 1 where there is none
 
 struct CurveExtent {
   double curves_m = 0.0;
@@ -38,6 +43,23 @@ CurveExtent extent_of(const Layout& layout) {
   return extent;
 }
 
+bool is_on_a_spot(const Layout& layout, const Segment& segment) {
+  return segment.control_points_m.empty() &&
+         (layout.stations[segment.to.index()].position_m - layout.stations[segment.from.index()].position_m).norm() <
+             kShortestSegment_m;
+}
+
+bool says_spot(const std::optional<double>& stored_m) { return stored_m && std::abs(*stored_m) < kShortestSegment_m; }
+
+// How many stored lengths are those of the segments.
+std::size_t fitting(const Layout& layout, const StoredLengths& stored_m) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < stored_m.size(); ++i) {
+    if (stored_m[i] && fits(*stored_m[i], segment_curve(layout, layout.segments[i]).length_m())) ++count;
+  }
+  return count;
+}
+
 // Curves are only built from sound numbers. The check of the layout refuses the others.
 bool is_sound(const Layout& layout) {
   return std::ranges::all_of(layout.stations, [](const Station& s) { return on_the_floor(s.position_m); }) &&
@@ -49,9 +71,32 @@ bool has_curves(const Layout& layout) {
   return std::ranges::any_of(layout.segments, [](const Segment& s) { return !s.control_points_m.empty(); });
 }
 
+// A model without curves: the plant, unless a path has no length there and has one in the drawing.
+std::string settle_straight(Layout& layout, Layout& drawing, const StoredLengths& stored_m) {
+  const auto* spot = extent_of(layout).spot;
+  if (spot == nullptr || extent_of(drawing).spot != nullptr)
+    return "no path is curved, so all have their positions of the plant";
+  const auto name = [&](StationId end) { return in_quotes(layout.stations[end.index()].name); };
+  const auto begin = fmt::format("in the plant, the points {} and {} of path {} are on one spot", name(spot->from),
+                                 name(spot->to), in_quotes(spot->name));
+  const std::size_t by_plant = fitting(layout, stored_m), by_drawing = fitting(drawing, stored_m);
+  const auto fit =
+      fmt::format("{} of {} stored lengths fit the plant and {} the drawing", by_plant, stored_m.size(), by_drawing);
+  if (by_plant > by_drawing) return begin + ", but " + fit + ", so all have their positions of the plant";
+  layout.stations = std::move(drawing.stations);
+  return begin + ", and " + fit +
+         ", so all have their positions of the drawing; correct these two, or ask for positions of the plant (import "
+         "--positions plant, positions = \"plant\" in a campaign)";
+}
+
 }  // namespace
 
-std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& drawn_m, Positions wish) {
+bool fits(double stored_m, double length_m) {
+  return std::abs(stored_m - length_m) <= kToleratedLength * length_m + kStoredRounding_m;
+}
+
+std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& drawn_m, const StoredLengths& stored_m,
+                             Positions wish) {
   if (!is_sound(layout)) return "";
   Layout drawing = layout;
   std::set<std::ptrdiff_t> on_a_path;
@@ -89,25 +134,68 @@ std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& 
                                      "draw these points"
                                    : "");
   if (!is_sound(drawing)) return begin + "the drawing is too large, so all have their positions of the plant";
+  if (!has_curves(layout)) return begin + settle_straight(layout, drawing, stored_m);
   const CurveExtent plant = extent_of(layout), drawn = extent_of(drawing);
-  if (!has_curves(layout)) {
-    if (plant.spot == nullptr || drawn.spot != nullptr)
-      return begin + "no path is curved, so all have their positions of the plant";
-    const auto name = [&](StationId end) { return in_quotes(layout.stations[end.index()].name); };
-    const auto reason = fmt::format(
-        "in the plant, the points {} and {} of path {} are on one spot, so all have their positions of the "
-        "drawing; correct these two, or ask for positions of the plant (import --positions plant, "
-        "positions = \"plant\" in a campaign)",
-        name(plant.spot->from), name(plant.spot->to), in_quotes(plant.spot->name));
-    layout.stations = std::move(drawing.stations);
-    return begin + reason;
-  }
   const bool keep = drawn.curves_m > kMuchLonger * plant.curves_m;
   if (!keep) layout.stations = std::move(drawing.stations);
   return begin + fmt::format(
                      "the curves have {:.1f} m with the positions of the drawing and {:.1f} m with those of the "
                      "plant, so all have their positions of the {}",
                      drawn.curves_m, plant.curves_m, keep ? "plant" : "drawing");
+}
+
+std::optional<std::size_t> spot_with_length(const Layout& layout, const StoredLengths& stored_m) {
+  for (std::size_t i = 0; i < layout.segments.size(); ++i) {
+    if (is_on_a_spot(layout, layout.segments[i]) && !says_spot(stored_m[i])) return i;
+  }
+  return std::nullopt;
+}
+
+JoinedSpots join_spots(Layout& layout, const StoredLengths& stored_m) {
+  std::vector<std::size_t> first(layout.stations.size());  // of the stations that are one
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  JoinedSpots joined;
+  std::vector<std::string> pairs;
+  std::set<std::size_t> undecided;  // stations that ask for several headings
+  for (std::size_t i = 0; i < layout.segments.size(); ++i) {
+    const Segment& segment = layout.segments[i];
+    if (!is_on_a_spot(layout, segment) || !says_spot(stored_m[i])) {
+      joined.segments.push_back(i);
+      continue;
+    }
+    const auto [kept, gone] = std::minmax(first[segment.from.index()], first[segment.to.index()]);
+    if (kept == gone) continue;
+    pairs.push_back(fmt::format("{} and {}", layout.stations[kept].name, layout.stations[gone].name));
+    Station &station = layout.stations[kept], &other = layout.stations[gone];
+    station.purposes = station.purposes | other.purposes;
+    if (station.heading && other.heading && station.heading != other.heading) undecided.insert(kept);
+    if (!station.heading) station.heading = other.heading;
+    std::ranges::replace(first, gone, kept);
+  }
+  std::vector<Station> stations;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const bool is_first = first[i] == i;
+    joined.station.push_back(is_first ? StationId{stations.size()} : joined.station[first[i]]);
+    if (!is_first) continue;
+    joined.stations.push_back(i);
+    stations.push_back(std::move(layout.stations[i]));
+    if (undecided.contains(i)) stations.back().heading.reset();
+  }
+  layout.stations = std::move(stations);
+  std::vector<Segment> segments;
+  for (const auto i : joined.segments) {
+    Segment& segment = segments.emplace_back(std::move(layout.segments[i]));
+    segment.from = joined.station[segment.from.index()];
+    segment.to = joined.station[segment.to.index()];
+  }
+  layout.segments = std::move(segments);
+  if (!pairs.empty())
+    joined.sentence = fmt::format(
+        "{} pairs of points are on one spot and joined by a path without length ({}); each pair is one station with "
+        "the name of the first{}",
+        pairs.size(), name_list(pairs, pairs.size()),
+        undecided.empty() ? "" : "; where they ask for several orientations, an AGV stands as it arrives");
+  return joined;
 }
 
 std::string detours_of(const Layout& layout) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -169,11 +170,102 @@ TEST(OpenTcsPositions, StraightModelsKeepThePlant) {
   for (const auto& text : spellings(m)) {
     const Import import(text);
     EXPECT_NEAR(import.length_m(0), 10.0, 1e-9);
-    EXPECT_NE(import.sentences.find("in the plant, the points \"a\" and \"b\" of path \"road\" are on one spot, so all "
-                                    "have their positions of the drawing; correct these two, or ask for"),
-              std::string::npos)
+    EXPECT_NE(
+        import.sentences.find("in the plant, the points \"a\" and \"b\" of path \"road\" are on one spot, and 0 of "
+                              "2 stored lengths fit the plant and 0 the drawing, so all have their positions of "
+                              "the drawing; correct these two, or ask for"),
+        std::string::npos)
         << import.sentences;
   }
+}
+
+// Two points that an editor has put on one spot, with the length that it stores there, between roads of 10 m and 8 m.
+struct SpotModel {
+  int plant_mm = 0;  // of the path between the two points
+  std::string stored_mm = "1", roads_mm = "10000 8000", more{}, angles[2] = {"NaN", "NaN"};
+
+  std::string text() const {
+    const auto space = roads_mm.find(' ');
+    std::string points, drawing;
+    const int x_mm[] = {0, 10'000, 10'000 + plant_mm, 18'000 + plant_mm};
+    const int drawn_x_mm[] = {0, 5000, 7000, 9000};
+    for (int i = 0; i < 4; ++i) {
+      points += fmt::format(R"(<point name="{}" xPosition="{}" yPosition="0" type="{}" vehicleOrientationAngle="{}"/>)",
+                            "abcd"[i], x_mm[i], i == 2 ? "PARK_POSITION" : "HALT_POSITION",
+                            i == 1 || i == 2 ? angles[i - 1] : "NaN");
+      drawing += fmt::format(R"(<modelLayoutElement visualizedObjectName="{}" layer="0"><property name="POSITION_X" )"
+                             R"(value="{}"/><property name="POSITION_Y" value="3000"/></modelLayoutElement>)",
+                             "abcd"[i], drawn_x_mm[i]);
+    }
+    const auto path = [](const char* from, const char* to, const std::string& length) {
+      return fmt::format(
+          "\n<path name=\"{0} {1}\" sourcePoint=\"{0}\" destinationPoint=\"{1}\" length=\"{2}\" "
+          "maxVelocity=\"1000\" maxReverseVelocity=\"1000\"/>",
+          from, to, length);
+    };
+    return "<model version=\"0.0.2\" name=\"m\">" + points + path("a", "b", roads_mm.substr(0, space)) +
+           path("b", "c", stored_mm) + path("c", "d", roads_mm.substr(space + 1)) + more +
+           "<visualLayout name=\"v\" scaleX=\"50.0\" scaleY=\"50.0\">" + drawing + "</visualLayout></model>";
+  }
+};
+
+TEST(OpenTcsPositions, StoredLengthsKeepThePlantOfPointsOnOneSpot) {
+  for (const int plant_mm : {0, 1, 9}) {
+    const Import import(SpotModel{plant_mm, plant_mm == 9 ? "9" : "1"}.text());
+    EXPECT_NE(
+        import.sentences.find("are on one spot, but 3 of 3 stored lengths fit the plant and 0 the drawing, so all "
+                              "have their positions of the plant"),
+        std::string::npos)
+        << import.sentences;
+    ASSERT_EQ(import.layout.stations.size(), 3U) << plant_mm;
+    EXPECT_EQ(import.layout.stations[1].name, "b");
+    EXPECT_TRUE(import.layout.stations[1].purposes.has(Purpose::Parking)) << "those of both";
+    ASSERT_EQ(import.layout.segments.size(), 2U);
+    EXPECT_NEAR(import.length_m(0), 10.0, 1e-9);
+    EXPECT_NEAR(import.length_m(1), 8.0, 0.01);
+    EXPECT_EQ(import.layout.segments[1].from, StationId{1U});
+  }
+}
+
+TEST(OpenTcsPositions, StoredLengthsThatFitTheDrawingMoveThePlant) {
+  const Import import(SpotModel{0, "2000", "5000 2000"}.text());
+  ASSERT_EQ(import.layout.segments.size(), 3U);
+  EXPECT_NEAR(import.length_m(1), 2.0, 1e-9);
+  EXPECT_NE(
+      import.sentences.find("0 of 3 stored lengths fit the plant and 3 the drawing, so all have their positions of "
+                            "the drawing"),
+      std::string::npos)
+      << import.sentences;
+}
+
+TEST(OpenTcsPositions, PointsOnOneSpotAreJoinedWithWhatIsLinkedToThem) {
+  std::vector<std::string> warnings;
+  const auto linked = R"(<path name="c b" sourcePoint="c" destinationPoint="b" length="1" maxVelocity="1000"/>
+<locationType name="Load station"><allowedOperation name="Load cargo"/></locationType>
+<location name="L" type="Load station"><link point="c"/></location>
+<block name="B"><member name="c d"/><member name="b c"/></block>)";
+  const auto layout = parse_opentcs(SpotModel{.more = linked}.text(), "m.xml", warnings);
+  EXPECT_TRUE(layout.stations[1].purposes.has(Purpose::Storage)) << "the location is linked to the second point";
+  ASSERT_EQ(layout.segments.size(), 2U) << "both paths of no length are left out";
+  EXPECT_EQ(layout.segments[1].blocks.size(), 1U);
+  EXPECT_TRUE(std::ranges::any_of(warnings, [](const std::string& w) {
+    return w.find(
+               "1 pairs of points are on one spot and joined by a path without length (\"b and c\"); each pair is one "
+               "station with the name of the first") != std::string::npos;
+  }));
+}
+
+TEST(OpenTcsPositions, JoinedPointsKeepAHeadingThatTheyAgreeOn) {
+  const auto heading = [](const std::string& b, const std::string& c) {
+    SpotModel model;
+    model.angles[0] = b;
+    model.angles[1] = c;
+    return Import(model.text()).layout.stations[1].heading;
+  };
+  EXPECT_EQ(heading("0", "NaN"), Vec2(1.0, 0.0));
+  EXPECT_EQ(heading("NaN", "0"), Vec2(1.0, 0.0));
+  EXPECT_EQ(heading("0", "0"), Vec2(1.0, 0.0));
+  EXPECT_FALSE(heading("0", "180"));
 }
 
 TEST(OpenTcsPositions, TheUserChooses) {
@@ -221,6 +313,16 @@ TEST(OpenTcsPositions, CurvesThatLeadFarAwayAreNamed) {
 
 std::string refusal(const std::string& text) {
   return independent::refusal([](const std::string& t) { Import{t}; }, text);
+}
+
+TEST(OpenTcsPositions, APathWithALengthBetweenPointsOnOneSpotIsRefusedByName) {
+  for (const char* stored_mm : {"2550", "100", ""}) {
+    const auto why = refusal(SpotModel{0, stored_mm}.text());
+    EXPECT_NE(why.find("m.xml:3: <path> \"b c\": it has no length, because its points \"b\" and \"c\" are on one spot"),
+              std::string::npos)
+        << why;
+    EXPECT_EQ(why.find("stored: 2.550 m") != std::string::npos, std::string(stored_mm) == "2550") << why;
+  }
 }
 
 TEST(OpenTcsPositions, BrokenDrawingsAreExplained) {
