@@ -20,6 +20,14 @@ constexpr Duration kShortestLook = std::chrono::seconds(1);
 constexpr double kWayTakes = 2.0;        // times the time at top speed that a way may take without success
 constexpr std::uint64_t kOvertaken = 2;  // transports finished by each of the others, on average
 
+// The top speed on the map in the direction in which the AGV is slower.
+double slower_way_mps(const LogicalMap& map, const VehicleType& type, bool loaded) {
+  const double forward_mps = type.drive_with(loaded, false).speed_mps,
+               backward_mps = type.drive_with(loaded, true).speed_mps;
+  if (backward_mps >= forward_mps) return forward_mps;
+  return std::ranges::any_of(map.lanes(), &Lane::is_backward) ? backward_mps : forward_mps;
+}
+
 struct AgvState {
   std::vector<TransportId> open;       // transports released and not done
   std::optional<TransportId> carried;  // transport of the load on it
@@ -355,7 +363,8 @@ Duration ProgressLaw::longest_way() {
     if (!agv.has_work()) continue;
     const TransportOrder& order = *orders_[agv.carried.value_or(agv.open.front()).index()].what;
     const double gained_m = approach_.gained_m(EntityId{i}, agv.carried ? order.to : order.from);
-    const double speed_mps = scenario_.type_of(scenario_.agvs[i]).drive_with(agv.carried.has_value()).speed_mps;
+    const double speed_mps =
+        slower_way_mps(*scenario_.map, scenario_.type_of(scenario_.agvs[i]), agv.carried.has_value());
     longest_s = std::max(longest_s, kWayTakes * gained_m / speed_mps);
   }
   return seconds(longest_s);

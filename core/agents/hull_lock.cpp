@@ -26,7 +26,9 @@ bool knows_restarts(const fp_briefing& briefing) {
   return briefing.struct_size >= offsetof(fp_briefing, next_segment) + sizeof(briefing.next_segment);
 }
 
-double braking_s(const fp_agv& agv) { return agv.speed_mps / agv.deceleration_mps2; }
+double braking_s(const fp_briefing& briefing) {
+  return highest_speed_mps(briefing, briefing.self) / agv_of(briefing, briefing.self).deceleration_mps2;
+}
 
 }  // namespace
 
@@ -49,7 +51,7 @@ HullLock::HullLock(const fp_host& host, fp_controller* handle, const fp_briefing
       right_of_way_(neighbours_, controller_, options.progress),
       way_(map_, agv_of(briefing, briefing.self)),
       has_chargers_(map_.has_chargers()),
-      braking_s_(braking_s(agv_of(briefing, briefing.self))) {}
+      braking_s_(braking_s(briefing)) {}
 
 void HullLock::on_event(const fp_event& event) {
   controller_.set_clock(event.now_ns);

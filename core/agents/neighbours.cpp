@@ -71,8 +71,8 @@ Neighbours::Neighbours(const MapView& map, HullGeometry& geometry, const fp_brie
       claim_m_(longest_claim_m(map)),
       consent_(options.consent) {
   for (std::uint32_t i = 0; i < briefing.fleet_count; ++i) {
-    const fp_agv& agv = agv_of(briefing, i);
-    fastest_mps_.push_back(kSpeedMargin * (1.0 + agv.speed_deviation) * agv.speed_mps);
+    const double deviation = agv_of(briefing, i).speed_deviation;
+    fastest_mps_.push_back(kSpeedMargin * (1.0 + deviation) * highest_speed_mps(briefing, i));
   }
 }
 

@@ -13,13 +13,10 @@ double drive_time_s(double length_m, const fp_agv& agv) {
 }
 
 double lane_speed_mps(const MapView& map, std::uint32_t lane, const fp_agv& agv) {
-  double speed_mps = agv.speed_mps;
-  const auto limit = [&](double mps) {
-    if (mps > 0.0) speed_mps = std::min(speed_mps, mps);
-  };
-  if (map.tells_rules()) limit(map.lane(lane).speed_limit_mps);
-  if (map.is_backward(lane)) limit(agv.reverse_speed_mps);
-  return speed_mps;
+  const bool own = map.is_backward(lane) && agv.reverse_speed_mps > 0.0;
+  const double speed_mps = own ? agv.reverse_speed_mps : agv.speed_mps;
+  const double limit_mps = map.tells_rules() ? map.lane(lane).speed_limit_mps : 0.0;
+  return limit_mps > 0.0 ? std::min(speed_mps, limit_mps) : speed_mps;
 }
 
 double lane_time_s(const MapView& map, std::uint32_t lane, const fp_agv& agv) {

@@ -16,8 +16,8 @@ namespace fleetproof::agents {
 // The time that AGVs of this type need for a lane, from rest to rest, without turns.
 double drive_time_s(double length_m, const fp_agv& agv);
 
-// The top speed of such an AGV on a lane of the map, with the limit of the lane, and with the AGV's own when it drives
-// backward.
+// The top speed of such an AGV on a lane of the map: that of its direction, forward or backward, with the limit of the
+// lane.
 double lane_speed_mps(const MapView& map, std::uint32_t lane, const fp_agv& agv);
 
 // The time for a lane, from rest to rest.

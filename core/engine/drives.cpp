@@ -24,7 +24,7 @@ void Drives::begin(AgvId agv, const Lane& lane, double from_m, double entry_mps,
   Drive& drive = drive_of(agv);
   drive.lane = &lane;
   drive.next = next;
-  drive.limits = draw_limits(agv, ++drive.begun);
+  drive.limits = draw_limits(agv, lane.is_backward(), ++drive.begun);
   ++run_.counters.drives;
   run_.progressed(agv);
   plan(agv, from_m, entry_mps);
@@ -33,9 +33,9 @@ void Drives::begin(AgvId agv, const Lane& lane, double from_m, double entry_mps,
   if (run_.scenario.scanner.on) ports_.scanner.drive_begins(agv);
 }
 
-MotionLimits Drives::draw_limits(AgvId agv, std::uint32_t number) const {
+MotionLimits Drives::draw_limits(AgvId agv, bool backward, std::uint32_t number) const {
   const VehicleType& type = run_.type_of(agv);
-  MotionLimits limits = type.drive_with(run_.is_loaded(agv));
+  MotionLimits limits = type.drive_with(run_.is_loaded(agv), backward);
   if (type.speed_deviation > 0.0) {
     const double draw = run_.motion_draw(MotionTopic::Speed, agv, number);
     const double factor = 1.0 + type.speed_deviation * (2.0 * draw - 1.0);
@@ -47,15 +47,14 @@ MotionLimits Drives::draw_limits(AgvId agv, std::uint32_t number) const {
 
 void Drives::plan(AgvId agv, double from_m, double speed_mps) {
   Drive& drive = drive_of(agv);
-  const VehicleType& type = run_.type_of(agv);
   const Curve& curve = drive.lane->curve;
+  const MotionLimits limits = drive.lane->limits(drive.limits);
   from_m = std::min(from_m, curve.length_m());  // the sum of the legs may be rounded up
   drive.leg = 0;
   if (!run_.status(agv).halts.empty()) {
-    plan_stop(curve, drive.lane->limits(drive.limits, type.reverse_speed_mps), from_m, speed_mps, drive.legs);
+    plan_stop(curve, limits, from_m, speed_mps, drive.legs);
   } else {
-    plan_legs(curve, drive.lane->limits(drive.limits, type.reverse_speed_mps), type.lateral_mps2, from_m,
-              {speed_mps, exit_speed_mps(agv)}, drive.legs);
+    plan_legs(curve, limits, run_.type_of(agv).lateral_mps2, from_m, {speed_mps, exit_speed_mps(agv)}, drive.legs);
   }
 }
 
@@ -66,10 +65,10 @@ double Drives::exit_speed_mps(AgvId agv) const {
   if (drive.next == nullptr || !goes_on(*drive.lane, *drive.next)) return 0.0;
   const VehicleType& type = run_.type_of(agv);
   MotionLimits limits = drive.limits;
-  limits.speed_mps = std::min(limits.speed_mps, type.drive_with(run_.is_loaded(agv)).speed_mps);
-  const double entry_mps =
-      highest_entry_mps(drive.next->curve, drive.next->limits(limits, type.reverse_speed_mps), type.lateral_mps2);
-  return std::min(entry_mps, drive.lane->limits(drive.limits, type.reverse_speed_mps).speed_mps);
+  const bool backward = drive.next->is_backward();  // as this lane
+  limits.speed_mps = std::min(limits.speed_mps, type.drive_with(run_.is_loaded(agv), backward).speed_mps);
+  const double entry_mps = highest_entry_mps(drive.next->curve, drive.next->limits(limits), type.lateral_mps2);
+  return std::min(entry_mps, drive.lane->limits(drive.limits).speed_mps);
 }
 
 Piece Drives::piece_of_leg(AgvId agv) const {

@@ -45,11 +45,11 @@ class Drives {
     const Lane* next = nullptr;
     std::vector<Leg> legs;
     std::size_t leg = 0;  // the one under way
-    MotionLimits limits;  // with the load, and with the deviation drawn for this drive
+    MotionLimits limits;  // in its direction, with the load, and with the deviation drawn for this drive
     std::uint32_t begun = 0;
   };
   Drive& drive_of(AgvId agv) { return drives_[agv.index()]; }
-  MotionLimits draw_limits(AgvId agv, std::uint32_t number) const;
+  MotionLimits draw_limits(AgvId agv, bool backward, std::uint32_t number) const;
   void plan(AgvId agv, double from_m, double speed_mps);
   double exit_speed_mps(AgvId agv) const;
   Piece piece_of_leg(AgvId agv) const;

@@ -16,7 +16,7 @@ void Scanner::drive_begins(AgvId agv) {
 double Scanner::field_length_m(AgvId agv) const {
   const ScannerSetup& scanner = run_.scenario.scanner;
   const double speed = run_.world.body(agv).piece.speed_at(run_.now),
-               braking = run_.type_of(agv).drive_with(run_.is_loaded(agv)).deceleration_mps2;
+               braking = run_.type_of(agv).drive_with(run_.is_loaded(agv), false).deceleration_mps2;
   const double needed_m = speed * scanner.reaction_s + speed * speed / (2.0 * braking) + scanner.margin_m;
   return scanner.range_m > 0.0 ? std::min(needed_m, scanner.range_m) : needed_m;
 }

@@ -67,10 +67,8 @@ std::vector<Arc> segment_arcs(const Layout& layout, const Segment& segment) {
   return arcs;
 }
 
-MotionLimits Lane::limits(MotionLimits of_vehicle, double reverse_speed_mps) const {
-  double& speed_mps = of_vehicle.speed_mps;
-  if (is_backward() && reverse_speed_mps > 0.0) speed_mps = std::min(speed_mps, reverse_speed_mps);
-  if (speed_limit_mps > 0.0) speed_mps = std::min(speed_mps, speed_limit_mps);
+MotionLimits Lane::limits(MotionLimits of_vehicle) const {
+  if (speed_limit_mps > 0.0) of_vehicle.speed_mps = std::min(of_vehicle.speed_mps, speed_limit_mps);
   return of_vehicle;
 }
 

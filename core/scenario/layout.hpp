@@ -158,8 +158,8 @@ struct Lane {
   // Of the AGV's nose, at either end.
   Vec2 start_heading() const { return curve.pose_at(0.0).heading; }
   Vec2 end_heading() const { return curve.pose_at(curve.length_m()).heading; }
-  // The limits of a vehicle, with that of the lane; `reverse_speed_mps` as in VehicleType.
-  MotionLimits limits(MotionLimits of_vehicle, double reverse_speed_mps) const;
+  // The limits of a drive on the lane: those of the vehicle (VehicleType::drive_with) and that of the lane.
+  MotionLimits limits(MotionLimits of_vehicle) const;
 };
 
 // A layout with what follows from it: the curves of its segments, and the lanes that leave each station. It is built

@@ -23,7 +23,7 @@ inline constexpr Field kCentreAhead{
     .low = -kLargestBody_m,
     .high = kLargestBody_m};
 inline constexpr Field kReverseSpeed{.key = "reverse_speed_mps",
-                                     .text = "top speed of driving backward; 0: as forward",
+                                     .text = "top speed of driving backward, also above speed_mps; 0: as forward",
                                      .lenient = Lenient::down(Weight::Plant, 0.1).zero_is_endless(),
                                      .high = kFastest};
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "core/geometry/rectangle.hpp"
@@ -24,7 +25,7 @@ struct VehicleType {
   TurnLimits turn;
   LoadEffect loaded;
   double lateral_mps2 = 0.0;       // the speed in a bend of radius R is at most sqrt(lateral_mps2 * R); 0: no limit
-  double reverse_speed_mps = 0.0;  // top speed of driving backward; 0: as forward
+  double reverse_speed_mps = 0.0;  // top speed of driving backward, lower or higher than forward; 0: as forward
   double speed_deviation = 0.0;    // every drive is faster or slower by up to this share, in speed and acceleration
   double settle_s = 0.0;           // fine positioning after every drive to a stop: uniform on [0, settle_s)
   double battery_per_m = 1.0 / 20000.0;  // share of a full battery
@@ -40,11 +41,15 @@ struct VehicleType {
                             footprint.centre_ahead_m}
                 : footprint;
   }
-  MotionLimits drive_with(bool load) const {
-    if (!load) return drive;
-    return {drive.speed_mps * loaded.speed_share, drive.acceleration_mps2 * loaded.acceleration_share,
-            drive.deceleration_mps2 * loaded.acceleration_share};
+  // The limits of a drive, forward or tail first. A load has the same share in both directions.
+  MotionLimits drive_with(bool load, bool backward) const {
+    MotionLimits limits = drive;
+    if (backward && reverse_speed_mps > 0.0) limits.speed_mps = reverse_speed_mps;
+    if (!load) return limits;
+    return {limits.speed_mps * loaded.speed_share, limits.acceleration_mps2 * loaded.acceleration_share,
+            limits.deceleration_mps2 * loaded.acceleration_share};
   }
+  double highest_speed_mps() const { return std::max(drive.speed_mps, reverse_speed_mps); }
 };
 
 }  // namespace fleetproof

@@ -29,9 +29,10 @@ Timetable::Timetable(const LogicalMap& map, const VehicleType& type)
   std::uint32_t turns = 0;
   hops_.reserve(map.lanes().size());
   for (const auto& lane : map.lanes()) {
-    hops_.push_back({lane.from.value, lane.to.value,
-                     MotionProfile(lane.curve.length_m(), lane.limits(type.drive, type.reverse_speed_mps)).duration(),
-                     0, turns});
+    hops_.push_back(
+        {lane.from.value, lane.to.value,
+         MotionProfile(lane.curve.length_m(), lane.limits(type.drive_with(false, lane.is_backward()))).duration(), 0,
+         turns});
     turns += static_cast<std::uint32_t>(map.lanes_from(lane.to).size());
   }
   turns_.assign(turns, Duration{-1});

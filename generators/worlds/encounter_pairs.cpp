@@ -172,7 +172,7 @@ class PairMaker {
     return std::ranges::any_of(way, [&](const Passed& passed) {
       if (passed.twin == QuickestWays::kNone) return false;
       if (other == passed.to) return passed.begun < kWithin;
-      const double reach_m = type_.drive.speed_mps * to_seconds(passed.begun + kWithin);
+      const double reach_m = type_.highest_speed_mps() * to_seconds(passed.begun + kWithin);
       const Vec2 away_m = map_.station(other).position_m - map_.station(passed.to).position_m;
       return lanes_to_[passed.to.index()] > 1 && away_m.squaredNorm() < reach_m * reach_m;
     });

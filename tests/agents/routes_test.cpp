@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
+#include "core/agents/fleet.hpp"
 #include "drawn_map.hpp"
 
 namespace fleetproof::agents::routes_test {
@@ -41,6 +43,36 @@ TEST(Routes, ASearchThatStopsEarlyFindsTheWayOfAWholeSearch) {
       EXPECT_EQ(whole.cost_s(to), early.cost_s(to));
     }
   }
+}
+
+TEST(LaneSpeed, IsThatOfTheDirection) {
+  testing::DrawnMap map;
+  map.station(0.0, 0.0), map.station(10.0, 0.0);
+  map.segment(0, 1);
+  map.drive_backward(1);
+  const MapView view(map.map());
+  fp_agv agv = testing::kTestAgv;  // 2 m/s forward
+  EXPECT_EQ(lane_speed_mps(view, 1, agv), 2.0);
+  for (const double reverse_mps : {0.5, 3.0}) {
+    agv.reverse_speed_mps = reverse_mps;
+    EXPECT_EQ(lane_speed_mps(view, 0, agv), 2.0);
+    EXPECT_EQ(lane_speed_mps(view, 1, agv), reverse_mps);
+  }
+}
+
+// A host of an older minor tells no speed of driving backward.
+TEST(HighestSpeed, IsThatOfTheQuickerDirection) {
+  fp_agv agv = testing::kTestAgv;
+  agv.reverse_speed_mps = 3.0;
+  fp_facts told{};
+  told.fleet = &agv;
+  told.agv_stride = sizeof(fp_agv);
+  EXPECT_EQ(highest_speed_mps(told, 0), 3.0);
+  told.agv_stride = offsetof(fp_agv, centre_ahead_m);
+  EXPECT_EQ(highest_speed_mps(told, 0), 2.0);
+  agv.reverse_speed_mps = 0.5;
+  told.agv_stride = sizeof(fp_agv);
+  EXPECT_EQ(highest_speed_mps(told, 0), 2.0);
 }
 
 // Against Bellman and Ford, which relax every lane as often as there are stations.

@@ -1,6 +1,8 @@
 // Lanes that are driven tail first, and what the plant does not allow.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "core/engine/simulation.hpp"
 #include "tests/core/small_world.hpp"
 
@@ -98,6 +100,97 @@ TEST(DrivingBackward, HasATopSpeedOfItsOwn) {
   ASSERT_EQ(driven.done_s.size(), 2U);
   // 1 s and 0.25 m up, 0.5 s and 0.125 m down, 9.625 m at 0.5 m/s.
   EXPECT_NEAR(driven.done_s[1] - driven.done_s[0], 1.0 + 0.5 + 19.25, 1e-9);
+}
+
+// A drive tail first at 0.5 m/s, against a drive nose first of a vehicle that is as fast forward.
+struct Direction {
+  Travel travel;
+  double forward_mps, reverse_mps;
+};
+constexpr Direction kTailFirst{Travel::Backward, 2.0, 0.5}, kQuickTailFirst{Travel::Backward, 0.1, 0.5},
+    kNoseFirst{Travel::Forward, 0.5, 0.0};
+
+// When the drive from the first station to the second ends, with or without a load.
+double arrives_s(const Direction& direction, bool loaded, const std::function<void(Scenario&, Layout&)>& change) {
+  Layout layout = corner();
+  layout.segments[0].travel = direction.travel;
+  Scenario scenario = scenario_on(layout);
+  VehicleType& type = scenario.vehicle_types[0];
+  type.drive.speed_mps = direction.forward_mps;
+  type.reverse_speed_mps = direction.reverse_mps;
+  if (direction.travel == Travel::Backward) scenario.agvs[0].heading = {-1.0, 0.0};
+  scenario.horizon = seconds(400.0);
+  if (loaded) scenario.agvs[0].transports = {{StationId{0U}, StationId{1U}, Duration{}}};
+  change(scenario, layout);
+  scenario.map = std::make_shared<const LogicalMap>(layout);
+  const Driven driven =
+      loaded ? drive(scenario, {{FP_CALL_PICK, FP_HERE}, {FP_CALL_MOVE, 0}}) : drive(scenario, {{FP_CALL_MOVE, 0}});
+  return driven.done_s.empty() ? -1.0 : driven.done_s.back();
+}
+
+// What holds for the one direction holds for the other, also if the vehicle is faster backward than forward.
+void expect_as_nose_first(bool loaded, const std::function<void(Scenario&, Layout&)>& change) {
+  const double nose_first_s = arrives_s(kNoseFirst, loaded, change);
+  EXPECT_GT(nose_first_s, 0.0);
+  EXPECT_NE(nose_first_s, arrives_s(kNoseFirst, loaded, [](Scenario&, Layout&) {})) << "the change slows it";
+  EXPECT_EQ(arrives_s(kTailFirst, loaded, change), nose_first_s);
+  EXPECT_EQ(arrives_s(kQuickTailFirst, loaded, change), nose_first_s);
+}
+
+TEST(DrivingBackward, MayBeFasterThanForward) {
+  EXPECT_NEAR(arrives_s(kQuickTailFirst, false, [](Scenario&, Layout&) {}), 1.0 + 0.5 + 19.25, 1e-9);
+}
+
+TEST(DrivingBackward, IsSlowedByALoad) {
+  expect_as_nose_first(true, [](Scenario& scenario, Layout&) { scenario.vehicle_types[0].loaded.speed_share = 0.5; });
+  expect_as_nose_first(true,
+                       [](Scenario& scenario, Layout&) { scenario.vehicle_types[0].loaded.acceleration_share = 0.5; });
+}
+
+TEST(DrivingBackward, IsFasterOrSlowerByTheDeviation) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    expect_as_nose_first(false, [&](Scenario& scenario, Layout&) {
+      scenario.seed = seed;
+      scenario.vehicle_types[0].speed_deviation = 0.3;
+    });
+  }
+}
+
+TEST(DrivingBackward, KeepsTheLimitOfTheLaneAndOfBends) {
+  expect_as_nose_first(false, [](Scenario&, Layout& layout) { layout.segments[0].speed_limit_mps = 0.2; });
+  expect_as_nose_first(false, [](Scenario& scenario, Layout& layout) {
+    layout.segments[0].control_points_m = {{4.0, 2.0}, {6.0, -2.0}};
+    for (Station& station : layout.stations) station.turning = true;
+    scenario.vehicle_types[0].lateral_mps2 = 0.01;
+  });
+}
+
+// A vehicle that rolls through a station enters the next lane at the speed of its direction.
+TEST(DrivingBackward, RollsThroughStationsAtItsOwnSpeed) {
+  const auto rolls = [](const Direction& direction) {
+    Layout layout = corner();
+    layout.stations[2].position_m = {20.0, 0.0};
+    for (Segment& segment : layout.segments) segment.travel = direction.travel;
+    Scenario scenario = scenario_on(layout);
+    scenario.vehicle_types[0].drive.speed_mps = direction.forward_mps;
+    scenario.vehicle_types[0].reverse_speed_mps = direction.reverse_mps;
+    if (direction.travel == Travel::Backward) scenario.agvs[0].heading = {-1.0, 0.0};
+    std::vector<double> done_s;
+    std::size_t moves = 0;
+    test::simulate_with(scenario,
+                        [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& event) {
+                          if (event.kind == FP_EVENT_ACTION_DONE)
+                            done_s.push_back(static_cast<double>(event.now_ns) * 1e-9);
+                          if (event.kind != FP_EVENT_START || moves++ > 0) return;
+                          EXPECT_EQ(host.move(c, 0), FP_OK);
+                          EXPECT_EQ(host.move(c, 1), FP_OK);
+                        });
+    return done_s;
+  };
+  const std::vector<double> nose_first_s = rolls(kNoseFirst);
+  EXPECT_EQ(nose_first_s.size(), 2U);
+  EXPECT_EQ(rolls(kTailFirst), nose_first_s);
+  EXPECT_EQ(rolls(kQuickTailFirst), nose_first_s);
 }
 
 TEST(DrivingBackward, StopsWhereTheOtherEndGoesFirst) {

@@ -111,6 +111,27 @@ TEST(Timetable, KnowsTheQuickestWaysInWhateverOrderItIsAsked) {
   }
 }
 
+// Backward at 0.5 m/s, be it less or more than forward; the lane's own limit holds as well.
+TEST(Timetable, DrivesALaneAtTheSpeedOfItsDirection) {
+  Layout layout;
+  layout.stations = {{"a", {0.0, 0.0}}, {"b", {10.0, 0.0}}};
+  layout.segments.push_back({"a-b", StationId{0U}, StationId{1U}});
+  layout.segments[0].travel = Travel::Backward;
+  const auto arrives = [&](double forward_mps, double reverse_mps) {
+    VehicleType type;
+    type.drive.speed_mps = forward_mps;
+    type.reverse_speed_mps = reverse_mps;
+    const LogicalMap map(layout);
+    return Timetable(map, type).from(StationId{0U}).at(StationId{1U}).arrives;
+  };
+  EXPECT_EQ(arrives(2.0, 0.5), arrives(0.5, 0.0));
+  EXPECT_EQ(arrives(0.1, 0.5), arrives(0.5, 0.0));
+  const Duration unlimited = arrives(0.1, 0.5);
+  layout.segments[0].speed_limit_mps = 0.2;
+  EXPECT_EQ(arrives(0.1, 0.5), arrives(0.2, 0.0));
+  EXPECT_GT(arrives(0.1, 0.5), unlimited);
+}
+
 TEST(Timetable, AnswersTheSameAfterItHasForgotten) {
   const VehicleType type;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {

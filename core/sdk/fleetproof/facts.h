@@ -21,8 +21,8 @@ typedef struct fp_agv {
   /* Since minor 1: the size with a load, and the share by which a drive may be faster or slower. */
   double loaded_length_m, loaded_width_m;
   double speed_deviation;
-  /* Since minor 2: the centre of the footprint, ahead of the reference point; the top speed of driving backward, if it
-   * is lower than speed_mps (0, or more: it is not); and the number of its vehicle type, for permissions. */
+  /* Since minor 2: the centre of the footprint, ahead of the reference point; the top speed of driving backward, which
+   * may be lower or higher than speed_mps (0: as forward); and the number of its vehicle type, for permissions. */
   double centre_ahead_m;
   double reverse_speed_mps;
   uint32_t vehicle_type;
