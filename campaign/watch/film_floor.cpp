@@ -110,7 +110,10 @@ void add_floor(web::Film& film, const Scenario& scenario) {
 }
 
 void add_motion(web::Film& film, const Scenario& scenario, std::span<const Piece> pieces) {
-  for (const Piece& piece : pieces) film.pieces.push_back(motion_of(film, scenario, piece));
+  for (const Piece& piece : pieces) {
+    // A page counts in microseconds: there a shorter piece takes no time, and the next one begins at its pose.
+    if (film_us(piece.begin) < film_us(piece.end)) film.pieces.push_back(motion_of(film, scenario, piece));
+  }
 }
 
 }  // namespace fleetproof

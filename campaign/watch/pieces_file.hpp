@@ -10,13 +10,16 @@
 
 namespace fleetproof {
 
-// Keeps the pieces of all bodies of a run, as they truly were.
+// Keeps the pieces of all bodies of a run, as they truly were. Every kept piece takes time: one that ended at the
+// instant at which it began shows no pose that the pieces around it do not show.
 class PieceKeeper final : public TraceSink {
  public:
   // Requires: the map outlives the keeper, and is equal to the map of the run.
   explicit PieceKeeper(const LogicalMap& map) : map_(map) {}
   void record(const TraceRecord&, std::string_view) override {}
-  void piece_ended(const Piece& piece) override { pieces_.push_back(with_curve_of(map_, piece)); }
+  void piece_ended(const Piece& piece) override {
+    if (piece.end > piece.begin) pieces_.push_back(with_curve_of(map_, piece));
+  }
   // In the order in which they ended; the pieces of one body follow each other.
   const std::vector<Piece>& pieces() const { return pieces_; }
 

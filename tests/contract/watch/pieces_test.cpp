@@ -276,5 +276,50 @@ TEST_F(Pieces, GiveThePosesAndTheSmallestClearanceOfARun) {
   EXPECT_GT(off.backward, 20);
 }
 
+// ---- no piece is empty
+
+class EmptyPieces : public test::ProgramTest {
+ protected:
+  // A move that a fault meets at the instant at which it begins.
+  void write_figure4(const std::string& name, const Json& faults) const {
+    Json scenario = Json::parse(read(test::source("tests/scenarios/figure4.json")));
+    scenario["faults"] = faults;
+    write(name, scenario.dump());
+  }
+  void expect_no_empty_piece(const std::string& scenario, const std::string& agent) const {
+    SCOPED_TRACE(scenario);
+    const auto simulated = run("simulate '" + scenario + "' --agent " + agent + " --pieces p.json --html p.html");
+    ASSERT_TRUE(test::has_verdict(simulated)) << simulated.err;
+    const Json told = Json::parse(read(path("p.json")));
+    for (const Json& body : told["bodies"]) {
+      std::int64_t until_ns = body["pieces"][0]["begin_ns"];
+      for (const Json& piece : body["pieces"]) {
+        EXPECT_GE(piece["begin_ns"], until_ns) << "later only if the operator has taken it from the floor";
+        EXPECT_GT(piece["end_ns"], piece["begin_ns"]) << piece["manner"];
+        until_ns = piece["end_ns"];
+        const Motion motion(piece);
+        if (motion.manner == "rest") continue;
+        EXPECT_FALSE(motion.phases.empty()) << motion.manner << " at " << motion.begin_ns;
+        EXPECT_GT(motion.way(double(motion.end_ns - motion.begin_ns) * 1e-9), 0.0) << motion.manner;
+      }
+    }
+    const std::string page = read(path("p.html")), begin = "<script type=\"application/json\" id=\"film\">";
+    const auto from = page.find(begin) + begin.size();
+    const Json film = Json::parse(page.substr(from, page.find("</script>", from) - from));
+    EXPECT_FALSE(film["pieces_us_um_urad"].empty());
+    for (const Json& piece : film["pieces_us_um_urad"]) EXPECT_LT(piece[2], piece[3]) << piece;
+  }
+};
+
+TEST_F(EmptyPieces, AreNotWritten) {
+  write_figure4("breakdown.json", {{{"kind", "breakdown"}, {"agv", "A"}, {"at_s", 2}, {"lasts_s", 3}}});
+  write_figure4("stop.json", {{{"kind", "protective-stop"}, {"agv", "E"}, {"at_s", 2}, {"lasts_s", 1e-9}}});
+  for (const std::string scenario : {"breakdown.json", "stop.json"}) expect_no_empty_piece(scenario, "scripted");
+  for (const std::string agent : {"hull-lock", "reckless"}) {
+    for (const std::string scenario : {"frozen_while_dropping", "restarted_while_dropping"})
+      expect_no_empty_piece(test::source("tests/scenarios/" + scenario + ".json"), agent);
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof::pieces_test
