@@ -221,14 +221,19 @@ struct Meeting {
   NearestPoints nearest(bool overlap) const {
     return overlap ? NearestPoints(a.body, b.body, Views(a.body, b.body)) : NearestPoints(a.body, b.body);
   }
+  double highest_mps(const NearestPoints& pairs) const {
+    double square = 0.0;
+    for (const PointPair& pair : pairs) square = std::max(square, closing_mps(pair).squaredNorm());
+    return std::sqrt(square);
+  }
   // No point that both bodies share moves faster, one against the other.
-  double most_mps() const {
+  double most_mps(const Views& views) const {
     const double turning_rad_s = a.twist.turning_rad_s - b.twist.turning_rad_s;
     const auto within = [&](const OrientedRectangle& body, const View& view) {
       const Vec2 velocity = closing_mps({body.centre_m, body.centre_m});
       return view.most_mps({velocity.dot(body.heading), cross(body.heading, velocity)}, turning_rad_s);
     };
-    return std::min(within(a.body, View(a.body, b.body)), within(b.body, View(b.body, a.body)));
+    return std::min(within(a.body, views.from_first), within(b.body, views.from_second));
   }
 };
 
@@ -290,17 +295,10 @@ class FastestInstant {
   }
 
  private:
-  // The bodies at an instant, and a speed that no pair of nearest points exceeds. 0: the clearance is not below the
-  // limit.
-  struct Probe {
-    Meeting meeting;
-    bool overlap;
-    double most_mps;
-  };
   struct Sample {
     SimTime t;
     Interval around;  // its neighbours
-    double most_mps;  // as in Probe, from the speeds alone
+    double most_mps;  // no pair of nearest points is faster, whatever the places of the bodies
   };
 
   SimTime change_after(SimTime t, SimTime end) const {
@@ -332,9 +330,8 @@ class FastestInstant {
     const Sample* fastest = nullptr;
     const auto consider = [&](const Sample& sample) {
       if (sample.most_mps < fastest_mps_) return;
-      const Probe probe = probed(sample.t);
-      if (probe.most_mps == 0.0 || probe.most_mps < fastest_mps_) return;
-      const double here_mps = speed_mps(probe);
+      const double here_mps = speed_at(sample.t, fastest_mps_);
+      if (here_mps == 0.0) return;
       if (here_mps < fastest_mps_ || (here_mps == fastest_mps_ && fastest != nullptr && &sample >= fastest)) return;
       fastest_mps_ = here_mps;
       fastest = &sample;
@@ -348,20 +345,17 @@ class FastestInstant {
     around_ = fastest->around;
   }
 
-  Probe probed(SimTime t) {
+  // Of the fastest pair of nearest points. 0 if the clearance is not below the limit, or if no pair can be faster than
+  // `than_mps`.
+  double speed_at(SimTime t, double than_mps = 0.0) {
     ++count_.distance;
     const Meeting meeting(a_, b_, t);
     const double clearance = clearance_m(meeting.a.body, meeting.b.body);
-    if (clearance >= below_m_) return {meeting, false, 0.0};
-    const bool overlap = clearance <= 0.0;
-    return {meeting, overlap, overlap ? meeting.most_mps() + kRounding_mps : std::numeric_limits<double>::infinity()};
-  }
-
-  static double speed_mps(const Probe& probe) {
-    double square = 0.0;
-    for (const PointPair& pair : probe.meeting.nearest(probe.overlap))
-      square = std::max(square, probe.meeting.closing_mps(pair).squaredNorm());
-    return std::sqrt(square);
+    if (clearance >= below_m_) return 0.0;
+    if (clearance > 0.0) return meeting.highest_mps(NearestPoints(meeting.a.body, meeting.b.body));
+    const Views views(meeting.a.body, meeting.b.body);
+    if (than_mps > 0.0 && meeting.most_mps(views) + kRounding_mps < than_mps) return 0.0;
+    return meeting.highest_mps(NearestPoints(meeting.a.body, meeting.b.body, views));
   }
 
   // To the nanosecond, between the neighbours of the fastest sample.
@@ -379,21 +373,13 @@ class FastestInstant {
     }
   }
 
-  // Whether the first of two instants is the slower one; both are offered. If the bound of one is below the speed of
-  // the other, its own speed does not matter.
+  // Whether the first of two instants is the slower one; both are offered.
   bool is_slower(SimTime low, SimTime high) {
-    const Probe at_low = probed(low), at_high = probed(high);
-    const bool low_first = at_low.most_mps > at_high.most_mps;
-    double low_mps = 0.0, high_mps = 0.0;
-    if (low_first) low_mps = speed_of(at_low);
-    if (!low_first || at_high.most_mps >= low_mps) high_mps = speed_of(at_high);
-    if (!low_first && at_low.most_mps >= high_mps) low_mps = speed_of(at_low);
+    const double low_mps = speed_at(low), high_mps = speed_at(high);
     offer(low, low_mps);
     offer(high, high_mps);
     return low_mps < high_mps;
   }
-
-  static double speed_of(const Probe& probe) { return probe.most_mps > 0.0 ? speed_mps(probe) : 0.0; }
 
   void offer(SimTime t, double here_mps) {
     if (here_mps <= fastest_mps_) return;
