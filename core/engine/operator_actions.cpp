@@ -24,17 +24,18 @@ bool may_drive_off(const LaneRules& rules, const RecoveryPlace& place) {
 
 }  // namespace
 
-std::vector<RecoveryPlace> recovery_places(const LaneRules& rules, StationId station, const Lane* stopped_on,
-                                           const Pose& stood) {
+std::optional<RecoveryPlace> recovery_place(const LaneRules& rules, StationId station, const Lane* stopped_on,
+                                            const Pose& stood, const std::function<bool(const RecoveryPlace&)>& suits) {
   const StationId first = stopped_on != nullptr ? stopped_on->to : station;
   const Pose first_pose = stopped_on != nullptr ? arrival(*stopped_on) : stood;
-  std::vector<RecoveryPlace> places;
-  for (const ShortestWay& way : shortest_ways(rules.map, first)) {
+  std::optional<RecoveryPlace> found;
+  visit_shortest_ways(rules.map, first, nullptr, [&](const ShortestWay& way) {
     RecoveryPlace place{way.to, way.last == nullptr ? first_pose : arrival(*way.last)};
     place.pose.heading = rules.map.station(way.to).heading.value_or(place.pose.heading);
-    if (may_drive_off(rules, place)) places.push_back(place);
-  }
-  return places;
+    if (may_drive_off(rules, place) && suits(place)) found = place;
+    return !found;
+  });
+  return found;
 }
 
 namespace {
@@ -118,12 +119,12 @@ void OperatorActions::look_for_place(AgvId agv) {
   const Footprint footprint = run_.type_of(agv).footprint_with(run_.is_loaded(agv));
   const double margin_m = std::max(0.0, run_.scenario.law.safety_distance_m - kBuiltToTheLimit_m);
   const LaneRules rules{*run_.scenario.map, run_.type_of(agv).name, run_.is_loaded(agv)};
-  const auto places = recovery_places(rules, status.station, status.stopped_on, run_.pose_now(agv));
-  const auto place = std::ranges::find_if(places, [&](const RecoveryPlace& p) {
+  const auto suits = [&](const RecoveryPlace& p) {
     const OrientedRectangle body = placed(footprint, p.pose);
     return run_.world.stays_free(body, margin_m, run_.now) && !is_on_the_way(body, margin_m);
-  });
-  if (place == places.end()) return run_.queue.push(run_.now + kBodyTriesAgain, agv, Event::Kind::BodyAppears);
+  };
+  const auto place = recovery_place(rules, status.station, status.stopped_on, run_.pose_now(agv), suits);
+  if (!place) return run_.queue.push(run_.now + kBodyTriesAgain, agv, Event::Kind::BodyAppears);
   run_.world.forget_touches(agv);
   ports_.messenger.forget_path(agv);
   ports_.sensor.forget(agv);

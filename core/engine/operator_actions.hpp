@@ -1,6 +1,8 @@
 // The operator: when it is called, when it comes, and where it sets an AGV down.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/engine/ports.hpp"
@@ -15,14 +17,15 @@ struct RecoveryPlace {
   Pose pose;
 };
 
-// In order of preference. The first place is the station at which the AGV stood, with its heading there; if the AGV
-// stood on a lane (`stopped_on`; null: on none), it is the end of that lane. The other agents expect the AGV at this
-// place. Then come all stations to which lanes lead from there, by length of the way; equals by number. The operator
-// pushes the AGV, so that no permission counts on the way. The heading is the one that the station demands, otherwise
-// the one with which the AGV would have arrived. Places with lanes are left out if the rules let such an AGV drive off
-// by none.
-std::vector<RecoveryPlace> recovery_places(const LaneRules& rules, StationId station, const Lane* stopped_on,
-                                           const Pose& stood);
+// The first place that suits, in order of preference; none if no place does. The first place of all is the station at
+// which the AGV stood, with its heading there; if the AGV stood on a lane (`stopped_on`; null: on none), it is the end
+// of that lane. The other agents expect the AGV at this place. Then come all stations to which lanes lead from there,
+// by length of the way; equals by number. The operator pushes the AGV, so that no permission counts on the way. The
+// heading is the one that the station demands, otherwise the one with which the AGV would have arrived. Places with
+// lanes are left out if the rules let such an AGV drive off by none. It seeks no farther than it has to: most AGVs are
+// set down near where they stood.
+std::optional<RecoveryPlace> recovery_place(const LaneRules& rules, StationId station, const Lane* stopped_on,
+                                            const Pose& stood, const std::function<bool(const RecoveryPlace&)>& suits);
 
 // The operator: when it is called, when it comes, and what it does then. What it may do stands at OperatorSetup.
 class OperatorActions {

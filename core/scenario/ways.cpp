@@ -41,6 +41,15 @@ class Reversed {
 
 std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, StationId until, const LaneRules* rules) {
   std::vector<ShortestWay> ways;
+  visit_shortest_ways(map, from, rules, [&](const ShortestWay& way) {
+    ways.push_back(way);
+    return way.to != until;
+  });
+  return ways;
+}
+
+void visit_shortest_ways(const LogicalMap& map, StationId from, const LaneRules* rules,
+                         const std::function<bool(const ShortestWay&)>& visit) {
   std::vector<const Lane*> first(map.station_count(), nullptr);
   std::vector<ReachedStation<double>> reached;
   NearestFirst open;
@@ -53,10 +62,8 @@ std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, St
     const auto& [length_m, next_best, index] = reached[station.index()];
     const Lane* last = index == kNoLane ? nullptr : &map.lanes()[index];
     if (last != nullptr) first[station.index()] = last->from == from ? last : first[last->from.index()];
-    ways.push_back({station, length_m, first[station.index()], last});
-    return station != until;
+    return visit({station, length_m, first[station.index()], last});
   });
-  return ways;
 }
 
 std::vector<double> lengths_to(const LogicalMap& map, StationId goal) {

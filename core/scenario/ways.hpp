@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -66,6 +67,10 @@ struct ShortestWay {
 // whatever its heading.
 std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, StationId until = {},
                                        const LaneRules* rules = nullptr);
+
+// The same ways, one after the other, until `visit` returns false: nothing is sought beyond.
+void visit_shortest_ways(const LogicalMap& map, StationId from, const LaneRules* rules,
+                         const std::function<bool(const ShortestWay&)>& visit);
 
 // The lengths of the shortest ways from all stations to this one, by station; infinity where none leads to it.
 std::vector<double> lengths_to(const LogicalMap& map, StationId goal);

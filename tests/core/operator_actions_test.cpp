@@ -96,6 +96,18 @@ TEST(OperatorActionsPart, RestartsAnAgentAtAStandstillAndNotWhileWorkIsUnderWay)
   EXPECT_EQ(world.trace.of(TraceKind::OperatorAssists).at(0).a, static_cast<std::uint64_t>(Assist::Standstill));
 }
 
+// All places, in order of preference: none suits.
+std::vector<RecoveryPlace> recovery_places(const LaneRules& rules, StationId station, const Lane* stopped_on,
+                                           const Pose& stood) {
+  std::vector<RecoveryPlace> places;
+  const auto found = recovery_place(rules, station, stopped_on, stood, [&](const RecoveryPlace& place) {
+    places.push_back(place);
+    return false;
+  });
+  EXPECT_FALSE(found);
+  return places;
+}
+
 std::vector<std::uint32_t> stations_of(const std::vector<RecoveryPlace>& places) {
   std::vector<std::uint32_t> stations;
   for (const RecoveryPlace& place : places) stations.push_back(place.station.value);
@@ -111,6 +123,18 @@ TEST(Recovery, AnAgvThatStoodComesBackToItsStationWithItsHeading) {
   EXPECT_EQ(places[1].pose.heading, Vec2(-1.0, 0.0)) << "as it would arrive from station 1";
   EXPECT_EQ(places[3].pose.heading, Vec2::UnitX());
   EXPECT_EQ(places[3].pose.position_m, map->station(StationId{3U}).position_m);
+}
+
+TEST(Recovery, NoPlaceIsLookedAtBeyondTheFirstThatSuits) {
+  const auto map = test::row_map(40);
+  std::size_t looked_at = 0;
+  const auto found = recovery_place({*map, ""}, StationId{1U}, nullptr, {}, [&](const RecoveryPlace& place) {
+    ++looked_at;
+    return place.station == StationId{2U};
+  });
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->station, StationId{2U});
+  EXPECT_EQ(looked_at, 3U) << "stations 1, 0 and 2";
 }
 
 TEST(Recovery, AnAgvThatStoppedOnALaneIsExpectedAtItsEnd) {
