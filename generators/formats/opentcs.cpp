@@ -149,7 +149,7 @@ class ModelReader {
     if (type == "REPORT_POSITION") changed_.add(kReportPosition, xml_.place(point), station.name);
     stations_.emplace(station.name, StationId{layout_.stations.size()});
     layout_.stations.push_back(std::move(station));
-    points_.push_back(point);
+    nodes_.points.push_back(point);
   }
 
   // In degrees, counterclockwise from the x axis; NaN: none.
@@ -200,7 +200,7 @@ class ModelReader {
     shapes_.bend(drawing_.paths.at(segment.name), layout_, segment);
     if (!speeds_.say_travel(path, segment)) return changed_.add(kWithoutVelocity, xml_.place(path), segment.name);
     layout_.segments.push_back(std::move(segment));
-    paths_.push_back(path);
+    nodes_.paths.push_back(path);
   }
 
   void note_shapes(const pugi::xml_node& model) {
@@ -217,7 +217,7 @@ class ModelReader {
 
   StoredLengths stored_m() const {
     StoredLengths lengths_m;
-    for (const auto& path : paths_) {
+    for (const auto& path : nodes_.paths) {
       double stored_mm = 0.0;
       const bool is_read = read_number(path.attribute("length").value(), stored_mm);
       lengths_m.push_back(is_read ? std::optional(stored_mm / 1000.0) : std::nullopt);
@@ -229,7 +229,7 @@ class ModelReader {
   void join_points(const pugi::xml_node& model) {
     const auto lengths_m = stored_m();
     if (const auto bad = spot_with_length(layout_, lengths_m)) {
-      const auto& [path, segment] = std::pair(paths_[*bad], layout_.segments[*bad]);
+      const auto& [path, segment] = std::pair(nodes_.paths[*bad], layout_.segments[*bad]);
       const auto name = [&](StationId end) { return in_quotes(layout_.stations[end.index()].name); };
       xml_.refuse(path, fmt::format("<path> {}: it has no length, because its points {} and {} are on one spot{}; move "
                                     "them apart, or leave the path out",
@@ -244,8 +244,8 @@ class ModelReader {
       for (std::size_t i = 0; i < left.size(); ++i) nodes[i] = nodes[left[i]];
       nodes.resize(left.size());
     };
-    keep(points_, joined.stations);
-    keep(paths_, joined.segments);
+    keep(nodes_.points, joined.stations);
+    keep(nodes_.paths, joined.segments);
     std::erase_if(headed_, [&](const auto& name) { return !layout_.stations[stations_.at(name).index()].heading; });
   }
 
@@ -352,8 +352,8 @@ class ModelReader {
     double index = 0.0;
     const auto digits = pointer.substr(std::min(pointer.size(), pointer.find('/', 1) + 1));
     if (!read_number(digits.substr(0, digits.find('/')), index)) return model;
-    if (of_segment) return paths_[static_cast<std::size_t>(index)];
-    return pointer.starts_with("/stations/") ? points_[static_cast<std::size_t>(index)] : model;
+    if (of_segment) return nodes_.paths[static_cast<std::size_t>(index)];
+    return pointer.starts_with("/stations/") ? nodes_.points[static_cast<std::size_t>(index)] : model;
   }
 
   void refuse_problems(const pugi::xml_node& model) {
@@ -368,7 +368,7 @@ class ModelReader {
     std::vector<std::string> unreadable, wrong;
     std::string example;
     const auto lengths_m = stored_m();
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
+    for (std::size_t i = 0; i < nodes_.paths.size(); ++i) {
       const auto& name = layout_.segments[i].name;
       const double length_m = segment_curve(layout_, layout_.segments[i]).length_m();
       if (!lengths_m[i]) {
@@ -385,7 +385,7 @@ class ModelReader {
       warn(model,
            fmt::format("{} of {} paths are stored with another length than their geometry has, which counts ({}; "
                        "the first with {})",
-                       wrong.size(), paths_.size(), name_list(wrong), example));
+                       wrong.size(), nodes_.paths.size(), name_list(wrong), example));
   }
 
   XmlText xml_;
@@ -397,8 +397,9 @@ class ModelReader {
   OpenTcsShapes shapes_;
   OpenTcsSpeeds speeds_{xml_};
   Layout layout_;
-  std::vector<pugi::xml_node> points_;                  // by station
-  std::vector<pugi::xml_node> paths_;                   // by segment, as long as no two of them are merged
+  struct {
+    std::vector<pugi::xml_node> points, paths;  // by station, and by segment as long as no two of them are merged
+  } nodes_;
   std::vector<std::string> headed_;                     // names of points
   std::map<std::string, std::set<std::string>> taken_;  // names, by element
   std::set<std::string_view> members_;                  // names of all that a block may hold
