@@ -142,6 +142,8 @@ struct ChosenLayout {
 // Those of the file and of all its origins.
 std::vector<JsonReader> layouts_of(const JsonReader& root) {
   const auto origins = root.find("origins");
+  if (!origins && !root.find("layouts"))
+    root.refuse("has neither \"layouts\" nor \"origins\"; expected a file in the Layout Interchange Format (LIF)");
   if (!origins) return root.at("layouts").items();
   std::vector<JsonReader> all;
   if (const auto layouts = root.find("layouts")) all = layouts->items();

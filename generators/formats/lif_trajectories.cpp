@@ -75,6 +75,8 @@ void LifTrajectories::bend(const std::vector<JsonReader>& rules, const Vec2& fro
     std::ranges::reverse(pieces.control_points_m);
     turned_.add(*trajectory, segment.name);
   }
+  if (const auto fault = fault_of_ends(pieces.begin_m, pieces.end_m, from_m, to_m, "node"); !fault.empty())
+    trajectory->refuse(fault);
   if (pieces.off_m > 0.0)
     (pieces.off_m > kNurbsByCubics_m ? rounded_ : replaced_).add(*trajectory, segment.name, pieces.off_m);
   const double beside_m = miss_m(pieces.begin_m, pieces.end_m);

@@ -12,7 +12,7 @@ namespace fleetproof {
 class LifTrajectories {
  public:
   // Draws the segment, which leads from `from_m` to `to_m`, as the first of these rules says that has a trajectory.
-  // Throws InputError if a trajectory is no NURBS curve.
+  // Throws InputError if a trajectory is no NURBS curve, or begins or ends far beside its node (kFarBeside_m).
   void bend(const std::vector<JsonReader>& rules, const Vec2& from_m, const Vec2& to_m, Segment& segment);
 
   // Adds what was guessed or changed, one sentence for each kind of thing.

@@ -93,7 +93,7 @@ struct CubicPiece {
 };
 
 // Adds the pieces of a span, halved until they are near the curve in place and heading.
-void add_pieces(const Nurbs& n, std::size_t span, double low, double high, int halves_left,
+void add_pieces(const Nurbs& n, const NearCurve& most, std::size_t span, double low, double high, int halves_left,
                 std::vector<CubicPiece>& pieces) {
   const CurvePoint from = place_at(n, span, low), to = place_at(n, span, high);
   const CubicPiece piece(from, to, high - low);
@@ -101,16 +101,15 @@ void add_pieces(const Nurbs& n, std::size_t span, double low, double high, int h
   for (const double t : {0.25, 0.5, 0.75}) {
     const CurvePoint place = place_at(n, span, low + (high - low) * t);
     const Vec2 along = piece.velocity(t).stableNormalized(), truth = place.velocity.stableNormalized();
-    near = near && (piece.point_m(t) - place.point_m).norm() < kNurbsByCubics_m &&
-           (along - truth).norm() < kNurbsByCubics_rad;
+    near = near && (piece.point_m(t) - place.point_m).norm() < most.m && (along - truth).norm() < most.rad;
   }
   if (near || halves_left == 0) {
     if ((to.point_m - from.point_m).norm() > kNurbsPoint_m) pieces.push_back(piece);
     return;
   }
   const double middle = 0.5 * (low + high);
-  add_pieces(n, span, low, middle, halves_left - 1, pieces);
-  add_pieces(n, span, middle, high, halves_left - 1, pieces);
+  add_pieces(n, most, span, low, middle, halves_left - 1, pieces);
+  add_pieces(n, most, span, middle, high, halves_left - 1, pieces);
 }
 
 // Where two pieces meet, they take the direction between their own, so that rounding makes no kink. Corners remain.
@@ -126,11 +125,12 @@ void smooth_joints(std::vector<CubicPiece>& pieces) {
   }
 }
 
-std::vector<CubicPiece> pieces_along(const Nurbs& n) {
+std::vector<CubicPiece> pieces_along(const Nurbs& n, const NearCurve& most) {
   constexpr int kMostHalves = 8;
   std::vector<CubicPiece> pieces;
   for (std::size_t span = n.degree; span < n.points_m.size(); ++span) {
-    if (n.knots[span] < n.knots[span + 1]) add_pieces(n, span, n.knots[span], n.knots[span + 1], kMostHalves, pieces);
+    if (n.knots[span] < n.knots[span + 1])
+      add_pieces(n, most, span, n.knots[span], n.knots[span + 1], kMostHalves, pieces);
   }
   smooth_joints(pieces);
   return pieces;
@@ -158,7 +158,23 @@ std::string fault_of(const Nurbs& n) {
   return "";
 }
 
-CubicPieces cubic_pieces(const Nurbs& n) {
+std::string fault_of_ends(const Vec2& begin_m, const Vec2& end_m, const Vec2& from_m, const Vec2& to_m,
+                          std::string_view point) {
+  // The check of the layout names a point that lies on no map.
+  constexpr double kBeyondAnyMap_m = 1e8;
+  if (!(std::max(from_m.cwiseAbs().maxCoeff(), to_m.cwiseAbs().maxCoeff()) < kBeyondAnyMap_m)) return "";
+  const double before_m = (begin_m - from_m).norm(), behind_m = (end_m - to_m).norm();
+  if (before_m <= kFarBeside_m && behind_m <= kFarBeside_m) return "";
+  const bool begins = before_m > behind_m;
+  const Vec2 &at_m = begins ? begin_m : end_m, &there_m = begins ? from_m : to_m;
+  return fmt::format(
+      "the curve {} at ({:g}, {:g}) m, {:.3f} m beside its {} at ({:g}, {:g}) m, and no AGV can drive from one to the "
+      "other; give the curve in the coordinates of the {}s, or correct the {}",
+      begins ? "begins" : "ends", at_m.x(), at_m.y(), std::max(before_m, behind_m), point, there_m.x(), there_m.y(),
+      point, point);
+}
+
+CubicPieces cubic_pieces(const Nurbs& n, const NearCurve& near) {
   if (n.degree == 1) {
     auto way = round_corners(n.points_m);
     return {n.points_m.front(), n.points_m.back(), std::move(way.control_points_m), way.off_m};
@@ -169,8 +185,8 @@ CubicPieces cubic_pieces(const Nurbs& n) {
     pieces.control_points_m.assign(cubic.begin() + 1, cubic.end() - 1);
     return pieces;
   }
-  const auto cubics = pieces_along(n);
-  pieces.off_m = kNurbsByCubics_m;
+  const auto cubics = pieces_along(n, near);
+  pieces.off_m = near.m;
   if (cubics.empty()) return pieces;
   pieces.begin_m = cubics.front().begin_m;
   pieces.end_m = cubics.back().end_m;

@@ -17,4 +17,11 @@ struct RoundedWay {
 // 168 degrees, no arc is wide enough, and the corner remains, which the check of a layout refuses.
 RoundedWay round_corners(const std::vector<Vec2>& points_m);
 
+// The control points of cubic pieces along the arc from the first to the last point that passes `via_m`; none if the
+// three lie on one line. Each piece turns by at most 45 degrees, so that it is within 5e-6 radii of the circle.
+std::vector<Vec2> arc_through(const Vec2& from_m, const Vec2& via_m, const Vec2& to_m);
+
+// Whether all points lie on the line between the outermost ones, in this order.
+bool is_straight(const std::vector<Vec2>& points_m);
+
 }  // namespace fleetproof

@@ -21,6 +21,7 @@
 #include "generators/formats/heading.hpp"
 #include "generators/formats/left_out.hpp"
 #include "generators/formats/nurbs.hpp"
+#include "generators/formats/rounded_way.hpp"
 #include "generators/map/layout_check.hpp"
 #include "generators/map/plant_size.hpp"
 #include "generators/text/json_value.hpp"
@@ -42,7 +43,8 @@ constexpr Topic kStyles{"{0} curves have a movestyle other than 0 ({1}); it is l
 constexpr Topic kCurveClasses{
     "{0} classes of curves are unknown here ({1}); curves with two control points are taken for "
     "cubic Bezier curves, others for straight lines"};
-constexpr Topic kNurbs{"{0} curves of the class NURBS6 ({1}) are taken for curves of degree 3 with equal weights"};
+constexpr Topic kUnfitWeights{
+    "{0} curves of the class NURBS6 have weights (z) that are not all positive ({1}); they are drawn with equal ones"};
 constexpr Topic kSharedCurveNames{"{0} curves have the name of another curve; they are called {1}"};
 constexpr Topic kCurvesOnTheSpot{"{0} curves lead from a point to itself and are left out ({1})"};
 constexpr Topic kUnknownBins{"{0} bins stand at no point of the map ({1}); they are left out"};
@@ -61,7 +63,13 @@ constexpr std::string_view kMapKeysRead[] = {"header", "advancedPointList", "adv
 constexpr std::string_view kPointKeysRead[] = {"className", "instanceName", "pos", "dir", "ignoreDir", "property"};
 constexpr std::string_view kCurveKeysRead[] = {"className",   "instanceName", "startPos",    "endPos",  "controlPos1",
                                                "controlPos2", "controlPos3",  "controlPos4", "property"};
+constexpr std::string_view kCurvesRead[] = {"StraightPath", "BezierPath", "DegenerateBezier", "ArcPath", "NURBS6"};
 constexpr std::string_view kControlKeys[] = {"controlPos1", "controlPos2", "controlPos3", "controlPos4"};
+
+// Maps have whole millimetres, and hundreds of curves: pieces are as near to them as arcs are to curves.
+constexpr NearCurve kNearDrawn{kBezierByArcs_m, kHeadingByArcs_rad};
+
+constexpr double kHeaviest = 1e6;  // weight of a control point; editors write 1 or 10
 
 bool listed_in(const auto& words, std::string_view word) { return std::ranges::find(words, word) != std::end(words); }
 
@@ -144,6 +152,9 @@ double number_at(const JsonReader& object, std::string_view key) {
   return found ? found->number() : 0.0;
 }
 
+// What an error is about: the name of a point or curve, or all of it if it has none.
+JsonReader named(const JsonReader& item) { return item.find("instanceName").value_or(item); }
+
 Vec2 pos_of(const JsonReader& pos) {
   if (pos.value().shape != JsonValue::Shape::Object) pos.refuse("expected a place {\"x\": ..., \"y\": ...}");
   return {number_at(pos, "x"), number_at(pos, "y")};
@@ -174,11 +185,6 @@ class SmapReader {
       if (!listed_in(kMapKeysRead, key)) things_.add(kMapParts, root.at(key).place(), key);
     }
     things_.tell(warnings_);
-    if (degenerate_.off_m > kOnTheNode_m)
-      warn(root.at("advancedCurveList"),
-           fmt::format("{} curves of the class DegenerateBezier are taken for cubic Bezier curves; two quadratic ones "
-                       "with the same control points would be up to {:.3f} m away",
-                       degenerate_.count, degenerate_.off_m));
     if (!beside_.names.empty())
       warn(root.at("advancedCurveList"),
            fmt::format(
@@ -294,7 +300,7 @@ class SmapReader {
     if (properties.number("movestyle").value_or(0.0) != 0.0) things_.add(kStyles, curve.place(), segment.name);
     if (const double limit_mps = properties.number("maxspeed").value_or(0.0); limit_mps > 0.0) {
       if (limit_mps < kSlowest)
-        curve.refuse(fmt::format("maxspeed is {}; expected {} m/s or more", limit_mps, kSlowest));
+        named(curve).refuse(fmt::format("maxspeed is {}; expected {} m/s or more", limit_mps, kSlowest));
       if (limit_mps <= kFastest) segment.speed_limit_mps = limit_mps;
     }
     properties.note_others({"direction", "movestyle", "maxspeed"}, kCurveDetails, things_);
@@ -307,11 +313,16 @@ class SmapReader {
 
   // The file says twice where a curve begins and ends.
   void compare_ends(const JsonReader& curve, const Segment& segment) {
-    const auto beside_m = [&](std::string_view key, StationId id) {
+    const auto place_of = [&](std::string_view key, const Vec2& point_m) {
       const auto place = curve.at(key).find("pos");
-      return place ? (pos_of(*place) - layout_.stations[id.index()].position_m).norm() : 0.0;
+      return place ? pos_of(*place) : point_m;
     };
-    const double most_m = std::max(beside_m("startPos", segment.from), beside_m("endPos", segment.to));
+    const Vec2 from_m = layout_.stations[segment.from.index()].position_m,
+               to_m = layout_.stations[segment.to.index()].position_m;
+    const Vec2 begin_m = place_of("startPos", from_m), end_m = place_of("endPos", to_m);
+    if (const auto fault = fault_of_ends(begin_m, end_m, from_m, to_m, "point"); !fault.empty())
+      named(curve).refuse(fault);
+    const double most_m = std::max((begin_m - from_m).norm(), (end_m - to_m).norm());
     if (most_m <= kOnTheNode_m) return;
     beside_.names.push_back(segment.name);
     beside_.most_m = std::max(beside_.most_m, most_m);
@@ -320,31 +331,58 @@ class SmapReader {
   void bend(const JsonReader& curve, Segment& segment) {
     const auto kind = text_at(curve, "className");
     if (kind == "StraightPath") return;
-    std::vector<Vec2> points_m;
+    std::vector<JsonReader> controls;
     for (const auto key : kControlKeys) {
-      if (const auto point = curve.find(key)) points_m.push_back(pos_of(*point));
+      if (const auto point = curve.find(key)) controls.push_back(*point);
     }
-    const Vec2 from_m = layout_.stations[segment.from.index()].position_m,
-               to_m = layout_.stations[segment.to.index()].position_m;
-    if (kind == "NURBS6" && points_m.size() == 4) {
-      things_.add(kNurbs, curve.place(), segment.name);
-      points_m.insert(points_m.begin(), from_m);
-      points_m.push_back(to_m);
-      segment.control_points_m =
-          cubic_pieces({3, {0, 0, 0, 0, 1, 2, 3, 3, 3, 3}, points_m, std::vector<double>(6, 1.0)}).control_points_m;
+    const std::size_t needed = kind == "NURBS6" ? 4 : kind == "ArcPath" ? 1 : 2;
+    const bool is_known = listed_in(kCurvesRead, kind);
+    if (!is_known) things_.add(kCurveClasses, curve.place(), kind);
+    if (is_known ? controls.size() < needed : controls.size() != needed) {
+      if (is_known)
+        named(curve).refuse(
+            fmt::format("a curve of the class {} needs {} control points; add {}", kind, needed,
+                        needed == 1 ? "controlPos1" : fmt::format("controlPos1 to controlPos{}", needed)));
       return;
     }
-    if (kind != "BezierPath" && kind != "DegenerateBezier") things_.add(kCurveClasses, curve.place(), kind);
-    if (points_m.size() != 2) {
-      if (kind == "BezierPath" || kind == "DegenerateBezier")
-        curve.refuse("the curve has not two control points; add controlPos1 and controlPos2");
-      return;
+    std::vector<Vec2> points_m{layout_.stations[segment.from.index()].position_m};
+    for (std::size_t i = 0; i < needed; ++i) points_m.push_back(pos_of(controls[i]));
+    points_m.push_back(layout_.stations[segment.to.index()].position_m);
+    if (is_straight(points_m)) return;
+    if (kind == "ArcPath") {
+      segment.control_points_m = arc_through(points_m[0], points_m[1], points_m[2]);
+    } else if (kind == "DegenerateBezier") {
+      segment.control_points_m = cubic_pieces(with_doubled_controls(points_m), kNearDrawn).control_points_m;
+    } else if (kind == "NURBS6") {
+      segment.control_points_m = cubic_pieces(nurbs_of(curve, points_m, segment.name), kNearDrawn).control_points_m;
+    } else {
+      segment.control_points_m = {points_m[1], points_m[2]};
     }
-    if (kind == "DegenerateBezier") {
-      ++degenerate_.count;
-      degenerate_.off_m = std::max(degenerate_.off_m, (from_m + to_m - points_m[0] - points_m[1]).norm() / 8.0);
-    }
-    segment.control_points_m = std::move(points_m);
+  }
+
+  // A Bezier curve of degree 5 in which each of two control points counts twice.
+  static Nurbs with_doubled_controls(const std::vector<Vec2>& p) {
+    return {5, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}, {p[0], p[1], p[1], p[2], p[2], p[3]}, std::vector<double>(6, 1.0)};
+  }
+
+  // Of degree 3, with the weights in z. The inner knots are as far apart as three legs each of the control polygon are
+  // long.
+  Nurbs nurbs_of(const JsonReader& curve, const std::vector<Vec2>& p, const std::string& name) {
+    Nurbs nurbs{3, {0, 0, 0, 0}, p, {}};
+    std::vector<double> spans;
+    for (std::size_t i = 0; i < 3; ++i)
+      spans.push_back((p[i + 1] - p[i]).norm() + (p[i + 2] - p[i + 1]).norm() + (p[i + 3] - p[i + 2]).norm());
+    const double all = spans[0] + spans[1] + spans[2];
+    for (const double knot : {spans[0] / all, (spans[0] + spans[1]) / all, 1.0, 1.0, 1.0, 1.0})
+      nurbs.knots.push_back(knot);
+    const auto weight = [](const std::optional<JsonReader>& at) { return at ? number_at(*at, "z") : 0.0; };
+    nurbs.weights.push_back(weight(curve.at("startPos").find("pos")));
+    for (const auto key : kControlKeys) nurbs.weights.push_back(weight(curve.find(key)));
+    nurbs.weights.push_back(weight(curve.at("endPos").find("pos")));
+    if (std::ranges::all_of(nurbs.weights, [](double w) { return w > 0.0 && w < kHeaviest; })) return nurbs;
+    things_.add(kUnfitWeights, curve.place(), name);
+    nurbs.weights.assign(6, 1.0);
+    return nurbs;
   }
 
   void note_headings(const JsonReader& root) {
@@ -367,7 +405,7 @@ class SmapReader {
     const auto digits = pointer.substr(10);
     read_number(digits.substr(0, digits.find('/')), index);
     const auto& item = (of_segment ? curves_ : points_)[static_cast<std::size_t>(index)];
-    item.refuse(problems[0].sentence);
+    named(item).refuse(problems[0].sentence);
   }
 
   const JsonValue root_;
@@ -379,10 +417,6 @@ class SmapReader {
   std::map<std::string, StationId> stations_;
   std::set<std::string> names_;  // of segments
   LeftOutThings things_;
-  struct {
-    std::size_t count = 0;
-    double off_m = 0.0;
-  } degenerate_;
   struct {
     std::vector<std::string> names;
     double most_m = 0.0;

@@ -6,13 +6,35 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
+#include "core/scenario/layout.hpp"
 
-// What every importer must withstand: cut and damaged files. The importer reads the file or refuses it with an
+// What every importer must withstand: changed, cut and damaged files. The importer reads the file or refuses it with an
 // InputError, and does nothing else.
 namespace fleetproof::independent {
+
+// What an importer makes of a text.
+struct Import {
+  Layout layout;
+  std::vector<std::string> warnings;
+};
+
+template <class Parse, class Choice>
+Import import_by(Parse parse, const std::string& text, const std::string& source, const Choice& choice) {
+  Import result;
+  result.layout = parse(text, source, result.warnings, choice);
+  return result;
+}
+
+// The text with one thing in it changed.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
 
 // The message with which `parse` refuses the text, or "accepted".
 template <class Parse>

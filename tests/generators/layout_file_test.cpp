@@ -7,10 +7,13 @@
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/scenario/canonical_bytes.hpp"
+#include "damage.hpp"
 #include "generators/families/layout_family.hpp"
 
 namespace fleetproof::layout_file_test {
 namespace {
+
+using independent::replaced;
 
 constexpr const char* kSmall = R"({
   "version": 1,
@@ -25,12 +28,6 @@ constexpr const char* kSmall = R"({
     ]
   }
 })";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
 
 std::string refusal(const std::string& text) {
   try {

@@ -16,6 +16,8 @@
 namespace fleetproof::lif_test {
 namespace {
 
+using independent::replaced;
+
 struct Import {
   Layout layout;
   std::vector<std::string> warnings;  // without those on twins and on what every file has and the import leaves out
@@ -61,12 +63,6 @@ const std::string kThere =
     trajectory(3, "0,0,0,0,1,1,1,1", R"({"x":0,"y":0},{"x":2,"y":1},{"x":4,"y":1},{"x":6,"y":0})");
 const std::string kBack =
     trajectory(3, "0,0,0,0,1,1,1,1", R"({"x":6,"y":0},{"x":4,"y":1},{"x":2,"y":1},{"x":0,"y":0})");
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
 
 TEST(Lif, EdgesThereAndBackBecomeOneSegment) {
   const auto [layout, warnings] = import(sample());
@@ -155,6 +151,25 @@ TEST(Lif, WarnsOfTrajectoriesThatMissTheirNodesOrRunBackwards) {
       std::vector<std::string>{
           "l.json:7: the trajectories of 1 edges end beside their nodes (\"ab\"), by up to 0.250 m; they are drawn "
           "to the nodes"});
+}
+
+TEST(Lif, TrajectoriesFarBesideTheirNodesAreRefused) {
+  const auto why = [](const std::string& from, const std::string& to) {
+    return refusal(sample(replaced(kThere, from, to)));
+  };
+  EXPECT_EQ(why("{\"x\":6,\"y\":0}", "{\"x\":5.1,\"y\":0}"), "accepted") << "0.9 m";
+  EXPECT_NE(
+      why("{\"x\":6,\"y\":0}", "{\"x\":3.6,\"y\":0.5}")
+          .find("the curve ends at (3.6, 0.5) m, 2.452 m beside its node at (6, 0) m, and no AGV can drive from one "
+                "to the other; give the curve in the coordinates of the nodes, or correct the node"),
+      std::string::npos);
+  EXPECT_NE(
+      why("{\"x\":0,\"y\":0}", "{\"x\":-2,\"y\":0}").find("the curve begins at (-2, 0) m, 2.000 m beside its node"),
+      std::string::npos);
+  EXPECT_NE(refusal(sample(trajectory(1, "0,0,1,1", R"({"x":100,"y":0},{"x":106,"y":0})")))
+                .find("l.json:7: /layouts/0/edges/0/vehicleTypeEdgeProperties/0/trajectory"),
+            std::string::npos)
+      << "a curve in other coordinates";
 }
 
 void expect_round_trip(const Layout& layout) {
@@ -313,7 +328,10 @@ TEST(LifErrors, NamePlaceValueAndRemedy) {
                 .find("l.json:7: /layouts/0/edges/0/edgeId"),
             std::string::npos);
   EXPECT_EQ(refusal(""), "l.json: is empty; expected a JSON object");
-  EXPECT_EQ(refusal("[]"), "l.json:1: top level: \"layouts\" is missing; add it");
+  EXPECT_EQ(
+      refusal("[]"),
+      "l.json:1: top level: [] is refused: has neither \"layouts\" nor \"origins\"; expected a file in the Layout "
+      "Interchange Format (LIF)");
 }
 
 TEST(Lif, AKeyThatIsNullIsMissing) {

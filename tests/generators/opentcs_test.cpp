@@ -16,6 +16,8 @@
 namespace fleetproof::opentcs_test {
 namespace {
 
+using independent::replaced;
+
 const std::string kCrossdock = independent::source_file("tests/layouts/crossdock.xml");
 
 Layout crossdock() {
@@ -92,12 +94,6 @@ constexpr const char* kModel = R"(<model version="6.0.0" name="tiny">
   <visualLayout scaleX="100.0" scaleY="50.0"/>
 </model>
 )";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
 
 struct Import {
   Layout layout;

@@ -8,6 +8,8 @@
 namespace fleetproof::rmf_test {
 namespace {
 
+using independent::replaced;
+
 const std::string kBuilding = R"(name: depot
 coordinate_system: reference_image
 levels:
@@ -57,12 +59,6 @@ Import import_graph(const std::string& text, const RmfChoice& choice) {
 }
 
 Import import(const std::string& text) { return import_graph(text, {}); }
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
 
 TEST(Rmf, ABuildingIsScaledAndTurnedUp) {
   const auto [layout, warnings] = import(kBuilding);

@@ -1,6 +1,11 @@
 #include "generators/formats/smap.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <tuple>
 
 #include "damage.hpp"
 #include "real_layout.hpp"
@@ -8,6 +13,7 @@
 namespace fleetproof::smap_test {
 namespace {
 
+using independent::replaced;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
@@ -36,25 +42,12 @@ const std::string kMap = R"({"header": {"mapName": "hall", "resolution": 0.02},
 {"className": "BezierPath", "instanceName": "CP4-PP5", "startPos": {"instanceName": "CP4"},
  "endPos": {"instanceName": "PP5"}, "controlPos1": {"x": 8.0, "y": 5.0}, "controlPos2": {"x": 6.0, "y": 6.0}}]})";
 
-struct Import {
-  Layout layout;
-  std::vector<std::string> warnings;
-};
-
-Import import(const std::string& text, const ReadChoice& choice = {}) {
-  Import result;
-  result.layout = parse_smap(text, "m.smap", result.warnings, choice);
-  return result;
+independent::Import import(const std::string& text, const ReadChoice& choice = {}) {
+  return independent::import_by(parse_smap, text, "m.smap", choice);
 }
 
 std::string refusal(const std::string& text) {
   return independent::refusal([](const std::string& t) { import(t); }, text);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
 TEST(Smap, PointsAndCurvesAreRead) {
@@ -70,14 +63,12 @@ TEST(Smap, PointsAndCurvesAreRead) {
   ASSERT_EQ(layout.segments.size(), 4U) << "there and back on one track are one";
   EXPECT_TRUE(layout.segments[0].bidirectional);
   EXPECT_EQ(layout.segments[0].back_travel, Travel::Backward);
-  EXPECT_EQ(layout.segments[1].control_points_m, (std::vector<Vec2>{{5.0, 1.0}, {7.0, 0.0}}));
   EXPECT_EQ(layout.segments[1].speed_limit_mps, 0.3);
   EXPECT_TRUE(layout.segments[2].control_points_m.empty());
   EXPECT_EQ(layout.segments[3].control_points_m.size(), 2U);
   EXPECT_THAT(warnings, Contains(HasSubstr("1 parts of the map are left out (\"normalPosList\")")));
   EXPECT_THAT(warnings, Contains(HasSubstr("details of curves are left out (\"obsStopDist\")")));
   EXPECT_THAT(warnings, Contains(HasSubstr("details of points are left out (\"spin\")")));
-  EXPECT_THAT(warnings, Contains(AllOf(HasSubstr("1 curves of the class DegenerateBezier"), HasSubstr("0.125 m"))));
   EXPECT_THAT(warnings, Contains(HasSubstr("1 curves have the name of another curve; they are called \"LM2-LM1\"")));
 }
 
@@ -122,22 +113,132 @@ TEST(Smap, PointsOfBinsAreForStorage) {
 TEST(Smap, OtherShapesAreTold) {
   EXPECT_THAT(import(replaced(kMap, "\"BezierPath\"", "\"SpiralPath\"")).warnings,
               Contains(HasSubstr("1 classes of curves are unknown here (\"SpiralPath\")")));
-  const auto nurbs = import(replaced(
-      replaced(kMap, "\"BezierPath\"", "\"NURBS6\""), "\"controlPos2\": {\"x\": 6.0, \"y\": 6.0}",
-      R"("controlPos2": {"x": 7.5, "y": 5.5}, "controlPos3": {"x": 6, "y": 6}, "controlPos4": {"x": 5, "y": 6})"));
-  EXPECT_GT(nurbs.layout.segments[3].control_points_m.size(), 2U);
-  EXPECT_THAT(nurbs.warnings, Contains(HasSubstr("1 curves of the class NURBS6 (\"CP4-PP5\")")));
   EXPECT_THAT(import(replaced(kMap, "\"direction\", \"int32Value\": 0", "\"direction\", \"int32Value\": 2")).warnings,
               Contains(HasSubstr("direction other than 0 or 1 (\"LM1-LM2\")")));
 }
 
+// Two points, and a curve from one to the other.
+std::string with_curve(const std::string& kind, const std::string& controls, const std::string& z = "") {
+  return R"({"advancedPointList": [{"className": "LocationMark", "instanceName": "A", "pos": {}},
+{"className": "LocationMark", "instanceName": "B", "pos": {"x": 4.0, "y": 4.0}}],
+"advancedCurveList": [{"className": ")" +
+         kind + R"(", "instanceName": "A-B", "startPos": {"instanceName": "A", "pos": {)" + z +
+         R"(}}, "endPos": {"instanceName": "B", "pos": {"x": 4.0, "y": 4.0)" + (z.empty() ? "" : ", ") + z + "}}, " +
+         controls + "}]}";
+}
+
+Curve drawn(const std::string& kind, const std::string& controls, const std::string& z = "") {
+  const auto layout = import(with_curve(kind, controls, z)).layout;
+  return segment_curve(layout, layout.segments[0]);
+}
+
+// The length of a curve, by 10 000 chords.
+template <class At>
+double length_m(At at) {
+  double length = 0.0;
+  for (int i = 0; i < 10'000; ++i) length += (at((i + 1) / 1e4) - at(i / 1e4)).norm();
+  return length;
+}
+
+TEST(Smap, ABezierCurveHasTwoControlPoints) {
+  const auto layout =
+      import(with_curve("BezierPath", R"("controlPos1": {"x": 3.0}, "controlPos2": {"x": 4.0, "y": 1.0})")).layout;
+  EXPECT_EQ(layout.segments[0].control_points_m, (std::vector<Vec2>{{3.0, 0.0}, {4.0, 1.0}}));
+}
+
+TEST(Smap, ADegenerateBezierCurveCountsItsControlPointsTwice) {
+  const Vec2 a(0.0, 0.0), c1(3.0, 0.0), c2(4.0, 1.0), b(4.0, 4.0);
+  const auto at = [&](double t) -> Vec2 {
+    const double u = 1.0 - t;
+    return std::pow(u, 5) * a + (5.0 * std::pow(u, 4) * t + 10.0 * std::pow(u, 3) * t * t) * c1 +
+           (10.0 * u * u * std::pow(t, 3) + 5.0 * u * std::pow(t, 4)) * c2 + std::pow(t, 5) * b;
+  };
+  const auto curve = drawn("DegenerateBezier", R"("controlPos1": {"x": 3.0}, "controlPos2": {"x": 4.0, "y": 1.0})");
+  EXPECT_NEAR(curve.length_m(), length_m(at), 1e-4);
+  EXPECT_NEAR((curve.pose_at(curve.length_m() / 2.0).position_m - at(0.5)).norm(), 0.0, 1e-3) << "symmetrical";
+  const auto straight = import(
+      with_curve("DegenerateBezier", R"("controlPos1": {"x": 1.0, "y": 1.0}, "controlPos2": {"x": 3.0, "y": 3.0})"));
+  EXPECT_TRUE(straight.layout.segments[0].control_points_m.empty());
+  EXPECT_THAT(straight.warnings, Not(Contains(HasSubstr("DegenerateBezier"))));
+}
+
+TEST(Smap, AnArcIsTheCircleThroughItsControlPoint) {
+  const double root = std::sqrt(2.0), pi = std::numbers::pi;
+  // About (0, 4) and (4, 0), and the long ways round.
+  for (const auto& [x, y, quarters] : {std::tuple{2.0 * root, 4.0 - 2.0 * root, 1},
+                                       {4.0 - 2.0 * root, 2.0 * root, 1},
+                                       {-2.0 * root, 4.0 + 2.0 * root, 3},
+                                       {4.0 + 2.0 * root, -2.0 * root, 3}}) {
+    const auto curve =
+        drawn("ArcPath", fmt::format(R"("controlPos1": {{"x": {}, "y": {}}}, "controlPos2": {{}})", x, y));
+    EXPECT_NEAR(curve.length_m(), quarters * 4.0 * pi / 2.0, 1e-4) << x;
+    const Vec2 centre = (x > 0.0 && x < 3.0 && y < 2.0) || x < 0.0 ? Vec2(0.0, 4.0) : Vec2(4.0, 0.0);
+    for (double at_m = 0.0; at_m < curve.length_m(); at_m += 0.1)
+      EXPECT_NEAR((curve.pose_at(at_m).position_m - centre).norm(), 4.0, 3e-5);
+  }
+  EXPECT_NEAR(drawn("ArcPath", R"("controlPos1": {"x": 1.0, "y": 1.0})").length_m(), 4.0 * root, 1e-9) << "on one line";
+  EXPECT_THAT(refusal(with_curve("ArcPath", R"("property": [])")),
+              HasSubstr("a curve of the class ArcPath needs 1 control points; add controlPos1"));
+}
+
+// By the basis functions of Cox and de Boor, recursively.
+double basis(const std::vector<double>& knots, std::size_t i, int order, double u) {
+  if (order == 1) return knots[i] < u && u <= knots[i + 1] ? 1.0 : 0.0;
+  const auto k = static_cast<std::size_t>(order);
+  const auto share = [](double a, double b) { return b == 0.0 ? 0.0 : a / b; };
+  return share(u - knots[i], knots[i + k - 1] - knots[i]) * basis(knots, i, order - 1, u) +
+         share(knots[i + k] - u, knots[i + k] - knots[i + 1]) * basis(knots, i + 1, order - 1, u);
+}
+
+TEST(Smap, ARationalCurveHasItsWeightsInZ) {
+  const std::vector<Vec2> p = {{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}, {4.0, 1.0}, {4.0, 2.0}, {4.0, 4.0}};
+  const std::vector<double> spans = {2.0 + std::sqrt(5.0), 2.0 + std::sqrt(5.0), 3.0 + std::sqrt(5.0)};
+  const double all = spans[0] + spans[1] + spans[2];
+  const std::vector<double> knots = {0, 0, 0, 0, spans[0] / all, (spans[0] + spans[1]) / all, 1, 1, 1, 1};
+  std::vector<double> lengths;
+  for (const double heavy : {10.0, 30.0, 2.0}) {
+    const std::vector<double> weights = {10.0, 10.0, heavy, heavy, 10.0, 10.0};
+    const auto at = [&](double u) -> Vec2 {
+      if (u == 0.0) return p[0];
+      Vec2 sum = Vec2::Zero();
+      double weight = 0.0;
+      for (std::size_t i = 0; i < 6; ++i) {
+        const double w = weights[i] * basis(knots, i, 4, u);
+        sum += w * p[i];
+        weight += w;
+      }
+      return sum / weight;
+    };
+    const auto curve = drawn("NURBS6",
+                             fmt::format(R"("controlPos1": {{"x": 1.0, "z": 10}}, "controlPos2": {{"x": 2.0, "z": {0}}},
+ "controlPos3": {{"x": 4.0, "y": 1.0, "z": {0}}}, "controlPos4": {{"x": 4.0, "y": 2.0, "z": 10}})",
+                                         heavy),
+                             "\"z\": 10");
+    EXPECT_NEAR(curve.length_m(), length_m(at), 1e-4) << heavy;
+    lengths.push_back(curve.length_m());
+  }
+  EXPECT_GT(std::abs(lengths[0] - lengths[1]), 0.01);
+  const auto without = import(with_curve("NURBS6", R"("controlPos1": {"x": 1.0}, "controlPos2": {"x": 2.0, "z": 1.0},
+ "controlPos3": {"x": 4.0, "y": 1.0}, "controlPos4": {"x": 4.0, "y": 2.0})"));
+  EXPECT_THAT(without.warnings,
+              Contains(HasSubstr("1 curves of the class NURBS6 have weights (z) that are not all positive (\"A-B\")")));
+  EXPECT_NEAR(segment_curve(without.layout, without.layout.segments[0]).length_m(), lengths[0], 1e-9);
+}
+
 TEST(Smap, CurvesThatEndBesideTheirPointsAreTold) {
   EXPECT_THAT(import(kMap).warnings, Not(Contains(HasSubstr("beside their points"))));
-  for (const std::string place : {"\"LM1\", \"pos\": {}}", "\"LM2\", \"pos\": {\"x\": 4.0}}"}) {
-    const auto beside = place.substr(0, 5) + ", \"pos\": {\"x\": 2.0}}";
-    EXPECT_THAT(import(replaced(kMap, "{\"instanceName\": " + place, "{\"instanceName\": " + beside)).warnings,
-                Contains(HasSubstr("1 curves begin or end beside their points (\"LM1-LM2\"), by up to 2.000 m")));
-  }
+  const auto moved = [](const std::string& name, const std::string& pos, const std::string& to) {
+    return replaced(kMap, "{\"instanceName\": \"" + name + "\", \"pos\": " + pos,
+                    "{\"instanceName\": \"" + name + "\", \"pos\": " + to);
+  };
+  for (const auto& text : {moved("LM1", "{}", "{\"x\": 0.5}"), moved("LM2", "{\"x\": 4.0}", "{\"x\": 3.5}")})
+    EXPECT_THAT(import(text).warnings,
+                Contains(HasSubstr("1 curves begin or end beside their points (\"LM1-LM2\"), by up to 0.500 m")));
+  EXPECT_THAT(refusal(moved("LM1", "{}", "{\"y\": 40.0}")),
+              AllOf(HasSubstr("m.smap:11: /advancedCurveList/0/instanceName: \"LM1-LM2\" is refused"),
+                    HasSubstr("the curve begins at (0, 40) m, 40.000 m beside its point at (0, 0) m")));
+  EXPECT_THAT(refusal(moved("LM2", "{\"x\": 4.0}", "{\"x\": 2.5}")),
+              HasSubstr("the curve ends at (2.5, 0) m, 1.500 m beside its point at (4, 0) m"));
 }
 
 TEST(Smap, FaultsAreRefusedAtTheirLine) {
@@ -147,8 +248,9 @@ TEST(Smap, FaultsAreRefusedAtTheirLine) {
       AllOf(HasSubstr("m.smap:21"), HasSubstr("there is no such point; did you mean \"PP5\"?")));
   EXPECT_THAT(refusal(replaced(kMap, "\"LM2\", \"pos\"", "\"LM1\", \"pos\"")), HasSubstr("this name is taken already"));
   EXPECT_THAT(refusal(replaced(kMap, "\"controlPos1\": {\"x\": 8.0, \"y\": 5.0}, ", "")),
-              HasSubstr("has not two control points"));
-  EXPECT_THAT(refusal(replaced(kMap, "{\"x\": 8.0, \"y\": 3.0}", "{\"x\": 8.0}")), HasSubstr("it has no length"));
+              HasSubstr("a curve of the class BezierPath needs 2 control points"));
+  EXPECT_THAT(refusal(replaced(kMap, "{\"x\": 8.0, \"y\": 3.0}", "{\"x\": 8.0}")),
+              AllOf(HasSubstr("/instanceName: \"AP3-CP4\" is refused"), HasSubstr("it has no length")));
   const auto without = kMap.substr(0, kMap.find("\"advancedCurveList\"")) + "\"advancedCurveList\": []}";
   EXPECT_THAT(refusal(without), HasSubstr("no curve that an AGV can drive"));
 }
