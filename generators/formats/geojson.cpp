@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,6 +22,7 @@
 #include "core/geometry/rotation.hpp"
 #include "core/scenario/vehicle_fields.hpp"
 #include "generators/formats/left_out.hpp"
+#include "generators/formats/nurbs.hpp"
 #include "generators/formats/opentcs_purposes.hpp"
 #include "generators/formats/rounded_way.hpp"
 #include "generators/map/layout_check.hpp"
@@ -35,6 +37,7 @@ namespace {
 
 constexpr Topic kGraphParts{"{0} parts of the file are left out ({1}); they change no line"};
 constexpr Topic kOtherShapes{"{0} features are no points and no lines ({1}); they are left out"};
+constexpr Topic kNoShapes{"{0} features have no geometry (null) and are left out ({1})"};
 constexpr Topic kUnusedPoints{"{0} vertices lie on no lane that is read and are left out ({1})"};
 constexpr Topic kOtherGraphs{"lanes of {0} other graphs are left out ({1})"};
 constexpr Topic kOtherLevels{"features of {0} other levels are left out ({1})"};
@@ -79,9 +82,12 @@ constexpr std::string_view kGraphKeysRead[] = {"type", "name", "site_name", "crs
 
 // A graph that is so small in its numbers has them in degrees: no plant is 5 cm large, and none 5 km.
 constexpr double kSmallInDegrees = 0.05;
+// A graph that is so large in its numbers has them in metres, and a smaller one has them not: no plant is 50 km large,
+// and none half a metre.
+constexpr double kLargeInDegrees = 0.5;
 
-// Radii of the ellipsoid WGS 84.
-constexpr double kEquator_m = 6378137.0, kFlatness = 0.00669437999014;
+// Radii of the ellipsoid WGS 84; the largest coordinate of Web Mercator.
+constexpr double kEquator_m = 6378137.0, kFlatness = 0.00669437999014, kMercatorEdge_m = 20037508.35;
 
 bool found_in(const auto& words, std::string_view word) { return std::ranges::find(words, word) != std::end(words); }
 
@@ -147,13 +153,29 @@ struct Feature {
   }
 };
 
-// Metres of a degree at a latitude, to the east and to the north.
-Vec2 metres_of_degree(double latitude) {
-  const Vec2 direction = unit_vector(latitude / 180.0 * kPi);
-  const double w2 = 1.0 - kFlatness * direction.y() * direction.y();
-  const double east_m = kEquator_m / std::sqrt(w2) * direction.x(),
+// Metres of a degree at a latitude (its cosine and sine), to the east and to the north.
+Vec2 metres_of_degree(const Vec2& latitude) {
+  const double w2 = 1.0 - kFlatness * latitude.y() * latitude.y();
+  const double east_m = kEquator_m / std::sqrt(w2) * latitude.x(),
                north_m = kEquator_m * (1.0 - kFlatness) / (w2 * std::sqrt(w2));
   return Vec2(east_m, north_m) * (kPi / 180.0);
+}
+
+// The cosine and sine of the latitude at a height of Web Mercator, which are 1 / cosh and tanh of the height in radii.
+// By the series of cosh, whose terms become small soon: the map ends at pi radii.
+Vec2 latitude_in_mercator(double y_m) {
+  const double y = y_m / kEquator_m;
+  double term = 1.0, cosh = 1.0;
+  for (int k = 1; k <= 20; ++k) {
+    term *= y * y / static_cast<double>(2 * k * (2 * k - 1));
+    cosh += term;
+  }
+  const double cosine = 1.0 / cosh;
+  return {cosine, std::copysign(std::sqrt(1.0 - cosine * cosine), y)};
+}
+
+bool ends_in(std::string_view name, std::initializer_list<std::string_view> endings) {
+  return std::ranges::any_of(endings, [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
 class GraphReader {
@@ -194,16 +216,22 @@ class GraphReader {
 
  private:
   void sort_features() {
+    std::size_t number = 0;
     for (const auto& item : root_.at("features").items()) {
+      ++number;
       const auto geometry = said(item, "geometry");
       const auto shape = geometry ? name_or_number(said(geometry, "type")) : "";
       Feature feature{item, said(item, "properties")};
       is_rmf_ = is_rmf_ || feature.type().starts_with("rmf_");
+      if (!geometry) {
+        const auto id = feature.id();
+        things_.add(kNoShapes, item.place(), id.empty() ? fmt::format("feature {}", number) : id);
+        continue;
+      }
       const bool is_other =
           is_rmf_ && !feature.type().empty() && feature.type() != "rmf_vertex" && feature.type() != "rmf_lane";
       if (is_other || (shape != "Point" && shape != "LineString" && shape != "MultiLineString")) {
-        things_.add(kOtherShapes, item.place(),
-                    feature.type().empty() ? shape.empty() ? "null" : shape : feature.type());
+        things_.add(kOtherShapes, item.place(), feature.type().empty() ? shape : feature.type());
         continue;
       }
       const auto coordinates = geometry->at("coordinates");
@@ -262,21 +290,58 @@ class GraphReader {
     }
     const Vec2 extent = box.high_m - box.low_m;
     const std::string name = crs();
-    const bool geographic = name.ends_with("CRS84") || name.ends_with(":4326");
-    const bool in_range = std::max(std::abs(box.low_m.x()), std::abs(box.high_m.x())) <= 180.0 &&
-                          std::max(std::abs(box.low_m.y()), std::abs(box.high_m.y())) <= 90.0;
+    const double farthest_x = std::max(std::abs(box.low_m.x()), std::abs(box.high_m.x())),
+                 farthest_y = std::max(std::abs(box.low_m.y()), std::abs(box.high_m.y()));
+    if (ends_in(name, {":3857", ":900913"})) {
+      // Route servers give this system to plants of their own, which begin near its origin.
+      const bool on_the_globe = std::max(farthest_x, farthest_y) > kLargestCoordinate_m;
+      if (on_the_globe && std::max(farthest_x, farthest_y) <= kMercatorEdge_m) return leave_mercator(box);
+    }
+    const bool geographic = ends_in(name, {"CRS84", ":4326"}) || is_rmf_;
+    const bool in_range = farthest_x <= 180.0 && farthest_y <= 90.0;
+    if (geographic && (!in_range || extent.maxCoeff() > kLargeInDegrees)) {
+      warnings_.push_back(
+          fmt::format("{}: the coordinates are no degrees of a plant, although {}; they are taken for "
+                      "metres",
+                      source_, is_rmf_ ? "sites of Open-RMF have such" : "the crs is " + name));
+      return;
+    }
     const bool looks_so = name.empty() && extent.maxCoeff() < kSmallInDegrees && box.low_m.cwiseAbs().maxCoeff() > 1.0;
-    if (!in_range || !(geographic || is_rmf_ || looks_so)) return;
-    const Vec2 scale_m = metres_of_degree((box.low_m.y() + box.high_m.y()) / 2.0);
+    if (geographic || looks_so) return leave_degrees(box);
+    if (in_range && extent.maxCoeff() > 0.0 && extent.maxCoeff() < kLargeInDegrees)
+      root_.at("features")
+          .refuse(fmt::format("all points are within {:g} x {:g} m: are these degrees of longitude and latitude? Then "
+                              "say so (\"crs\": {{\"type\": \"name\", \"properties\": {{\"name\": "
+                              "\"urn:ogc:def:crs:OGC:1.3:CRS84\"}}}}), or else write metres",
+                              extent.x(), extent.y()));
+  }
+
+  // Coordinates become metres from the corner of the plant.
+  void scale(const Box& box, const Vec2& scale_m) {
     for (auto* features : {&points_, &lines_}) {
       for (auto& feature : *features) {
         for (Vec2& place : feature.places) place = (place - box.low_m).cwiseProduct(scale_m);
       }
     }
+  }
+
+  void leave_degrees(const Box& box) {
+    const double middle = (box.low_m.y() + box.high_m.y()) / 2.0;
+    scale(box, metres_of_degree(unit_vector(middle / 180.0 * kPi)));
     warnings_.push_back(
         fmt::format("{}: coordinates are taken for degrees of longitude and latitude (WGS 84); here they are metres "
                     "from ({:.7f}, {:.7f})",
                     source_, box.low_m.x(), box.low_m.y()));
+  }
+
+  void leave_mercator(const Box& box) {
+    const Vec2 latitude = latitude_in_mercator((box.low_m.y() + box.high_m.y()) / 2.0);
+    const Vec2 metres = metres_of_degree(latitude) / (kEquator_m * kPi / 180.0);
+    scale(box, {metres.x(), metres.y() * latitude.x()});
+    warnings_.push_back(
+        fmt::format("{}: coordinates are those of Web Mercator (EPSG:3857), which draws everything {:.3f} times too "
+                    "large there; here they are metres from ({:.2f}, {:.2f})",
+                    source_, 1.0 / metres.x(), box.low_m.x(), box.low_m.y()));
   }
 
   void name_points() {
@@ -399,6 +464,11 @@ class GraphReader {
       told_.beside.push_back(segment.name);
       told_.most_beside_m = std::max(told_.most_beside_m, beside_m);
     }
+    // Nav2 itself drives straight, wherever the line is drawn.
+    if (way_m.size() > 2 && miss_m(way_m.front(), way_m.back()) > kFarBeside_m) {
+      told_.straightened.push_back(segment.name);
+      return;
+    }
     way_m.front() = from_m;
     way_m.back() = to_m;
     auto [control_points_m, off_m] = round_corners(way_m);
@@ -490,6 +560,10 @@ class GraphReader {
     tell(told_.beside,
          "{0} lines begin or end beside their points ({1}), by up to {2:.3f} m; they are drawn to the points",
          told_.most_beside_m);
+    tell(told_.straightened,
+         "{0} lines with corners are drawn elsewhere than their points ({1}); here they lead straight from point to "
+         "point",
+         0.0);
     tell(
         told_.rounded,
         "{0} lines are drawn with corners ({1}); here an arc leads round each corner, and passes by it at {2:.3f} m at "
@@ -512,7 +586,9 @@ class GraphReader {
     const auto digits = pointer.substr(10);
     read_number(digits.substr(0, digits.find('/')), index);
     const auto place = static_cast<std::size_t>(index);
-    (of_segment ? read_lines_[place] : points_[place].whole).refuse(problems[0].sentence);
+    const JsonReader& whole = of_segment ? read_lines_[place] : points_[place].whole;
+    const auto id = said(said(whole, "properties"), "id");
+    id.value_or(whole).refuse(problems[0].sentence);
   }
 
   const JsonValue tree_;
@@ -530,7 +606,7 @@ class GraphReader {
   } names_;
   std::map<std::string, std::string> frames_;  // with the place of their first feature
   struct {
-    std::vector<std::string> turned, beside, rounded;  // names of segments
+    std::vector<std::string> turned, beside, straightened, rounded;  // names of segments
     double most_beside_m = 0.0, most_off_m = 0.0;
   } told_;
   LeftOutThings things_;

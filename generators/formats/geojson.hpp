@@ -18,7 +18,8 @@ struct GeojsonChoice : ReadChoice {
 // Reads a route graph in GeoJSON, as the route server of Nav2 and the sites of Open-RMF have it. Points with an id
 // become stations, lines between two of them one-way segments, as they are drawn, with an arc round each corner. A line
 // names its points (startid and endid, start_node and end_node, from and to, source and target), or begins and ends at
-// them. Coordinates are metres, or degrees of longitude and latitude: these become metres from the corner of the plant.
+// them. Coordinates are metres, degrees of longitude and latitude, or those of Web Mercator far from its origin: the
+// last two become metres from the corner of the plant.
 //
 // `warnings` receives one sentence, with file and line, for everything that was left out, guessed or changed. Throws
 // InputError with file, line, field, value and remedy if no AGV can drive on the graph.

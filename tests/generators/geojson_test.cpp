@@ -1,6 +1,10 @@
 #include "generators/formats/geojson.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
 
 #include "damage.hpp"
 #include "real_layout.hpp"
@@ -8,9 +12,11 @@
 namespace fleetproof::geojson_test {
 namespace {
 
+using independent::replaced;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 // A graph as Nav2 has it: two ways on one track, a way that nobody drives back, a bend.
 const std::string kGraph = R"({"type": "FeatureCollection", "name": "depot",
@@ -30,25 +36,12 @@ const std::string kGraph = R"({"type": "FeatureCollection", "name": "depot",
 {"type": "Feature", "properties": {"id": 13, "startid": 2, "endid": 0, "metadata": {"abs_speed_limit": 0.5}},
  "geometry": {"type": "LineString", "coordinates": [[4, 6], [0, 6], [0, 0]]}}]})";
 
-struct Import {
-  Layout layout;
-  std::vector<std::string> warnings;
-};
-
-Import import(const std::string& text, const GeojsonChoice& choice = {}) {
-  Import result;
-  result.layout = parse_geojson(text, "g.geojson", result.warnings, choice);
-  return result;
+independent::Import import(const std::string& text, const GeojsonChoice& choice = {}) {
+  return independent::import_by(parse_geojson, text, "g.geojson", choice);
 }
 
 std::string refusal(const std::string& text) {
   return independent::refusal([](const std::string& t) { import(t); }, text);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
 TEST(Geojson, AGraphOfNav2IsRead) {
@@ -114,6 +107,12 @@ TEST(Geojson, LinesBesideTheirPointsAreTold) {
               Contains(HasSubstr("begin or end beside their points (\"10\"), by up to 0.500 m")));
 }
 
+TEST(Geojson, LinesWithCornersFarBesideTheirPointsAreStraight) {
+  const auto [layout, warnings] = import(replaced(kGraph, "[[4, 6], [0, 6], [0, 0]]", "[[44, 6], [40, 6], [40, 0]]"));
+  EXPECT_TRUE(layout.segments[2].control_points_m.empty());
+  EXPECT_THAT(warnings, Contains(HasSubstr("1 lines with corners are drawn elsewhere than their points (\"13\")")));
+}
+
 TEST(Geojson, WordsOfTheUserSayWhatPointsAreFor) {
   GeojsonChoice choice;
   choice.purposes = purpose_words_of("0=storage,dock=parking", "--purposes");
@@ -160,6 +159,74 @@ TEST(Geojson, ASiteOfOpenRmfIsInMetres) {
       import(replaced(kSite, "\"bidirectional\": true,", "\"graph_idx\": 0,"), other).layout.segments[0].bidirectional);
 }
 
+// A road of 12 m and one of 5 m, with coordinates scaled and moved.
+std::string corner(double x, double y, double unit_x, double unit_y, const std::string& crs = "") {
+  const auto point = [&](int id, double east, double north) {
+    return fmt::format(
+        R"({{"properties": {{"id": {}}}, "geometry": {{"type": "Point", "coordinates": [{:.9f}, {:.9f}]}}}},)", id,
+        x + east * unit_x, y + north * unit_y);
+  };
+  const auto line = [](int from, int to) {
+    return fmt::format(R"({{"properties": {{"startid": {}, "endid": {}}}, "geometry": {{"type": "LineString", )"
+                       R"("coordinates": []}}}})",
+                       from, to);
+  };
+  return R"({"type": "FeatureCollection", )" +
+         (crs.empty() ? "" : R"("crs": {"type": "name", "properties": {"name": ")" + crs + R"("}}, )") +
+         "\n\"features\": [" + point(1, 0, 0) + point(2, 12, 0) + point(3, 12, 5) + line(1, 2) + ", " + line(2, 3) +
+         "]}";
+}
+
+double road_m(const Layout& layout, std::size_t i) { return segment_curve(layout, layout.segments[i]).length_m(); }
+
+TEST(Geojson, WebMercatorFarFromItsOriginIsScaled) {
+  // Metres of a degree at a latitude of the ellipsoid WGS 84, and places of Web Mercator, by libm.
+  for (const double latitude : {48.1, -33.9, 1.3, 69.6}) {
+    const double a = 6378137.0, e2 = 0.00669437999014, pi = std::numbers::pi, phi = latitude / 180.0 * pi;
+    const double w = std::sqrt(1.0 - e2 * std::sin(phi) * std::sin(phi));
+    const double unit_x = w / std::cos(phi), unit_y = w * w * w / (1.0 - e2) / std::cos(phi);  // of a metre there
+    const double y = a * std::log(std::tan(pi / 4.0 + phi / 2.0));
+    for (const char* crs : {"urn:ogc:def:crs:EPSG::3857", "EPSG:3857", "EPSG:900913"}) {
+      const auto [layout, warnings] = import(corner(1'280'000.0, y, unit_x, unit_y, crs));
+      EXPECT_NEAR(road_m(layout, 0), 12.0, 1e-4) << latitude;
+      EXPECT_NEAR(road_m(layout, 1), 5.0, 1e-4) << latitude;
+      EXPECT_THAT(warnings, Contains(HasSubstr(fmt::format("which draws everything {:.3f} times too large", unit_x))));
+    }
+  }
+  const auto [layout, warnings] = import(corner(-20.0, 30.0, 1.0, 1.0, "urn:ogc:def:crs:EPSG::3857"));
+  EXPECT_EQ(road_m(layout, 0), 12.0) << "a plant of its own near the origin";
+  EXPECT_THAT(warnings, Not(Contains(HasSubstr("Mercator"))));
+  EXPECT_NEAR(road_m(import(corner(1'280'000.0, 6'120'000.0, 1.0, 1.0, "EPSG:25832")).layout, 0), 12.0, 1e-6) << "UTM";
+}
+
+TEST(Geojson, DegreesThatNobodyNamesAreAskedFor) {
+  const double degree = 1e-5;
+  EXPECT_NEAR(road_m(import(corner(11.5, 0.0, degree, degree)).layout, 0), 13.358, 1e-3) << "they look so";
+  for (const auto& text : {corner(11.5, 48.1, 5e-3, 5e-3), corner(0.0, 0.0, degree, degree),
+                           corner(11.5, 48.1, degree, degree, "EPSG:3857"), corner(0.2, 0.3, 0.02, 0.02)})
+    EXPECT_THAT(refusal(text), AllOf(HasSubstr("g.geojson:2: /features: "),
+                                     HasSubstr("are these degrees of longitude and latitude? Then say so (\"crs\": ")));
+  EXPECT_EQ(refusal(corner(2.0, 3.0, 0.1, 0.1)), "accepted") << "a toy of 1.2 m";
+}
+
+TEST(Geojson, ACrsOfDegreesBesideMetresIsTold) {
+  for (const char* crs : {"urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4326"}) {
+    for (const auto& text : {corner(2.0, 3.0, 1.0, 1.0, crs), corner(500.0, 100.0, 1.0, 1.0, crs)}) {
+      const auto [layout, warnings] = import(text);
+      EXPECT_NEAR(road_m(layout, 0), 12.0, 1e-9);
+      EXPECT_THAT(warnings, Contains(AllOf(HasSubstr("the coordinates are no degrees of a plant"), HasSubstr(crs),
+                                           HasSubstr("they are taken for metres"))));
+    }
+    EXPECT_THAT(import(corner(11.5, 48.1, 1e-5, 1e-5, crs)).warnings, Contains(HasSubstr("taken for degrees")));
+  }
+}
+
+TEST(Geojson, FeaturesWithoutGeometryAreNamed) {
+  const auto [layout, warnings] = import(replaced(kGraph, R"({"type": "MultiLineString", "coordinates": []})", "null"));
+  EXPECT_EQ(layout.segments.size(), 2U);
+  EXPECT_THAT(warnings, Contains(HasSubstr("1 features have no geometry (null) and are left out (\"12\")")));
+}
+
 TEST(Geojson, UtmCoordinatesAreShifted) {
   const auto [layout, warnings] = import(R"({"type": "FeatureCollection", "features": [
 {"properties": {"id": 1}, "geometry": {"type": "Point", "coordinates": [500120, 5400001]}},
@@ -173,11 +240,12 @@ TEST(Geojson, UtmCoordinatesAreShifted) {
 TEST(Geojson, FaultsAreRefusedAtTheirLine) {
   EXPECT_THAT(refusal("{}"), HasSubstr("is no \"FeatureCollection\""));
   EXPECT_THAT(refusal(replaced(kGraph, "\"startid\": 0, \"endid\": 1", "\"startid\": 0, \"endid\": 7")),
-              AllOf(HasSubstr("g.geojson:8"), HasSubstr("there is no point with this id")));
+              AllOf(HasSubstr("g.geojson:8"), HasSubstr("there is no point with this id; add it, or correct the id")));
   EXPECT_THAT(refusal(replaced(kGraph, "\"id\": 2}", "\"id\": 0}")),
               AllOf(HasSubstr("g.geojson:7"), HasSubstr("the id \"0\" is taken already")));
   EXPECT_THAT(refusal(replaced(kGraph, "\"id\": 2}", "\"other\": 2}")), HasSubstr("the point has no id"));
-  EXPECT_THAT(refusal(replaced(kGraph, "[4, 6, 0]", "[4, 0]")), HasSubstr("it has no length"));
+  EXPECT_THAT(refusal(replaced(kGraph, "[4, 6, 0]", "[4, 0]")),
+              AllOf(HasSubstr("/properties/id: 12 is refused"), HasSubstr("it has no length")));
   EXPECT_THAT(refusal(replaced(kGraph, "0.5}}", "500}}")), HasSubstr("expected 0 (none), or 0.001 to 100 m/s"));
 }
 
