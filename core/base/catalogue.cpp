@@ -27,8 +27,11 @@ std::optional<std::string> nearest_name(std::string_view word, std::span<const s
   // A word that is longer than every name is no mistyped name. To compare it with thousands of names would take hours.
   constexpr std::size_t kLongest = 200;
   if (word.size() > kLongest) return std::nullopt;
+  // Numbers are all alike: none of them is another one, mistyped.
+  if (std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; })) return std::nullopt;
   std::optional<std::string> nearest;
-  std::size_t smallest = std::max<std::size_t>(2, word.size() / 3) + 1;
+  // At least one letter is right.
+  std::size_t smallest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
   for (const auto candidate : candidates) {
     const auto differing = std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
     if (differing >= smallest) continue;  // at least this number of letters differs

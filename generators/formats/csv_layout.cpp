@@ -186,7 +186,9 @@ class TableReader {
 
   double number(std::string_view word, std::string_view column) const {
     double value = 0.0;
-    if (!read_number(word, value)) refuse(fmt::format("{} is {}; expected a finite number", column, in_quotes(word)));
+    if (!read_number(word, value))
+      refuse(fmt::format("{} is {}; expected a finite number{}", column, in_quotes(word),
+                         word.find(',') == word.npos ? "" : ", with a point before its decimals"));
     return value;
   }
 

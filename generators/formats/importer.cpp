@@ -76,13 +76,20 @@ const Extension* extension_of(std::string_view path) {
 
 std::string_view importer_of_json(const std::string& path) {
   if (has_ending(path, ".lif.json")) return "lif";
-  const auto root = parse_json(read_text_file(path), path);
+  const auto text = read_text_file(path);
+  const auto root = parse_json(text, path);
   for (const char* key : {"metaInformation", "layouts", "origins"}) {
     if (root.find(key) != nullptr) return "lif";
   }
   if (root.find("features") != nullptr) return "geojson";
   if (root.find("advancedPointList") != nullptr) return "smap";
-  return root.find("agvs") != nullptr ? "scenario" : "layout";
+  if (root.find("agvs") != nullptr) return "scenario";
+  if (root.find("layout") != nullptr) return "layout";
+  if (const auto named = named_foreign(text); !named.empty()) throw InputError(path, named);
+  throw InputError(
+      path,
+      "is JSON, but no layout: it has none of the keys \"layout\" (a layout of fleetproof), \"layouts\" or "
+      "\"origins\" (LIF), \"features\" (GeoJSON) and \"advancedPointList\" (a map of SEER robots)");
 }
 
 // How many stations are for storage.
@@ -145,6 +152,7 @@ std::string layout_endings() {
 std::string_view importer_of_file(const std::string& path) {
   const auto* extension = extension_of(path);
   if (extension == nullptr) {
+    if (has_ending(path, ".gz")) read_text_file(path);  // names the remedy
     refuse_foreign(path);
     throw InputError(path, fmt::format("has no extension of a layout file; known: {}; or name its format (fleetproof "
                                        "import FORMAT FILE, in a campaign {{ file = ..., format = ... }})",
@@ -164,8 +172,9 @@ Warnings adapt(Layout& layout, const ImportChoice& choice, const std::string& pa
   }
   if (choice.core_only) leave_core(layout, path, warnings);
   for (const std::string& sentence : limited_uses(layout)) warnings.push_back(path + ": " + sentence);
-  if (const auto question = size_question(size_of(layout)); !question.empty())
-    warnings.push_back(path + ": " + question);
+  for (const auto& question : {size_question(size_of(layout)), speed_question(layout)}) {
+    if (!question.empty()) warnings.push_back(path + ": " + question);
+  }
   return warnings;
 }
 

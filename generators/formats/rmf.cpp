@@ -602,7 +602,7 @@ Layout read_rmf(const std::string& path, std::vector<std::string>& warnings, con
 Layout parse_rmf(std::string_view text, std::string_view source, std::vector<std::string>& warnings,
                  const RmfChoice& choice) {
   // yaml-cpp reads UTF-16, too, but takes every byte for UTF-8 otherwise.
-  if (!text.starts_with("\xff\xfe") && !text.starts_with("\xfe\xff")) refuse_latin1(text, source);
+  if (!text.starts_with("\xff\xfe") && !text.starts_with("\xfe\xff")) require_utf8(text, source);
   try {
     return LevelReader(text, source, warnings, choice).read();
   } catch (const YAML::Exception& error) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/outside_text.hpp"
 #include "core/geometry/rectangle.hpp"
 #include "generators/map/layout_check.hpp"
 
@@ -16,6 +17,7 @@ constexpr double kMuchTooLong_m = 100.0;  // half of all segments are longer: AG
 constexpr double kMuchTooShort_m = 0.1;   // half of all segments are shorter
 constexpr double kMuchTooLarge_m = 5000.0;  // the plant is longer
 constexpr double kMuchTooSmall_m = 1.5;     // the plant is shorter than an AGV
+constexpr double kMuchTooFast_mps = 10.0;   // AGVs drive up to 3 m/s
 
 Box box_of(const Layout& layout) {
   Box box;
@@ -63,6 +65,17 @@ std::string size_question(const PlantSize& size) {
       rounded_m(size.extent_m.x()), rounded_m(size.extent_m.y()), large ? "longer than" : "shorter than",
       rounded_m(size.median_m),
       large ? "centimetres or millimetres" : "metres where millimetres or centimetres belong");
+}
+
+std::string speed_question(const Layout& layout) {
+  const auto limit_mps = [](const Segment& s) { return std::max(s.speed_limit_mps, s.back_speed_limit_mps); };
+  const auto fastest = std::ranges::max_element(layout.segments, {}, limit_mps);
+  if (fastest == layout.segments.end() || limit_mps(*fastest) <= kMuchTooFast_mps) return "";
+  return fmt::format(
+      "{} segments have a speed limit above {:g} m/s, the highest of {:g} m/s at {}: is that in km/h or "
+      "m/min? Here it is read in the unit of the format; correct it if so",
+      std::ranges::count_if(layout.segments, [&](const Segment& s) { return limit_mps(s) > kMuchTooFast_mps; }),
+      kMuchTooFast_mps, limit_mps(*fastest), in_quotes(fastest->name));
 }
 
 void shift_far_plant(Layout& layout, std::string_view source, std::vector<std::string>& warnings) {

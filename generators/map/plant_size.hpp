@@ -24,6 +24,9 @@ std::string size_text(const PlantSize& size);
 // for others.
 std::string size_question(const PlantSize& size);
 
+// A question about the unit of the fastest speed limit, if no AGV is that fast; empty for others.
+std::string speed_question(const Layout& layout);
+
 // Moves a plant that lies beyond the range of coordinates, as plants in UTM coordinates do, near the origin, by whole
 // hundreds of metres, so that all distances stay. `warnings` receives a sentence with the shift. Nothing happens to a
 // plant that is within the range, or too large for it.

@@ -72,7 +72,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
                        fmt::format("key {} appears twice in one object; keep one", in_quotes(value)));
     }
     if (keys.size() == kMostKeys)
-      throw InputError(at_line(source_, line_here(0)), "one object has more than 1000 keys, which no scenario needs");
+      throw InputError(at_line(source_, line_here(0)),
+                       "one object has more than 1000 keys, more than any file that is read here has");
     keys.push_back(value);
     return true;
   }
@@ -117,7 +118,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool open(JsonValue::Shape shape) {
     if (open_.size() > kDeepest)
       throw InputError(at_line(source_, line_here(0)),
-                       "values are nested deeper than 32 levels, which no scenario needs");
+                       "values are nested deeper than 32 levels, deeper than in any file that is read here");
     JsonValue value;
     value.shape = shape;
     add(std::move(value));

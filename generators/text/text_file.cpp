@@ -102,7 +102,9 @@ std::size_t utf8_length(std::string_view text) {
 }  // namespace
 
 void require_utf8(std::string_view text, std::string_view source) {
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+  // Without its mark, UTF-16 has a byte 0 beside the first letter, which is one of ASCII in every format.
+  const bool wide = text.size() > 1 && (text[0] == '\0') != (text[1] == '\0');
+  if (wide || text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw InputError(source, "is in UTF-16; save it as UTF-8");
   refuse_latin1(text, source);
 }

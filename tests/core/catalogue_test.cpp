@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace fleetproof::catalogue_test {
 namespace {
 
@@ -12,9 +14,13 @@ TEST(NearestName, IsWithinAThirdOfTheLetters) {
   EXPECT_EQ(nearest_name("a statoin with long name", known), "a station with a long name");
   EXPECT_EQ(nearest_name("quay", known), std::nullopt);
   EXPECT_EQ(nearest_name("", known), std::nullopt);
+  EXPECT_EQ(nearest_name("xy", std::array<std::string_view, 2>{"a", "ab"}), std::nullopt) << "no letter is right";
+  EXPECT_EQ(nearest_name("xb", std::array<std::string_view, 2>{"a", "ab"}), "ab");
 }
 
 TEST(NearestName, IsNotLookedForWhereNobodyMistyped) {
+  for (const char* number : {"77", "0", "1001"})
+    EXPECT_EQ(nearest_name(number, std::array<std::string_view, 3>{"7", "78", "1000"}), std::nullopt);
   const std::string longest(200, 'x'), longer(201, 'x');
   const std::string_view known[] = {longer};
   EXPECT_EQ(nearest_name(longest, known), longer);

@@ -12,6 +12,8 @@
 namespace fleetproof::csv_layout_test {
 namespace {
 
+using independent::replaced;
+
 const std::string kTables = R"(# a fork of three nodes
 id,x,y,purposes
 dock,0,0,storage parking
@@ -26,12 +28,6 @@ fork,"end, of it",0,6.5 0 7 3
 Layout import(const std::string& text) {
   std::vector<std::string> warnings;
   return parse_csv_layout(text, "l.csv", warnings);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
 TEST(CsvLayout, ReadsBothTables) {
@@ -87,6 +83,8 @@ TEST(CsvLayout, ATableOfTheLayoutNamesItAndItsFloor) {
   EXPECT_EQ(with_floor.floor_high_m, Vec2(20.0, 10.5));
   const auto refused = [](const std::string& table) { return independent::refusal(import, table + kTables); };
   EXPECT_EQ(refused("layout,low_x\nmill,1\n"), "l.csv:2: low_y is \"\"; expected a finite number");
+  EXPECT_EQ(refused("layout,low_x\nmill,\"10,5\"\n"),
+            "l.csv:2: low_x is \"10,5\"; expected a finite number, with a point before its decimals");
   EXPECT_EQ(refused("layout\nmill\nmall\n"),
             "l.csv:3: the table of the layout has a second line; one file holds one layout");
   EXPECT_EQ(refused("layout,floor\nmill,1\n").find("l.csv:1: \"floor\" is not a column of layouts"), 0U);

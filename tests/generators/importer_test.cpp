@@ -1,6 +1,6 @@
 #include "generators/formats/importer.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -92,6 +92,34 @@ TEST_F(ImporterTest, UnknownNamesAreExplained) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "import: there is no importer \"opentsc\"; did you mean \"opentcs\"?");
   }
+}
+
+TEST_F(ImporterTest, JsonThatIsNoLayoutIsCalledNeitherLifNorOurs) {
+  for (const char* text : {R"({"name": "app", "version": "1.0.0"})", "[1, 2]", "\"text\"", "{}"})
+    EXPECT_THAT(refusal(file("package.json", text)),
+                testing::HasSubstr("package.json: is JSON, but no layout: it has none of the keys"))
+        << text;
+  EXPECT_THAT(refusal(file("o.json", R"({"headerId": 1, "orderId": "a"})")), testing::HasSubstr("is a VDA 5050 order"));
+}
+
+TEST_F(ImporterTest, APackedFileOfAnyNameIsUnpackedFirst) {
+  const std::string packed("\x1f\x8b\x08\x00", 4);
+  for (const char* name : {"plant.csv.gz", "plant.gz", "plant.csv"})
+    EXPECT_THAT(refusal(file(name, packed)), testing::HasSubstr("is packed with gzip; unpack it with gunzip"));
+}
+
+TEST_F(ImporterTest, SpeedLimitsInAnotherUnitAreQuestioned) {
+  const auto warnings = [&](const std::string& limit) {
+    std::vector<std::string> sentences;
+    import_layout(
+        file("s.csv", "id,x,y\na,0,0\nb,9,0\nfrom,to,bidirectional,speed_limit_mps\na,b,true," + limit + "\n"), {},
+        sentences);
+    return sentences;
+  };
+  EXPECT_THAT(warnings("2"), testing::Not(testing::Contains(testing::HasSubstr("speed limit"))));
+  EXPECT_THAT(warnings("72"), testing::Contains(testing::HasSubstr(
+                                  "1 segments have a speed limit above 10 m/s, the highest of 72 m/s at "
+                                  "\"a-b\": is that in km/h or m/min?")));
 }
 
 TEST_F(ImporterTest, EveryImporterRefusesWhatIsNoLayout) {
