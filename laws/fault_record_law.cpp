@@ -1,26 +1,41 @@
 #include "laws/fault_record_law.hpp"
 
+#include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "core/outcome/trace_records.hpp"
 
 namespace fleetproof {
 namespace {
 
+// Only the agent `scripted` plays a script.
+bool plays_scripts(const Scenario& scenario) {
+  return (scenario.agent.empty() || scenario.agent == "scripted") &&
+         std::ranges::any_of(scenario.agvs, [](const AgvSetup& agv) { return !agv.script.empty(); });
+}
+
 class FaultRecordLaw final : public Law {
  public:
   explicit FaultRecordLaw(const Scenario& scenario)
-      : agv_count_(scenario.agvs.size()), with_obstacles_(agv_count_ + scenario.obstacles.size()) {}
+      : scenario_(scenario),
+        agv_count_(scenario.agvs.size()),
+        with_obstacles_(agv_count_ + scenario.obstacles.size()) {}
 
   Pieces hears_pieces() const override { return Pieces::None; }
   TraceKinds reads() const override {
-    return {TraceKind::FaultStrikes, TraceKind::FaultOver, TraceKind::Appears, TraceKind::Leaves};
+    const TraceKinds kinds{TraceKind::FaultStrikes, TraceKind::FaultOver, TraceKind::Appears, TraceKind::Leaves,
+                           TraceKind::Denied};
+    return plays_scripts(scenario_) ? kinds | TraceKinds{TraceKind::CallRefused} : kinds;
   }
   void happened(const TraceRecord& record) override {
     switch (record.kind) {
       case TraceKind::FaultStrikes: {
         const auto [fault, number] = read<traced::FaultStrikes>(record);
+        decided_.insert(number);
         begins({IncidentKind::FaultInjected, record.entity, {}, record.at, record.at, static_cast<int>(fault)}, number);
         break;
       }
@@ -28,14 +43,16 @@ class FaultRecordLaw final : public Law {
         ends(IncidentKind::FaultInjected, record, read<traced::FaultOver>(record).number);
         break;
       case TraceKind::Appears:
-        if (record.entity.index() < agv_count_) break;  // the operator sets an AGV down
-        begins({IncidentKind::ForeignBody,
-                record.entity,
-                {},
-                record.at,
-                record.at,
-                record.entity.index() < with_obstacles_ ? kObstacle : kFallenLoad},
-               0);
+        if (record.entity.index() >= agv_count_) appears(record);  // else the operator sets an AGV down
+        break;
+      case TraceKind::Denied:
+        if (record.entity.index() < agv_count_)
+          denied(record);
+        else
+          begins({IncidentKind::ObstacleWithoutRoom, record.entity, {}, record.at, record.at, kNeverCame}, 0);
+        break;
+      case TraceKind::CallRefused:
+        refused(record);
         break;
       case TraceKind::Leaves:
         ends(IncidentKind::ForeignBody, record, 0);
@@ -45,8 +62,12 @@ class FaultRecordLaw final : public Law {
     }
   }
   void finish(SimTime end) override {
-    for (const auto& [key, place] : under_way_) incidents_[place].last = end;
+    for (const auto& [key, place] : under_way_) {
+      const bool waits = std::get<IncidentKind>(key) == IncidentKind::ObstacleWithoutRoom;
+      incidents_[place].last = waits ? std::min(end, kStart + obstacle(std::get<EntityId>(key)).leaves) : end;
+    }
     under_way_.clear();
+    not_reached(end);
   }
   LawResults findings() const override {
     LawResults findings;
@@ -61,6 +82,65 @@ class FaultRecordLaw final : public Law {
     under_way_[{incident.kind, incident.a, number}] = incidents_.size();
     incidents_.push_back(incident);
   }
+  void appears(const TraceRecord& record) {
+    const auto waited = under_way_.find({IncidentKind::ObstacleWithoutRoom, record.entity, 0});
+    if (waited != under_way_.end()) {
+      incidents_[waited->second].last = record.at, incidents_[waited->second].value = kCameLater;
+      under_way_.erase(waited);
+    }
+    const bool stood = record.entity.index() < with_obstacles_;
+    begins({IncidentKind::ForeignBody, record.entity, {}, record.at, record.at, stood ? kObstacle : kFallenLoad}, 0);
+  }
+  void denied(const TraceRecord& record) {
+    const auto [why, number] = read<traced::Denied>(record);
+    decided_.insert(number);
+    const bool is_load = why == Denial::NoSuchLoad || why == Denial::NoRoom;
+    const std::int64_t value = !is_load                ? static_cast<int>(scenario_.faults[number].kind)
+                               : why == Denial::NoRoom ? kNoRoomForLoad
+                                                       : kNoSuchLoad;
+    incidents_.push_back({is_load ? IncidentKind::LoadDidNotFall : IncidentKind::FaultWithoutEffect,
+                          record.entity,
+                          {},
+                          record.at,
+                          record.at,
+                          value});
+  }
+  // Of the calls of the script that are like the refused one, the nearest in time: the clock of the AGV may be wrong.
+  void refused(const TraceRecord& record) {
+    const auto [call, segment] = read<traced::CallRefused>(record);
+    const auto& script = scenario_.agvs[record.entity.index()].script;
+    const auto away = [&](std::size_t k) { return std::chrono::abs(kStart + script[k].at - record.at); };
+    std::optional<std::size_t> nearest;
+    for (std::size_t k = 0; k < script.size(); ++k) {
+      const bool is_like_it = static_cast<std::uint32_t>(script[k].action) == call && script[k].segment == segment;
+      if (!is_like_it || refused_.contains({record.entity, k})) continue;
+      if (!nearest || away(k) <= away(*nearest)) nearest = k;
+    }
+    if (!nearest) return;
+    refused_.insert({record.entity, *nearest});
+    const auto place = static_cast<std::int64_t>(*nearest);
+    incidents_.push_back({IncidentKind::CallNotMade, record.entity, {}, record.at, record.at, place});
+  }
+  // What an event at the end of the run would do still takes place.
+  void not_reached(SimTime end) {
+    const auto late = [&](Duration at) { return kStart + at > end; };
+    std::map<EntityId, std::int64_t> counts;
+    for (std::size_t i = 0; i < agv_count_; ++i) {
+      const AgvSetup& agv = scenario_.agvs[i];
+      const auto orders = std::ranges::count_if(agv.transports, late, &TransportOrder::release);
+      const auto calls = plays_scripts(scenario_) ? std::ranges::count_if(agv.script, late, &ScriptedCall::at) : 0;
+      counts[EntityId{i}] = orders + calls;
+    }
+    for (std::size_t i = 0; i < scenario_.faults.size(); ++i)
+      counts[scenario_.faults[i].agv] += decided_.contains(i) ? 0 : 1;
+    for (std::size_t i = agv_count_; i < with_obstacles_; ++i) {
+      if (late(obstacle(EntityId{i}).appears)) counts[EntityId{i}] = 1;
+    }
+    for (const auto& [body, count] : counts) {
+      if (count > 0) incidents_.push_back({IncidentKind::NotReached, body, {}, end, end, count});
+    }
+  }
+  const ObstacleSetup& obstacle(EntityId body) const { return scenario_.obstacles[body.index() - agv_count_]; }
   void ends(IncidentKind kind, const TraceRecord& record, std::uint64_t number) {
     const auto found = under_way_.find({kind, record.entity, number});
     if (found == under_way_.end()) return;
@@ -68,8 +148,11 @@ class FaultRecordLaw final : public Law {
     under_way_.erase(found);
   }
 
+  const Scenario& scenario_;
   std::size_t agv_count_, with_obstacles_;
-  std::map<Key, std::size_t> under_way_;  // by place in incidents_
+  std::set<std::uint64_t> decided_;                     // faults that struck or were denied, by number
+  std::set<std::pair<EntityId, std::size_t>> refused_;  // calls of scripts, by place
+  std::map<Key, std::size_t> under_way_;                // by place in incidents_
   std::vector<Incident> incidents_;
 };
 

@@ -78,7 +78,7 @@ constexpr LawLine kLines[] = {
      {"faults",
       "Accuses nothing. It notes when each injected fault struck which AGV, and each fallen load or obstacle that came "
       "onto the floor, so that a report can say what came before a failure. It does not see whether that was the "
-      "cause.",
+      "cause. It also notes what the scenario asked for and did not get.",
       make_fault_record_law}},
     {LawUse::ToCompare,
      {"paper",

@@ -48,8 +48,19 @@ std::string counters_text(const Outcome& outcome) {
 
 // The value of an incident with its unit; a word where the number stands for one.
 std::string value_text(const Incident& incident) {
-  if (incident.kind == IncidentKind::FaultInjected) return std::string(fault_word(incident));
-  if (incident.kind == IncidentKind::ForeignBody) return is_fallen_load(incident) ? "a fallen load" : "an obstacle";
+  switch (incident.kind) {
+    case IncidentKind::FaultInjected:
+    case IncidentKind::FaultWithoutEffect:
+      return std::string(fault_word(incident));
+    case IncidentKind::ForeignBody:
+      return is_fallen_load(incident) ? "a fallen load" : "an obstacle";
+    case IncidentKind::LoadDidNotFall:
+      return name_of(incident.value == kNoRoomForLoad ? Denial::NoRoom : Denial::NoSuchLoad);
+    case IncidentKind::ObstacleWithoutRoom:
+      return incident.value == kNeverCame ? "it never came" : "it came later";
+    default:
+      break;
+  }
   return fmt::format("{}: {}", info_of(incident.kind).unit, incident.value);
 }
 

@@ -88,6 +88,12 @@ std::string note_details(const TraceRecord& record, std::string_view text, const
                      where.x_mm / 1e3, where.y_mm / 1e3, heading, static_cast<double>(belief.as_of_ns) / 1e9);
 }
 
+std::string denied_text(const traced::Denied& denied, EntityId body, const Scenario& scenario) {
+  const bool is_fault = body.index() < scenario.agvs.size();
+  return fmt::format("{}: {}", is_fault ? name_of(scenario.faults[denied.number].kind) : "obstacle",
+                     name_of(denied.why));
+}
+
 }  // namespace
 
 std::string nanosecond_text(SimTime t) {
@@ -136,6 +142,8 @@ std::string trace_details(const TraceRecord& record, std::string_view text, cons
       return name_of(read<traced::FaultStrikes>(record).fault);
     case TraceKind::FaultOver:
       return name_of(read<traced::FaultOver>(record).fault);
+    case TraceKind::Denied:
+      return denied_text(read<traced::Denied>(record), record.entity, scenario);
     case TraceKind::ScannerStops:
       return "for " + body(read<traced::ScannerStops>(record).body);
     case TraceKind::OperatorAssists:

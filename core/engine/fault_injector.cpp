@@ -8,8 +8,6 @@
 namespace fleetproof {
 namespace {
 
-constexpr double kAppearsClear_m = 0.05;  // beyond the safety distance
-
 Halt::Reason halt_of(Fault::Kind kind) {
   return kind == Fault::Kind::ProtectiveStop ? Halt::Reason::ProtectiveStop : Halt::Reason::Breakdown;
 }
@@ -43,11 +41,17 @@ void FaultInjector::load_taken_up(AgvId agv, TransportId transport) {
   }
 }
 
+// An AGV or agent that is already out of order cannot fail.
+std::optional<Denial> FaultInjector::denial_of(AgvId agv, std::uint64_t number) {
+  const Fault::Kind kind = run_.scenario.faults[number].kind;
+  if (concerns_agent_alone(kind) && !ports_.agents.is_up(agv)) return Denial::AgentAway;
+  if (!concerns_agent_alone(kind) && run_.status(agv).out_of_order) return Denial::OutOfOrder;
+  return kind == Fault::Kind::LoadDrop ? load_drops(agv, number) : std::nullopt;
+}
+
 void FaultInjector::strikes(AgvId agv, std::uint64_t number) {
   const Fault& fault = run_.scenario.faults[number];
-  // An AGV or agent that is already out of order cannot fail.
-  if (concerns_agent_alone(fault.kind) ? !ports_.agents.is_up(agv) : run_.status(agv).out_of_order) return;
-  if (fault.kind == Fault::Kind::LoadDrop && !load_drops(agv, number)) return;
+  if (const auto why = denial_of(agv, number)) return run_.deny(agv, *why, number);
   ++run_.counters.faults;
   run_.trace(agv, traced::FaultStrikes{fault.kind, number});
   if (holds_agv(fault.kind)) fault_states_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
@@ -86,8 +90,10 @@ void FaultInjector::obstacle_appears(EntityId body) {
   const ObstacleSetup& obstacle = run_.scenario.obstacles[body.index() - run_.agvs.size()];
   if (run_.now >= kStart + obstacle.leaves) return;
   const double margin_m = run_.scenario.law.safety_distance_m + kAppearsClear_m;
-  if (!run_.world.is_free(placed(obstacle.footprint, obstacle.pose), margin_m, run_.now))
+  if (!run_.world.is_free(placed(obstacle.footprint, obstacle.pose), margin_m, run_.now)) {
+    if (run_.now == kStart + obstacle.appears) run_.deny(body, Denial::NoRoom, 0);
     return run_.queue.push(run_.now + kBodyTriesAgain, body, Event::Kind::BodyAppears);
+  }
   run_.trace(body, traced::Appears{});
   run_.world.put_on_floor(body, obstacle.footprint, obstacle.pose, run_.now);
   ports_.contacts.predict(body);
@@ -113,16 +119,17 @@ EntityId FaultInjector::fallen_body(std::uint64_t number) const {
   return EntityId{run_.agvs.size() + run_.scenario.obstacles.size() + static_cast<std::size_t>(before)};
 }
 
-// False if the AGV carries nothing. False also if the load would fall on another body: then it does not fall.
-bool FaultInjector::load_drops(AgvId agv, std::uint64_t number) {
+// A load that would fall on another body, or on its own AGV, does not fall.
+std::optional<Denial> FaultInjector::load_drops(AgvId agv, std::uint64_t number) {
   const Fault& fault = run_.scenario.faults[number];
   const LoadId load = run_.world.carried_load(agv);
-  if (!load.valid()) return false;
+  if (!load.valid()) return Denial::NoSuchLoad;
   if (fault.transport && run_.own_number(agv, run_.world.load(load).transport) != *fault.transport)
-    return false;  // the fault belongs to another transport
+    return Denial::NoSuchLoad;  // the fault belongs to another transport
   const OrientedRectangle from = run_.world.body(agv).piece.body_at(run_.now);
   const Pose pose{from.centre_m + fault.ahead_m * from.heading + fault.left_m * left_of(from.heading), from.heading};
-  if (!run_.world.is_free(placed(fault.load, pose), run_.scenario.law.safety_distance_m, run_.now)) return false;
+  if (!run_.world.is_free(placed(fault.load, pose), run_.scenario.law.safety_distance_m, run_.now))
+    return Denial::NoRoom;
   const EntityId body = fallen_body(number);
   run_.move_load(load, {Holder::Kind::Floor, body.value});
   ports_.actions.reshape(agv);
@@ -130,7 +137,7 @@ bool FaultInjector::load_drops(AgvId agv, std::uint64_t number) {
   run_.world.put_on_floor(body, fault.load, pose, run_.now);
   ports_.contacts.predict(body);
   run_.queue.push(run_.now + fault.lasts, body, Event::Kind::BodyLeaves);
-  return true;
+  return std::nullopt;
 }
 
 }  // namespace fleetproof

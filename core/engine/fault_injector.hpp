@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/engine/ports.hpp"
@@ -39,7 +40,9 @@ class FaultInjector {
     bool came = false;       // of a fault that counts from a pick: it has been set
   };
   void halt_ends(AgvId agv, std::uint64_t number);
-  bool load_drops(AgvId agv, std::uint64_t number);
+  // Absent: the fault strikes. A load that can fall falls.
+  std::optional<Denial> denial_of(AgvId agv, std::uint64_t number);
+  std::optional<Denial> load_drops(AgvId agv, std::uint64_t number);
   EntityId fallen_body(std::uint64_t number) const;
 
   RunContext& run_;

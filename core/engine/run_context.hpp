@@ -67,6 +67,11 @@ struct RunContext {
     writer.write(trace_record(now, entity, what), text);
   }
 
+  // What the scenario asks for and does not get now: see traced::Denied.
+  void deny(EntityId entity, Denial why, std::uint64_t number) {
+    writer.write_aside(trace_record(now, entity, traced::Denied{why, number}));
+  }
+
   // Whether anything becomes of the notes of agents: an observer hears them, or the radio spares messages by their
   // kind.
   bool hears_notes() const { return hears_notes_; }

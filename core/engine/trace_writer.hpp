@@ -26,6 +26,10 @@ class TraceWriter final : public TraceSource {
     if (read_.has(record.kind)) [[unlikely]]
       tell(TraceRecord(record), text);  // a copy, so that the record itself need not be in memory
   }
+  // Hands a record to the sink and to the laws, and leaves the digest as it is.
+  void write_aside(const TraceRecord& record) {
+    if (read_.has(record.kind)) tell(record, {});
+  }
   // Hands a note of an agent to the sink and to nothing else.
   void note(const TraceRecord& note, std::string_view text) {
     if (has_sink()) sink_->record(note, text);

@@ -73,6 +73,17 @@ constexpr auto kKinds = std::to_array<IncidentKindInfo>({
     {FaultInjected, Condition, std::nullopt, "fault-injected", kFaultUnit, "a fault of the scenario struck an AGV"},
     {ForeignBody, Condition, std::nullopt, "foreign-body", "1: a fallen load; 0: an obstacle",
      "a body lay on the floor that no control software is told of"},
+    {FaultWithoutEffect, Denied, std::nullopt, "fault-without-effect", kFaultUnit,
+     "a fault of the scenario changed nothing: the AGV, or its agent, was out of order already"},
+    {LoadDidNotFall, Denied, std::nullopt, "load-did-not-fall",
+     "1: the AGV carried no such load; 2: a body was in the place",
+     "a load of the scenario did not fall where and when it should have fallen"},
+    {ObstacleWithoutRoom, Denied, std::nullopt, "obstacle-without-room", "1: it never came; 0: it came later",
+     "an obstacle of the scenario had no room when it should have come"},
+    {CallNotMade, Denied, std::nullopt, "call-not-made", "place of the call in the script, from 0",
+     "the controller refused a call of the scenario's script"},
+    {NotReached, Denied, std::nullopt, "not-reached", "orders, faults, calls and obstacles",
+     "things of the scenario that the run did not reach: after its end, or of a load that was never picked"},
 });
 
 static_assert([] {
@@ -94,11 +105,13 @@ const IncidentKindInfo& info_of(IncidentKind kind) {
   return kKinds[number - 1];
 }
 
-bool accuses(IncidentKind kind) { return info_of(kind).role != IncidentRole::Condition; }
+bool accuses(IncidentKind kind) { return info_of(kind).role == Accusation || is_link(kind); }
+bool is_condition(IncidentKind kind) { return info_of(kind).role == Condition; }
 bool is_link(IncidentKind kind) { return info_of(kind).role == IncidentRole::Link; }
 
 std::string_view fault_word(const Incident& incident) {
-  ensure(incident.kind == IncidentKind::FaultInjected, "an injected fault has a word");
+  ensure(incident.kind == IncidentKind::FaultInjected || incident.kind == IncidentKind::FaultWithoutEffect,
+         "a fault has a word");
   return name_of(static_cast<Fault::Kind>(incident.value));
 }
 

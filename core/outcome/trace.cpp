@@ -103,6 +103,8 @@ const char* name_of(TraceKind kind) {
       return "lost by interference";
     case TraceKind::LostToSource:
       return "lost to an external source";
+    case TraceKind::Denied:
+      return "denied";
     case TraceKind::Described:
     case TraceKind::AgentState:
     case TraceKind::Belief:

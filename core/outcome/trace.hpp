@@ -55,6 +55,9 @@ enum class TraceKind : std::uint32_t {
   // To a TraceSink only, as well:
   DeliveryDecided = 44,  // what will become of a message at one receiver, at the instant of sending
   CallAccepted = 45,     // an action that the agent called for: it begins now, or after the action under way
+
+  // To a TraceSink and to laws, but not part of the digest: nothing happens.
+  Denied = 46,  // what the scenario asks for and does not get
 };
 const char* name_of(TraceKind kind);
 

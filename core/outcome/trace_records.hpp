@@ -230,6 +230,16 @@ struct Appears {
   static constexpr Appears of(const TraceRecord& r) { return {id_in<StationId>(r.a)}; }
 };
 
+// A fault would strike its AGV, or an obstacle would appear, at this instant. `number` is the fault's place in the
+// scenario; an obstacle leaves it as it is. Not part of the digest.
+struct Denied {
+  static constexpr TraceKind kKind = TraceKind::Denied;
+  Denial why = Denial::NoRoom;
+  std::uint64_t number = 0;
+  constexpr void put(TraceRecord& r) const { r.a = static_cast<std::uint64_t>(why), r.b = number; }
+  static constexpr Denied of(const TraceRecord& r) { return {static_cast<Denial>(r.a), r.b}; }
+};
+
 template <class What>
 constexpr bool describes(TraceKind kind) {
   if constexpr (requires { What::kKind; }) {

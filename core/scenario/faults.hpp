@@ -17,7 +17,7 @@ struct Fault {
   enum class Kind : std::uint8_t {
     Breakdown = 1,       // the AGV brakes, is out of order while the fault lasts, then goes on
     ProtectiveStop = 2,  // the AGV brakes, stands while the fault lasts, then goes on
-    LoadDrop = 3,        // the load lies on the floor while the fault lasts; no effect without a load, or without room
+    LoadDrop = 3,        // the load lies on the floor while the fault lasts; denied without a load, or without room
     Restart = 4,         // the agent loses its memory and is away while the fault lasts; the AGV finishes its action
     Freeze = 5,          // the agent receives no event while the fault lasts, and then all of them
     PowerFailure = 6,    // breakdown and restart in one: the AGV brakes, and its agent is away while the fault lasts
@@ -61,6 +61,27 @@ constexpr bool stops_computer(Fault::Kind kind) {
 // Whether the fault concerns the agent alone: it strikes an agent that runs, also if the AGV is out of order.
 constexpr bool concerns_agent_alone(Fault::Kind kind) {
   return kind == Fault::Kind::Restart || kind == Fault::Kind::Freeze;
+}
+
+// Why a run does not give what the scenario asks for: a fault that changes nothing, or an obstacle that does not come.
+enum class Denial : std::uint8_t {
+  OutOfOrder = 1,  // the AGV was out of order already
+  AgentAway = 2,   // the agent was away already
+  NoSuchLoad = 3,  // the AGV carried no load, or that of another transport
+  NoRoom = 4,      // another body was in the place, or the AGV itself
+};
+constexpr const char* name_of(Denial why) {
+  switch (why) {
+    case Denial::OutOfOrder:
+      return "the AGV was out of order already";
+    case Denial::AgentAway:
+      return "the agent was away already";
+    case Denial::NoSuchLoad:
+      return "the AGV carried no such load";
+    case Denial::NoRoom:
+      return "no room: a body was in the place";
+  }
+  return kNoWord;
 }
 
 // The laser scanner of an AGV. It stops the AGV when a body is in its protective field, and lets the AGV go on some

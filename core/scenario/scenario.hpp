@@ -71,7 +71,8 @@ struct AgvSetup {
 };
 
 // A body that stands on the floor. If it appears later, it waits until its place is clear of every other body by the
-// safety distance plus 5 cm. This is tried every second.
+// safety distance plus 5 cm. This is tried every second, until it leaves.
+inline constexpr double kAppearsClear_m = 0.05;
 struct ObstacleSetup {
   std::string name;
   Footprint footprint;

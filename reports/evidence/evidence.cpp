@@ -93,7 +93,7 @@ void Evidence::add(const RunRecord& run) {
 void Evidence::add_incidents(const RunRecord& run) {
   std::map<IncidentKind, std::uint64_t> incidents;
   for (const auto& incident : run.outcome.incidents) {
-    if (accuses(incident.kind)) ++incidents[incident.kind];
+    if (!is_condition(incident.kind)) ++incidents[incident.kind];
   }
   for (const auto& [kind, count] : incidents) {
     auto& tally =

@@ -11,7 +11,7 @@
 namespace fleetproof {
 namespace {
 
-bool is_fault(const Incident& incident) { return !accuses(incident.kind); }
+bool is_fault(const Incident& incident) { return is_condition(incident.kind); }
 
 // Of a fault that touched a body involved. Whether an AGV notices that its load is gone depends on the vehicle.
 CameBefore before_of(const Incident& fault) {

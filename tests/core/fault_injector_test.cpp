@@ -109,6 +109,48 @@ TEST(FaultInjectorPart, AnObstacleWaitsUntilItsPlaceIsFree) {
   EXPECT_FALSE(world.run.world.body(crate).on_floor);
 }
 
+std::vector<Denial> denials(const SmallWorld& world) {
+  std::vector<Denial> whys;
+  for (const TraceRecord& record : world.trace.of(TraceKind::Denied)) whys.push_back(read<traced::Denied>(record).why);
+  return whys;
+}
+
+TEST(FaultInjectorPart, AnObstacleIsDeniedOnceHoweverLongItWaits) {
+  Scenario scenario = test::row_of_tens({0});
+  scenario.obstacles.push_back({"crate", {1.0, 1.0}, {Vec2{0.5, 0.0}, Vec2::UnitX()}, seconds(1.0), seconds(4.0)});
+  SmallWorld world(scenario);
+  for (const double at_s : {1.0, 2.0, 3.0}) {
+    world.clock(at_s);
+    world.parts.faults.obstacle_appears(EntityId{1U});
+  }
+  EXPECT_EQ(denials(world), std::vector<Denial>{Denial::NoRoom});
+}
+
+TEST(FaultInjectorPart, ALoadIsDeniedWithItsReason) {
+  Fault too_near = fault(Fault::Kind::LoadDrop, 0.0, 30.0);
+  too_near.ahead_m = -1.0;
+  Fault of_another = fault(Fault::Kind::LoadDrop, 0.0, 30.0);
+  of_another.transport = 1;
+  SmallWorld world(with({too_near, of_another}));
+  world.parts.faults.strikes(kFirst, 0);
+  const LoadId load = world.run.world.add_load(TransportId{0U}, kFirst, StationId{0U}, StationId{2U});
+  world.run.world.move_load(load, {Holder::Kind::Agv, kFirst.value});
+  world.parts.faults.strikes(kFirst, 0);
+  world.parts.faults.strikes(kFirst, 1);
+  EXPECT_EQ(denials(world), (std::vector<Denial>{Denial::NoSuchLoad, Denial::NoRoom, Denial::NoSuchLoad}));
+  EXPECT_EQ(world.run.counters.faults, 0U);
+}
+
+TEST(FaultInjectorPart, AFaultOfWhatIsOutOfOrderIsDenied) {
+  SmallWorld world(with({fault(Fault::Kind::Restart, 0.0, 5.0), fault(Fault::Kind::Breakdown, 0.0, 5.0)}));
+  started(world);
+  world.parts.faults.strikes(kFirst, 0);
+  world.parts.faults.strikes(kFirst, 0);
+  world.run.status(kFirst).out_of_order = true;
+  world.parts.faults.strikes(kFirst, 1);
+  EXPECT_EQ(denials(world), (std::vector<Denial>{Denial::AgentAway, Denial::OutOfOrder}));
+}
+
 TEST(FaultInjectorPart, AFallenLoadLiesOnTheFloorUntilItIsClearedAway) {
   SmallWorld world(with({fault(Fault::Kind::LoadDrop, 0.0, 30.0)}));
   world.parts.faults.strikes(kFirst, 0);

@@ -21,9 +21,14 @@ std::set<std::string> kinds_with(IncidentRole role) {
 
 TEST(Incidents, AccuseTheFleetUnlessTheyAreItsCondition) {
   EXPECT_EQ(kinds_with(IncidentRole::Condition), (std::set<std::string>{"fault-injected", "foreign-body"}));
+  EXPECT_EQ(kinds_with(IncidentRole::Denied),
+            (std::set<std::string>{"fault-without-effect", "load-did-not-fall", "obstacle-without-room",
+                                   "call-not-made", "not-reached"}));
   EXPECT_EQ(kinds_with(IncidentRole::Link), (std::set<std::string>{"waits", "waits-inferred"}));
   for (const IncidentKindInfo& info : incident_kinds()) {
-    EXPECT_EQ(accuses(info.kind), info.role != IncidentRole::Condition) << info.name;
+    const bool is_told = info.role == IncidentRole::Condition || info.role == IncidentRole::Denied;
+    EXPECT_EQ(accuses(info.kind), !is_told) << info.name;
+    EXPECT_EQ(is_condition(info.kind), info.role == IncidentRole::Condition) << info.name;
     EXPECT_EQ(is_link(info.kind), info.role == IncidentRole::Link) << info.name;
     if (info.end_point) {
       EXPECT_EQ(info.role, IncidentRole::Accusation) << info.name << " fails a run";
@@ -55,6 +60,7 @@ TEST(Incidents, OfFaultsHaveTheWordsOfFaultsInTheirUnit) {
             std::to_string(static_cast<int>(kind)) + " " + word;
   }
   EXPECT_EQ(info_of(IncidentKind::FaultInjected).unit, unit);
+  EXPECT_EQ(info_of(IncidentKind::FaultWithoutEffect).unit, unit);
   EXPECT_TRUE(unit.starts_with("kind of the fault: 1 breakdown, 2 protective stop, ")) << unit;
 }
 

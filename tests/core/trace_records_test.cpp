@@ -54,6 +54,7 @@ TEST(TraceRecords, WriteTheWordsOfTheDigest) {
   expect_words(record_of(traced::Appears{}), Appears, 0, 0);
   expect_words(record_of(traced::Appears{StationId{13U}}), Appears, 13, 0);
   expect_words(record_of(traced::Leaves{}), Leaves, 0, 0);
+  expect_words(record_of(traced::Denied{Denial::NoSuchLoad, 11}), Denied, 3, 11);
 }
 
 TEST(TraceRecords, ReadWhatWasWritten) {
@@ -88,8 +89,8 @@ TEST(TraceRecords, EveryKindHasAName) {
   std::set<std::string> names;
   for (std::uint32_t kind = 1; kind <= 25; ++kind) names.insert(name_of(static_cast<TraceKind>(kind)));
   for (std::uint32_t kind = 32; kind <= 34; ++kind) names.insert(name_of(static_cast<TraceKind>(kind)));
-  for (std::uint32_t kind = 40; kind <= 45; ++kind) names.insert(name_of(static_cast<TraceKind>(kind)));
-  EXPECT_EQ(names.size(), 34U);
+  for (std::uint32_t kind = 40; kind <= 46; ++kind) names.insert(name_of(static_cast<TraceKind>(kind)));
+  EXPECT_EQ(names.size(), 35U);
 }
 
 }  // namespace

@@ -44,6 +44,22 @@ TEST(TraceWriter, HandsEachLawTheKindsThatItReads) {
     EXPECT_EQ(sink.of(kind).size(), 1U);
 }
 
+// Two runs that differ only in what the scenario did not get have the same digest.
+TEST(TraceWriter, LeavesTheDigestAsItIsWhenNothingHappens) {
+  std::vector<std::unique_ptr<Law>> laws;
+  laws.push_back(std::make_unique<Reads>(TraceKinds{TraceKind::Denied}));
+  laws.push_back(std::make_unique<Reads>(TraceKinds{TraceKind::Log}));
+  test::Recorder sink;
+  TraceWriter writer(laws, &sink);
+  const std::uint64_t before = writer.digest().value();
+  writer.write_aside(trace_record(kStart, EntityId{0U}, traced::Denied{Denial::NoRoom, 3}));
+  EXPECT_EQ(writer.digest().value(), before);
+  EXPECT_EQ(writer.digest().record_count(), 0U);
+  EXPECT_EQ(static_cast<const Reads&>(*laws[0]).heard, std::vector<TraceKind>{TraceKind::Denied});
+  EXPECT_EQ(static_cast<const Reads&>(*laws[1]).heard, std::vector<TraceKind>{});
+  EXPECT_EQ(sink.of(TraceKind::Denied).size(), 1U);
+}
+
 class ReadsAboutTurns final : public Reads {
  public:
   ReadsAboutTurns() : Reads(TraceKinds{TraceKind::ActivityBegins, TraceKind::ActivityEnds, TraceKind::Contact}) {}

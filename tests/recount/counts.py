@@ -9,7 +9,8 @@ KINDS = {1: "battery-empty", 2: "channel-saturated", 3: "interference-losses", 4
          5: "load-vanished", 6: "load-delivered-twice", 7: "load-picked-by-full-agv", 8: "load-at-wrong-station",
          9: "load-moved-by-nobody", 10: "deadlock", 11: "waits", 12: "waits-inferred", 13: "livelock",
          14: "starvation", 15: "safe-mode-in-contract", 16: "standstill-in-contract", 17: "throughput-below-floor",
-         18: "fault-injected", 19: "foreign-body"}
+         18: "fault-injected", 19: "foreign-body", 20: "fault-without-effect", 21: "load-did-not-fall",
+         22: "obstacle-without-room", 23: "call-not-made", 24: "not-reached"}
 UNMEASURED = "(min_clearance_um IS NULL AND (engine_error OR simulated_ns = 0))"  # no clearance is known
 EARLY = "(crash OR hang OR indeterminate OR engine_error)"
 

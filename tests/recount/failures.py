@@ -51,7 +51,7 @@ def failing_runs(archive):
         if not found:
             continue
         leads = found[0]
-        faults = [row for row in incidents if row["kind"] >= 18]
+        faults = [row for row in incidents if row["kind"] in (18, 19)]
         came_before = before(run, faults, leads["at"], leads["a"], leads["b"], leads["too_close"] and leads["b"] is not None)
         yield run["agent"], run["end"] or "incident", leads["what"], came_before, run
 

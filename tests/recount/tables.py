@@ -186,7 +186,7 @@ def incident_rows(archive):
     """Of all runs before the first gap."""
     return [[row["agent"], KINDS[row["kind"]], str(row["runs"]), str(row["incidents"])] for row in archive.all(
         "SELECT agent, kind, count(DISTINCT run_index) AS runs, count(*) AS incidents FROM incidents JOIN runs USING "
-        "(run_index) JOIN cells USING (cell) WHERE run_index < ? AND kind < 18 GROUP BY agent, kind ORDER BY "
+        "(run_index) JOIN cells USING (cell) WHERE run_index < ? AND kind NOT IN (18, 19) GROUP BY agent, kind ORDER BY "
         "(SELECT min(cell) FROM cells c WHERE c.agent = cells.agent), kind", archive.runs)]
 
 
