@@ -14,6 +14,7 @@
 #include "generators/formats/importer.hpp"
 #include "generators/formats/vehicles.hpp"
 #include "generators/map/permitted_types.hpp"
+#include "generators/scenario_file/unmet_requests.hpp"
 #include "generators/scenario_file/validator.hpp"
 #include "generators/worlds/world_maker.hpp"
 #include "reports/page/wording.hpp"
@@ -82,6 +83,8 @@ void check_scenario(const std::string& path) {
   const Scenario scenario = read_case_file(path);
   for (const auto& problem : problems_of(scenario))
     talk("warning: {}: {}: {}\n", path, problem.pointer, problem.sentence);
+  for (const UnmetRequest& unmet : unmet_requests(scenario))
+    talk("warning: {}: {}: {}\n", path, unmet.pointer, unmet.sentence);
   warn_of_foreign_types(scenario, path);
   for (const VehicleType& type : scenario.vehicle_types) {
     for (const std::string& question : vehicle_questions(type))

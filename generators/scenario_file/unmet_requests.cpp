@@ -1,0 +1,132 @@
+#include "generators/scenario_file/unmet_requests.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/outside_text.hpp"
+
+namespace fleetproof {
+namespace {
+
+class Requests {
+ public:
+  explicit Requests(const Scenario& scenario) : scenario_(scenario) {}
+
+  std::vector<UnmetRequest> run() {
+    for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) agv(i);
+    for (std::size_t i = 0; i < scenario_.faults.size(); ++i) fault(i);
+    for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) obstacle(i);
+    late_things("/fates", "deliveries are given for messages that are sent", scenario_.deliveries,
+                &GivenDelivery::sent);
+    adverse_scope();
+    if (const auto& help = scenario_.operator_help; help.on && seconds(help.least_s) > scenario_.horizon)
+      add("/operator/least_s",
+          fmt::format("the operator comes {:g} s after a call, which is {}", help.least_s, after()));
+    return std::move(unmet_);
+  }
+
+ private:
+  void add(std::string pointer, std::string sentence) { unmet_.push_back({std::move(pointer), std::move(sentence)}); }
+
+  // An event at the end of the run still takes place.
+  bool is_late(Duration at) const { return at > scenario_.horizon; }
+  std::string after() const {
+    return fmt::format("after the end of the run (horizon_s is {:g}); make the run longer, or this earlier",
+                       to_seconds(scenario_.horizon));
+  }
+
+  // One sentence for all things of a list that are late.
+  template <class Thing>
+  void late_things(const std::string& list, std::string_view what, const std::vector<Thing>& things,
+                   Duration Thing::*at) {
+    const auto late = [&](const Thing& thing) { return is_late(thing.*at); };
+    const auto first = std::ranges::find_if(things, late);
+    if (first == things.end()) return;
+    add(fmt::format("{}/{}", list, first - things.begin()),
+        fmt::format("{} {} {}", std::ranges::count_if(things, late), what, after()));
+  }
+
+  void agv(std::size_t i) {
+    const AgvSetup& agv = scenario_.agvs[i];
+    const std::string place = fmt::format("/agvs/{}", i), name = in_quotes(agv.name);
+    late_things(place + "/transports", "orders of " + name + " are released", agv.transports, &TransportOrder::release);
+    if (!agv.script.empty() && !scenario_.agent.empty() && scenario_.agent != "scripted")
+      add(place + "/script",
+          fmt::format("only the agent \"scripted\" plays a script, and the agent is {}; leave one out",
+                      in_quotes(scenario_.agent)));
+    else
+      late_things(place + "/script", "calls of the script of " + name + " are made", agv.script, &ScriptedCall::at);
+  }
+
+  void fault(std::size_t i) {
+    const Fault& fault = scenario_.faults[i];
+    const AgvSetup& agv = scenario_.agvs[fault.agv.index()];
+    const std::string place = fmt::format("/faults/{}", i);
+    const bool counts_from_pick = fault.transport.has_value();
+    const Duration earliest = fault.at + (counts_from_pick ? agv.transports[*fault.transport].release : Duration{});
+    if (is_late(earliest))
+      add(place + "/at_s", fmt::format("the {} of {} comes {}at {:g} s, {}", name_of(fault.kind), in_quotes(agv.name),
+                                       counts_from_pick ? "at the earliest " : "", to_seconds(earliest), after()));
+    if (fault.kind == Fault::Kind::LoadDrop) load_drop(place, fault, agv);
+  }
+
+  void load_drop(const std::string& place, const Fault& fault, const AgvSetup& agv) {
+    if (agv.transports.empty())
+      return add(place + "/agv", fmt::format("{} has no transports, so it never carries a load that could fall; give "
+                                             "it one, or leave the fault out",
+                                             in_quotes(agv.name)));
+    const OrientedRectangle body{Vec2::Zero(), Vec2::UnitX(), 0.5 * loaded(agv).length_m, 0.5 * loaded(agv).width_m};
+    const OrientedRectangle load = placed(fault.load, {{fault.ahead_m, fault.left_m}, Vec2::UnitX()});
+    const double gap_m = std::max(0.0, clearance_m(body, load)), distance_m = scenario_.law.safety_distance_m;
+    if (gap_m > distance_m) return;
+    add(place + "/ahead_m",
+        fmt::format(
+            "the load would lie {:.3g} m from {}, which drops it, and it needs more than the safety distance of "
+            "{:g} m; so it does not fall: set ahead_m below {:g}",
+            gap_m, in_quotes(agv.name), distance_m, -(body.half_length_m + 0.5 * fault.load.length_m + distance_m)));
+  }
+  Footprint loaded(const AgvSetup& agv) const { return scenario_.type_of(agv).footprint_with(true); }
+
+  void obstacle(std::size_t i) {
+    const ObstacleSetup& obstacle = scenario_.obstacles[i];
+    const std::string place = fmt::format("/obstacles/{}", i), name = in_quotes(obstacle.name);
+    if (is_late(obstacle.appears))
+      return add(place + "/appears_s",
+                 fmt::format("{} appears at {:g} s, {}", name, to_seconds(obstacle.appears), after()));
+    if (obstacle.appears == Duration::zero()) return;
+    const OrientedRectangle body = placed(obstacle.footprint, obstacle.pose);
+    for (const ObstacleSetup& other : scenario_.obstacles) {
+      const bool always =
+          other.appears == Duration::zero() && other.leaves >= std::min(obstacle.leaves, scenario_.horizon);
+      if (&other == &obstacle || !always) continue;
+      const double gap_m = std::max(0.0, clearance_m(body, placed(other.footprint, other.pose)));
+      if (gap_m > scenario_.law.safety_distance_m + kAppearsClear_m) continue;
+      return add(
+          place + "/position_m",
+          fmt::format("{} would stand {:.3g} m from obstacle {}, which is there all the time; it needs more than "
+                      "{:g} m, so it never appears: move one",
+                      name, gap_m, in_quotes(other.name), scenario_.law.safety_distance_m + kAppearsClear_m));
+    }
+  }
+
+  void adverse_scope() {
+    const AdverseScope& adverse = scenario_.radio.adverse;
+    if (is_late(seconds(adverse.adverse_from_s)))
+      add("/radio/adverse_from_s",
+          fmt::format("the radio loses and delays messages from {:g} s on, {}", adverse.adverse_from_s, after()));
+    if (adverse.adverse_until_s > 0.0 && adverse.adverse_until_s <= adverse.adverse_from_s)
+      add("/radio/adverse_until_s", fmt::format("{:g} s is not after adverse_from_s, which is {:g}; so the radio loses "
+                                                "and delays nothing: let it end later",
+                                                adverse.adverse_until_s, adverse.adverse_from_s));
+  }
+
+  const Scenario& scenario_;
+  std::vector<UnmetRequest> unmet_;
+};
+
+}  // namespace
+
+std::vector<UnmetRequest> unmet_requests(const Scenario& scenario) { return Requests(scenario).run(); }
+
+}  // namespace fleetproof
