@@ -75,6 +75,20 @@ void warn_of_units(CampaignFile& file) {
   }
 }
 
+// A layout of a file may be larger than an agent can tell others about. Families are never so large.
+void require_room_for_agents(const CampaignFile& file, const AgentPrograms& programs) {
+  const CampaignPlan& plan = file.plan;
+  for (std::size_t i = 0; i < plan.agents.size(); ++i) {
+    const std::string where = file.places.of(fmt::format("factors.agents.{}", i));
+    const AgentProgram& program = programs.program(plan.agents[i].program, where + ": factors.agents");
+    for (const LayoutFactor& layout : plan.layouts) {
+      if (layout.map == nullptr) continue;
+      require_room(program, *layout.map, std::ranges::max(plan.fleet_sizes), "layout " + in_quotes(layout.name),
+                   where + ": factors.agents");
+    }
+  }
+}
+
 void warn_of_idle_gates(CampaignFile& file) {
   if (file.plan.kind != CampaignKind::Search || file.plan.gates.empty()) return;
   file.warnings.insert(file.warnings.begin(),
@@ -119,7 +133,7 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   warn_of_units(file);
   std::vector<bool> is_plugin;
   for (const std::string& path_of_object : file.agent_files) is_plugin.push_back(!path_of_object.empty());
-  for (std::size_t i = 0; i < agents.size(); ++i) programs.program(agents[i].program, place_of(i) + ": factors.agents");
+  require_room_for_agents(file, programs);
   if (file.fresh_seed) file.plan.seed = fresh_seed(file.plan, programs);
   say_where_fleets_are(file.places, [&] { add_default_gates(file.plan, is_plugin); });
   for (const std::string& warning : file.warnings) talk("warning: {}\n", warning);

@@ -100,8 +100,9 @@ CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
   source.failure = words.failure;
   source.scenario.expected = {};
   const bool names_agent = is_run || words.agent.empty();  // the file, not the command line
-  const AgentProgram& agent =
-      programs.program(source.agent.program, names_agent ? words.source + ": /agent" : "--agent");
+  const std::string where = names_agent ? words.source + ": /agent" : "--agent";
+  const AgentProgram& agent = programs.program(source.agent.program, where);
+  require_room(agent, *source.scenario.map, source.scenario.agvs.size(), "the scenario", where);
   if (agent.is_plugin()) source.plugin = " --plugin " + shell_word(agent.file);
   source.identity = fmt::format("{:016x} {} {} {}", scenario_digest(source.scenario), agent.name,
                                 agent.is_plugin() ? agent.sha256 : "built in", engine_identity().program_sha256);

@@ -79,6 +79,14 @@ void warn_of_foreign_types(const Scenario& scenario, const std::string& path) {
     talk("warning: {}: {}\n", path, sentence_on(type, layout, fleet));
 }
 
+// An agent that is not built in is not here: it says itself why it cannot start.
+void require_room_for_agent(const Scenario& scenario, const std::string& path) {
+  const AgentPrograms programs;
+  const auto program = std::ranges::find(programs.all(), scenario.agent, &AgentProgram::name);
+  if (program != programs.all().end())
+    require_room(*program, *scenario.map, scenario.agvs.size(), "the scenario", path + ": /agent");
+}
+
 void check_scenario(const std::string& path) {
   const Scenario scenario = read_case_file(path);
   for (const auto& problem : problems_of(scenario))
@@ -86,6 +94,7 @@ void check_scenario(const std::string& path) {
   for (const UnmetRequest& unmet : unmet_requests(scenario))
     talk("warning: {}: {}: {}\n", path, unmet.pointer, unmet.sentence);
   warn_of_foreign_types(scenario, path);
+  require_room_for_agent(scenario, path);
   for (const VehicleType& type : scenario.vehicle_types) {
     for (const std::string& question : vehicle_questions(type))
       talk("warning: {}: vehicle {}: {}\n", path, in_quotes(type.name), question);

@@ -293,7 +293,9 @@ int simulate_scenario(SimulateWords words) {
   RunWatch watch;
   watch.known_ends = ends;
   const fp_agent_type& agent = programs.find(words.agent, words.agent_place);
-  watch.foreign = programs.program(words.agent, words.agent_place).handles.get();
+  const AgentProgram& program = programs.program(words.agent, words.agent_place);
+  require_room(program, *scenario.map, scenario.agvs.size(), "the scenario", words.agent_place);
+  watch.foreign = program.handles.get();
   const Observers observers = observers_of(words.law, scenario);
   std::optional<RunObservers> observed;
   if (words.observed.wanted())

@@ -49,9 +49,26 @@ AgentProgram program_of(const fp_agent_type& type) {
 
 }  // namespace
 
+void require_room(const AgentProgram& program, const LogicalMap& map, std::size_t agvs, std::string_view place,
+                  const std::string& where) {
+  const std::size_t drives = map.lanes().size();
+  for (const auto& [count, what] :
+       {std::pair(map.station_count(), "stations"), std::pair(drives, "drives"), std::pair(agvs, "AGVs")}) {
+    if (count > program.most_of_each) {
+      throw InputError(where,
+                       fmt::format("{} has {} {}; the messages of agent {} name at most {} of each; use a smaller "
+                                   "{}, or another agent",
+                                   place, count, what, in_quotes(program.name), program.most_of_each,
+                                   count == agvs ? "fleet" : "layout"));
+    }
+  }
+}
+
 AgentPrograms::AgentPrograms() {
-  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_reference_agent(i); ++i)
+  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_reference_agent(i); ++i) {
     programs_.push_back(program_of(*agent));
+    programs_.back().most_of_each = fp_reference_agent_limit(agent);
+  }
 }
 
 AgentPrograms::~AgentPrograms() {

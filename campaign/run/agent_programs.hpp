@@ -9,6 +9,7 @@
 
 #include "campaign/plan/plan.hpp"
 #include "core/engine/foreign_calls.hpp"
+#include "core/scenario/layout.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
 namespace fleetproof {
@@ -21,9 +22,16 @@ struct AgentProgram {
   bool global_symbols = false;                // it is loaded with RTLD_GLOBAL: embedded Python needs it
   const fp_agent_type* type = nullptr;        // null: the shared object is not loaded into this process
   std::shared_ptr<ForeignHandles> handles{};  // of a shared object that is loaded into this process
+  // Of stations, drives and AGVs, so many each at most; FP_NONE: a shared object says it when it starts.
+  std::uint32_t most_of_each = FP_NONE;
 
   bool is_plugin() const { return !file.empty(); }
 };
+
+// Throws InputError, at `where`, if this agent cannot start on the map with so many AGVs. `place`: what has the map, as
+// errors say it: "layout \"hall\"".
+void require_room(const AgentProgram& program, const LogicalMap& map, std::size_t agvs, std::string_view place,
+                  const std::string& where);
 
 // The reference agents, and the shared objects that a campaign names. The object owns the loaded shared objects.
 class AgentPrograms {

@@ -4,20 +4,33 @@
 
 #include "core/agents/agent_type.hpp"
 #include "core/agents/faulty/faulty_agents.hpp"
+#include "core/agents/hull_lock.hpp"
 
 namespace {
 using namespace fleetproof::agents;
 
-constexpr const fp_agent_type* kWithoutPlantedFault[] = {&kScripted, &kHullLock, &kReckless};
+struct ReferenceAgent {
+  const fp_agent_type* type;
+  uint32_t most_of_each;  // stations, drives, AGVs; FP_NONE: any number
+};
+constexpr ReferenceAgent kWithoutPlantedFault[] = {
+    {&kScripted, FP_NONE}, {&kHullLock, kNumbersOnTheWire}, {&kReckless, FP_NONE}};
 }  // namespace
 
 extern "C" {
 const fp_agent_type* fp_reference_agent(uint32_t number) {
   constexpr uint32_t others = std::size(kWithoutPlantedFault);
-  return number < others ? kWithoutPlantedFault[number] : fp_faulty_agent(number - others);
+  return number < others ? kWithoutPlantedFault[number].type : fp_faulty_agent(number - others);
 }
 
 const fp_agent_type* fp_faulty_agent(uint32_t number) {
   return number < kFaultyAgents.size() ? &kFaultyAgents[number] : nullptr;
+}
+
+uint32_t fp_reference_agent_limit(const fp_agent_type* agent) {
+  for (const ReferenceAgent& known : kWithoutPlantedFault) {
+    if (known.type == agent) return known.most_of_each;
+  }
+  return kNumbersOnTheWire;  // hull-lock with a planted fault
 }
 }

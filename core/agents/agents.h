@@ -13,6 +13,10 @@ const fp_agent_type* fp_reference_agent(uint32_t number);
 /* Those that are hull-lock with a planted fault, from 0 on. Null after the last. */
 const fp_agent_type* fp_faulty_agent(uint32_t number);
 
+/* With how many stations, drives (lanes) and AGVs, each, a reference agent can start at most, because its messages name
+ * no more. FP_NONE: with any number. */
+uint32_t fp_reference_agent_limit(const fp_agent_type* agent);
+
 #ifdef __cplusplus
 }
 #endif

@@ -126,7 +126,10 @@ class HullLock {
   double plan_after_s_ = 0.0;
 };
 
-// For the C table. Returns null if map or fleet are too large for the messages.
+// The messages have no room for larger numbers: of stations, lanes and AGVs, there are so many each at most.
+inline constexpr std::uint32_t kNumbersOnTheWire = 0xffff;
+
+// For the C table. Returns null, and says why, if there are more of them.
 void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
                        const LockOptions& options);
 

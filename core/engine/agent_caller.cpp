@@ -1,5 +1,7 @@
 #include "core/engine/agent_caller.hpp"
 
+#include <string>
+
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/call_tape.hpp"
 #include "core/engine/controller_table.hpp"
@@ -90,9 +92,12 @@ const AgentFailure* AgentCaller::reach(const AgentCall& call, fp_controller* han
 }
 
 const AgentFailure* AgentCaller::create_and_start(const AgentCall& call, fp_controller* handle, void*& agent) {
-  if (const AgentFailure* failure = guarded([&] { agent = type_.create(host_, handle, call.briefing); }))
-    return failure;
-  if (agent == nullptr) return failed(false, "create() returned null");
+  std::string why_not;
+  call.controller->why_not = &why_not;
+  const AgentFailure* failure = guarded([&] { agent = type_.create(host_, handle, call.briefing); });
+  call.controller->why_not = nullptr;
+  if (failure != nullptr) return failure;
+  if (agent == nullptr) return failed(false, "create() returned null" + (why_not.empty() ? "" : ": " + why_not));
   if (tape_ != nullptr) tape_->agent_created();
   return hear(*call.event, agent);
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct fp_controller {
   fleetproof::AgvId agv;
   bool hears_notes = false;               // as RunContext::hears_notes
   fleetproof::CallTape* tape = nullptr;   // takes the calls of the activation; null: nobody records them
+  std::string* why_not = nullptr;         // takes why the agent cannot start; null: it is not being created
   fleetproof::Duration cost{};            // of its calls
   std::uint64_t calls = 0, services = 0;  // so many
   std::uint64_t calls_max = 0;            // so many are admitted; none outside an activation

@@ -1,6 +1,9 @@
 // The AGV controller as the agent sees it: the paper's interface (Sect. 2.2) in C, each call checked and passed on.
 #include "core/engine/controller_table.hpp"
 
+#include <cstring>
+#include <string>
+
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/declarations.hpp"
 
@@ -131,6 +134,17 @@ std::int32_t note(fp_controller* controller, const char* text) {
   });
 }
 
+// Of the text so much is kept as a crash can be filed with (AgentHost cuts it to its size).
+std::int32_t cannot_start(fp_controller* controller, const char* why) {
+  return admitted(controller, [&](AgvController&, AgvId) -> std::int32_t {
+    constexpr std::size_t kLongest = 1000;
+    if (why == nullptr) return FP_INVALID;
+    if (controller->why_not == nullptr) return FP_REFUSED;
+    controller->why_not->assign(why, ::strnlen(why, kLongest));
+    return FP_OK;
+  });
+}
+
 // ---- notes. Mostly, nobody hears them.
 
 void describe(fp_controller* controller, const char* kind) {
@@ -187,6 +201,7 @@ const fp_host kHost = {
     describe,
     declare_state,
     believe,
+    cannot_start,
 };
 
 }  // namespace fleetproof

@@ -54,7 +54,8 @@ void record(CallTape& tape, TapeItem item, const char* text) {
     if (const auto kept = noted(text)) tape.note(item, *kept);
     return;
   }
-  if (text == nullptr) return tape.controller_call(TapeItem::NoEffect);
+  // A crash is on the tape with its message, and why an agent cannot start is part of that.
+  if (text == nullptr || item == TapeItem::NoEffect) return tape.controller_call(TapeItem::NoEffect);
   tape.controller_call(item, std::string_view(text));
 }
 
@@ -134,6 +135,7 @@ const fp_host kForeignHost = {
     guarded<&fp_host::describe, TapeItem::Describe>,
     guarded<&fp_host::declare_state, TapeItem::DeclareState>,
     guarded<&fp_host::believe, TapeItem::Believe>,
+    guarded<&fp_host::cannot_start, TapeItem::NoEffect>,
 };
 
 }  // namespace fleetproof

@@ -264,7 +264,13 @@ class MeaningCheck {
   }
 
   void draw_numbers() {
+    constexpr std::size_t kMostNumbers = 65536;  // two of them are one key of a draw
     const DrawNumbers numbers(scenario_);
+    if (scenario_.agvs.size() > kMostNumbers)
+      return add(ProblemKind::NumberOutOfRange, "/agvs",
+                 fmt::format("{} AGVs are too many: what is random about messages is drawn by numbers, of which there "
+                             "are {}; use fewer AGVs",
+                             scenario_.agvs.size(), kMostNumbers));
     std::map<AgvId, std::size_t> seen;
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
       const auto [other, is_new] = seen.emplace(numbers.of(AgvId{i}), i);

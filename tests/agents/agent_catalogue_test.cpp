@@ -28,6 +28,49 @@ TEST(ReferenceAgents, AreCompleteAndSpeakThisVersion) {
   for (const char* known : {"scripted", "hull-lock", "timeout-grant", "reckless"}) EXPECT_TRUE(names.contains(known));
 }
 
+// ---- the largest plant
+
+std::string why_not;
+std::int32_t note_why(fp_controller*, const char* why) {
+  why_not = why;
+  return FP_OK;
+}
+
+// An agent that starts is not made: its map is none.
+bool refuses(const fp_agent_type& type, std::uint32_t stations, std::uint32_t lanes, std::uint32_t agvs,
+             std::uint32_t minor = FP_ABI_MINOR) {
+  fp_host host{};
+  host.struct_size = sizeof host;
+  host.abi_minor = minor;
+  if (minor >= 4) host.cannot_start = note_why;
+  fp_map map{};
+  map.station_count = stations, map.lane_count = lanes;
+  fp_briefing briefing{};
+  briefing.map = &map;
+  briefing.fleet_count = agvs;
+  why_not.clear();
+  return type.create(&host, nullptr, &briefing) == nullptr;
+}
+
+TEST(ReferenceAgents, SayInWhichPlantsTheyCannotStart) {
+  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_reference_agent(i); ++i) {
+    const std::uint32_t most = fp_reference_agent_limit(agent);
+    if (agent == &kScripted || agent == &kReckless) {
+      EXPECT_EQ(most, FP_NONE) << agent->name;
+      continue;
+    }
+    ASSERT_EQ(most, 65535U) << agent->name;
+    EXPECT_TRUE(refuses(*agent, most + 1, 1, 1));
+    EXPECT_EQ(why_not, "there are 65536 stations, and a message can name 65535 of each");
+    EXPECT_TRUE(refuses(*agent, 1, most + 1, 1));
+    EXPECT_EQ(why_not, "there are 65536 drives, and a message can name 65535 of each");
+    EXPECT_TRUE(refuses(*agent, 1, most + 5, most + 1));
+    EXPECT_EQ(why_not, "there are 65540 drives and 65536 AGVs, and a message can name 65535 of each");
+    EXPECT_TRUE(refuses(*agent, 1, most + 1, 1, 3)) << "a host that cannot be told";
+    EXPECT_EQ(why_not, "");
+  }
+}
+
 std::string text_of(const std::string& file) {
   std::ostringstream text;
   text << std::ifstream(FLEETPROOF_SOURCE_DIR "/core/agents/faulty/" + file).rdbuf();

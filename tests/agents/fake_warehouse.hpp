@@ -292,7 +292,7 @@ class FakeWarehouse {
   }
 
   static fp_host make_host();
-  static void add_minor_2(fp_host& host);
+  static void add_later_calls(fp_host& host);
 
   const DrawnMap& drawn_;
   const TestFleet& fleet_;
@@ -311,7 +311,7 @@ class FakeWarehouse {
   std::vector<std::pair<double, std::uint32_t>> calls_;
 };
 
-inline void FakeWarehouse::add_minor_2(fp_host& host) {
+inline void FakeWarehouse::add_later_calls(fp_host& host) {
   host.pick_load = [](fp_controller* c, std::uint32_t s, std::uint32_t order) {
     return handle(c).warehouse->act(handle(c).id, FP_CALL_PICK, s, order);
   };
@@ -323,6 +323,7 @@ inline void FakeWarehouse::add_minor_2(fp_host& host) {
   host.describe = [](fp_controller*, const char*) {};
   host.declare_state = [](fp_controller*, const char*) {};
   host.believe = [](fp_controller*, std::uint32_t, const fp_pose*, std::int64_t) {};
+  host.cannot_start = [](fp_controller*, const char*) -> std::int32_t { return FP_OK; };
 }
 
 inline fp_host FakeWarehouse::make_host() {
@@ -390,7 +391,7 @@ inline fp_host FakeWarehouse::make_host() {
     handle(c).warehouse->probes_.insert(probe);
     return FP_OK;
   };
-  add_minor_2(host);
+  add_later_calls(host);
   return host;
 }
 

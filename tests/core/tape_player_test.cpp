@@ -112,6 +112,52 @@ TEST(TapePlayer, PlaysAgentsThatFailAnywhere) {
   }
 }
 
+// ---- why an agent cannot start
+
+ToldRun recorded_reasons(const std::vector<const char*>& reasons) {
+  static const std::vector<const char*>* said;
+  said = &reasons;
+  fp_agent_type type = test::untouchable_agent();
+  type.create = [](const fp_host* host, fp_controller* controller, const fp_briefing*) -> void* {
+    for (const char* reason : *said)
+      EXPECT_EQ(host->cannot_start(controller, reason), reason == nullptr ? FP_INVALID : FP_OK);
+    return nullptr;
+  };
+  return recorded(restarts(), type);
+}
+
+TEST(TapePlayer, PlaysWhyAnAgentCannotStart) {
+  const std::string before = "agent of " + restarts().agvs[0].name + ": create() returned null", wide(5000, 'x');
+  for (const auto& [reasons, told] : {std::pair<std::vector<const char*>, std::string>{{}, ""},
+                                      {{""}, ""},
+                                      {{"no licence for 12 AGVs"}, ": no licence for 12 AGVs"},
+                                      {{"first", "second", nullptr}, ": second"},
+                                      {{"two\nlines"}, ": two\\nlines"},
+                                      {{"\xff\x01"}, ": \\xff\\x01"}}) {
+    const ToldRun run = recorded_reasons(reasons);
+    EXPECT_TRUE(run.outcome.crash);
+    EXPECT_EQ(run.outcome.message, before + told);
+    expect_same(run, played(restarts(), run.tape));
+  }
+  const std::string longest = recorded_reasons({wide.c_str()}).outcome.message;
+  EXPECT_GE(std::ranges::count(longest, 'x'), 150);
+  EXPECT_LT(longest.size(), 300U);
+}
+
+TEST(TapePlayer, PlaysThatAnAgentHasStartedAllTheSame) {
+  std::int32_t after = FP_OK;
+  fp_agent_type type = test::handler_agent();
+  const test::Handler handler = [&](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event&) {
+    after = host.cannot_start(c, "too late");
+  };
+  test::current_handler = &handler;
+  const ToldRun run = recorded(restarts(), type);
+  test::current_handler = nullptr;
+  EXPECT_EQ(after, FP_REFUSED);
+  EXPECT_FALSE(run.outcome.crash);
+  expect_same(run, played(restarts(), run.tape));
+}
+
 // An agent that fails after create() is destroyed later, and its failure to leave is filed then.
 TEST(TapePlayer, KnowsWhetherAnAgentExistsThatFailedToStart) {
   for (const bool exists : {true, false}) {

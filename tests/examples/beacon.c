@@ -11,7 +11,10 @@ typedef struct beacon {
 static void* create(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
   beacon* self = malloc(sizeof *self);
   (void)briefing;
-  if (self == NULL) return NULL;
+  if (self == NULL) {
+    if (host->abi_minor >= 4) host->cannot_start(controller, "no memory");
+    return NULL;
+  }
   self->host = host;
   self->controller = controller;
   return self;

@@ -46,6 +46,13 @@ struct Plant {
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 const Plant kPlants[] = {
+    {"too_many_agvs", ProblemKind::NumberOutOfRange, "/agvs",
+     [](Scenario& s) {
+       while (s.agvs.size() < 65537) {
+         s.agvs.push_back(s.agvs.front());
+         s.agvs.back().name = "more " + std::to_string(s.agvs.size());
+       }
+     }},
     {"loss", ProblemKind::NumberOutOfRange, "/radio/loss", [](Scenario& s) { s.radio.loss = 1.01; }},
     {"mean_outage", ProblemKind::NumberOutOfRange, "/radio/mean_outage_s",
      [](Scenario& s) { s.radio.outages.mean_outage_s = -1.0; }},

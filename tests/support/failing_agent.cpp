@@ -1,6 +1,7 @@
 // An agent that drives like `reckless` and, in some runs, ends its process or never returns. Its parameters say how and
 // how often: "segfault 100" is a segmentation fault in one of 100 runs, at the third event of the first AGV. The kind
-// "mixed" takes each kind in turn but the endless ones. "audit-loop 1" is the kind "loop" in audits only.
+// "mixed" takes each kind in turn but the endless ones. "audit-loop 1" is the kind "loop" in audits only. "refuse" and
+// "refuse-silently" do not start, with a word or without.
 // FLEETPROOF_TEST_LOADING=crash, exit, memory: does so while it is loaded; the name of a file: crashes while there is
 // such a file.
 // FLEETPROOF_TEST_GATE: a run of the kind "burn" uses CPU time until this file exists.
@@ -21,6 +22,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/agents/agent_type.hpp"
@@ -147,8 +149,10 @@ std::string kind_in_this_run(const fp_host& host, fp_controller* controller, con
 }
 
 void* create(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
-  return new Failing{kReckless.create(host, controller, briefing), host, controller,
-                     kind_in_this_run(*host, controller, *briefing)};
+  std::string kind = kind_in_this_run(*host, controller, *briefing);
+  if (kind == "refuse") host->cannot_start(controller, "no licence for <12> AGVs\nin hall 7");
+  if (kind.starts_with("refuse")) return nullptr;
+  return new Failing{kReckless.create(host, controller, briefing), host, controller, std::move(kind)};
 }
 
 void on_event(void* agent, const fp_event* event) {

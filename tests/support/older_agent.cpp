@@ -1,4 +1,5 @@
 // An agent that makes every call of minor version 0 and logs each answer. It is built with each minor version's header.
+// What later minors added it looks at without a word: it logs only what is not as it should be.
 #include <cstddef>
 #include <string>
 
@@ -55,12 +56,29 @@ void act(Agent& self, uint64_t draw) {
   if (answer == FP_OK && !stays) self.station = lane.to;
 }
 
+// Members of the versions that this object is built with stand where it looks for them.
+void look_at_later_members(const Agent& self, uint32_t order) {
+#if FP_ABI_MINOR >= 1
+  if (self.briefing->boot > 1) log(self, "boot", self.briefing->boot);
+#endif
+#if FP_ABI_MINOR >= 2
+  if (self.host->get_load == nullptr || self.host->go_on == nullptr) log(self, "get_load or go_on of", order);
+  self.host->declare_state(self.agv, "looking");
+#endif
+#if FP_ABI_MINOR >= 3
+  const fp_facts* facts = self.briefing->facts;
+  if (facts == nullptr || facts->fleet_count != self.briefing->fleet_count) log(self, "facts", order);
+#endif
+  (void)self, (void)order;
+}
+
 void on_event(void* agent, const fp_event* event) {
   Agent& self = *static_cast<Agent*>(agent);
   const auto& [host, agv, briefing, station] = self;
   log(self, "event of order", event->kind * 1000 + event->order_id * 100 + event->from * 10 + event->to);
   log(self, "width", static_cast<long long>(at(briefing->fleet, briefing->agv_stride, 1).width_m * 1e3));
   look(self);
+  look_at_later_members(self, event->order_id);
   log(self, "waiting_for", host->waiting_for(agv, 1 - briefing->self));
   log(self, "safe_mode", host->safe_mode(agv, event->kind == FP_EVENT_TIMER));
   log(self, "sometimes", host->sometimes(agv, "met"));

@@ -51,7 +51,7 @@ extern "C" {
 #endif
 
 #define FP_ABI_MAJOR 1u
-#define FP_ABI_MINOR 3u
+#define FP_ABI_MINOR 4u
 
 #define FP_NONE 0xffffffffu /* no station, no segment, no AGV */
 #define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
@@ -229,6 +229,11 @@ typedef struct fp_host {
   void (*declare_state)(fp_controller*, const char* state); /* what the agent does, in its own word, e.g. "waiting" */
   /* Where another AGV was at `as_of_ns`, as far as the agent knows. Heading (0, 0): not known. */
   void (*believe)(fp_controller*, uint32_t agv, const fp_pose* where, int64_t as_of_ns);
+
+  /* Since minor 4. In `create`, before it returns null: why the agent cannot start, in words for people, as in "no
+     licence for 12 AGVs". The crash is filed with the text, of which at least 150 characters are kept. The last call
+     counts. FP_REFUSED after `create`. */
+  int32_t (*cannot_start)(fp_controller*, const char* why);
 } fp_host;
 
 /* ---- the agent ------------------------------------------------------------------------------------------- */
@@ -243,7 +248,8 @@ typedef struct fp_agent_type {
   uint32_t flags;
   const char* name;
   const char* description;
-  /* host and briefing outlive the agent. Null means that the agent cannot start: the run counts as a crash. */
+  /* host and briefing outlive the agent. Null means that the agent cannot start: the run counts as a crash. Say why
+     with `cannot_start`. */
   void* (*create)(const fp_host* host, fp_controller* controller, const fp_briefing* briefing);
   void (*on_event)(void* agent, const fp_event* event);
   void (*destroy)(void* agent);

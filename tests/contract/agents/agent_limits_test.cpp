@@ -47,6 +47,8 @@ std::vector<Call> counted_calls() {
       [](Host h, Handle c) { h.waiting_for(c, FP_NONE); },
       [](Host h, Handle c) { h.sometimes(c, "probe"); },
       [](Host h, Handle c) { h.log(c, nullptr); },
+      [](Host h, Handle c) { h.cannot_start(c, "it has started"); },
+      [](Host h, Handle c) { h.cannot_start(c, nullptr); },
   };
 }
 

@@ -1,7 +1,9 @@
 // Agents that were built with the header of an older minor version.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <string_view>
 
 #include "campaign/run/agent_programs.hpp"
 #include "core/engine/simulation.hpp"
@@ -21,6 +23,12 @@ Scenario restless() {
   return scenario;
 }
 
+// The agent that is built with the header of a minor version; each is named after it.
+std::string built_with(std::uint32_t minor) {
+  std::string path = FLEETPROOF_AGENT_OF_MINOR_0;
+  return path.replace(path.find("minor_0") + std::string_view("minor_").size(), 1, std::to_string(minor));
+}
+
 TEST(OlderAgents, DoWhatTheSameAgentDoesThatIsBuiltWithTodaysHeader) {
   AgentPrograms programs;
   const std::string today = programs.load(FLEETPROOF_AGENT_OF_TODAY);
@@ -28,10 +36,32 @@ TEST(OlderAgents, DoWhatTheSameAgentDoesThatIsBuiltWithTodaysHeader) {
   EXPECT_FALSE(expected.crash) << expected.message;
   EXPECT_GT(expected.counters.drives, 5U);
   EXPECT_GT(expected.counters.received, 100U);
-  for (const char* path : {FLEETPROOF_AGENT_OF_MINOR_0, FLEETPROOF_AGENT_OF_MINOR_1}) {
+  for (std::uint32_t minor = 0; minor < FP_ABI_MINOR; ++minor) {
+    const std::string path = built_with(minor);
     const fp_agent_type& older = programs.find(programs.load(path), "");
-    EXPECT_LT(older.abi_minor, FP_ABI_MINOR);
+    EXPECT_EQ(older.abi_minor, minor);
     EXPECT_EQ(simulate(restless(), older, {}), expected) << path;
+  }
+}
+
+// Objects that were built once, with the header and the compiler of their time.
+TEST(OlderAgents, DoTheSameAsObjectsThatNobodyCanBuildAgain) {
+#if !defined(__x86_64__)
+  GTEST_SKIP() << "the objects are for x86-64";
+#endif
+  Scenario scenario = restless();
+  scenario.horizon = seconds(60.0);
+  AgentPrograms today;
+  const Outcome expected = simulate(scenario, today.find(today.load(FLEETPROOF_AGENT_OF_TODAY), ""), {});
+  EXPECT_NE(expected.digest, 0U);
+  AgentPrograms programs;
+  for (std::uint32_t minor = 0; minor < FP_ABI_MINOR; ++minor) {
+    const std::string path = fmt::format("{}/tests/support/objects/minor_{}.so", FLEETPROOF_SOURCE_DIR, minor);
+    const fp_agent_type& older = programs.find(programs.load(path), "");
+    EXPECT_EQ(older.abi_minor, minor);
+    const Outcome found = simulate(scenario, older, {});
+    EXPECT_EQ(found.digest, expected.digest) << path;
+    EXPECT_EQ(found, expected) << path;
   }
 }
 
