@@ -11,9 +11,11 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/shards/merge.hpp"
+#include "campaign/workers/worker_logs.hpp"
 #include "core/base/error.hpp"
 #include "core/base/regular_file.hpp"
 #include "reports/page/wording.hpp"
+#include "storage/beside.hpp"
 #include "storage/line_log.hpp"
 
 namespace fleetproof::cli {
@@ -34,6 +36,13 @@ void copy_session_logs(const PublishedChunks& chunks, const std::string& archive
     const std::string log = session_log_path(archive);
     if (read_text_file_if_there(log).value_or("").find(lines) == std::string::npos) append_lines(log, lines);
   }
+}
+
+// So that `replay` finds what the agents of a run have printed in a shard.
+void carry_worker_logs_over(const PublishedChunks& chunks, const std::string& archive) {
+  std::vector<std::string> prefixes;
+  for (const std::string& session : chunks.sessions()) prefixes.push_back(beside(session, ""));
+  carry_logs_over(prefixes, beside(archive, ""));
 }
 
 AttemptLog::Campaign attempt_words(const PublishedChunks& chunks, const MergeWords& words) {
@@ -72,6 +81,7 @@ int merge(MergeWords words) {
   // Before the file gets its name: a merge that is killed behind that is an attempt, too.
   const auto begin = [&] {
     copy_session_logs(chunks, words.archive);
+    carry_worker_logs_over(chunks, words.archive);
     attempt.begin();
     session.begin({}, AgentPrograms(),
                   {.ledger = attempt.path(),

@@ -99,6 +99,11 @@ class PrintedLog {
     if (static_cast<std::uint64_t>(status.st_size) == slot_.labelled) return;
     slot_.labelled = label_lines(file_, slot_.labelled, line_label(run_index, slot_.call));
   }
+  // How an agent has failed stands behind what the agents of the run have printed.
+  void tell_failure(std::uint64_t run_index, const Outcome& outcome) const {
+    if (is_kept() && (outcome.crash || outcome.hang))
+      slot_.labelled = add_line(file_, end_label(run_index) + outcome.message);
+  }
 
  private:
   WorkerSlot& slot_;
@@ -192,6 +197,7 @@ class Worker {
     }
     left_behind_->run_ended();
     log_.label(order.run_index);
+    log_.tell_failure(order.run_index, answer.run.outcome);
     if (order.record && (order.is_audit || answer.run.outcome.is_failure())) answer.recording = tape.take();
     answer.cpu_ns = cpu_ns() - begin_ns;
     ++runs_;

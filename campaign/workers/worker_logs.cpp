@@ -121,6 +121,13 @@ std::string line_label(std::uint64_t run_index, const CallNote& call) {
                      1e-9 * static_cast<double>(call.at_ns.load()));
 }
 
+std::string end_label(std::uint64_t run_index) { return run_label(run_index) + "at its end: "; }
+
+std::uint64_t add_line(int log, std::string_view line) {
+  if (fits(size_of(log) + line.size() + 1)) write_all(log, std::string(line) + "\n");
+  return size_of(log);
+}
+
 std::uint64_t label_lines(int log, std::uint64_t labelled, std::string_view label) {
   const std::uint64_t size = size_of(log);
   if (size <= labelled || size - labelled > kMostLabelled) return size;
@@ -213,6 +220,24 @@ class LastLines {
 };
 
 }  // namespace
+
+void carry_logs_over(const std::vector<std::string>& from, const std::string& to) {
+  remove_earlier(to);
+  int next = 0;
+  for (const std::string& prefix : from) {
+    for (int number = 0; number <= kMostLogs && is_name_taken(log_name(prefix, number)); ++number) {
+      try {
+        RegularFile log(log_name(prefix, number));
+        int copy = -1;
+        while (copy < 0 && next <= kMostLogs) copy = open_log(log_name(to, next++));
+        if (copy < 0) return;
+        for (std::string block; block = log.read(65'536), !block.empty();) write_all(copy, block);
+        ::close(copy);
+      } catch (const InputError&) {  // something else has the name
+      }
+    }
+  }
+}
 
 PrintedLines last_printed(const std::string& prefix, std::uint64_t run_index, std::size_t most) {
   PrintedLines printed;

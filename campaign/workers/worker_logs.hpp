@@ -19,9 +19,16 @@ std::string line_label(std::uint64_t run_index, const CallNote& call);
 // The same while a worker starts and loads the plug-ins.
 inline constexpr std::string_view kStartLabel = "start of a worker: ";
 
+// The same when the run is over.
+std::string end_label(std::uint64_t run_index);
+
 // Puts the label in front of each line behind the first `labelled` bytes of a log. Returns the size of the log then.
 // Lines that would go beyond the limit of the process for a file, or that fill more than a megabyte, stay without.
 std::uint64_t label_lines(int log, std::uint64_t labelled, std::string_view label);
+
+// Adds a line to a log, unless it would go beyond the limit of the process for a file. Returns the size of the log
+// then.
+std::uint64_t add_line(int log, std::string_view line);
 
 // Whether the logs of an earlier session stay, and are written on.
 enum class EarlierLogs : bool { Stay, AreRemoved };
@@ -47,6 +54,10 @@ class WorkerLogs {
   std::vector<std::string> paths_;
   std::vector<int> descriptors_;
 };
+
+// Copies all logs with one of the prefixes `from` beside each other, as logs with the prefix `to`. Logs that stood
+// there under that prefix are removed first. What is no log, or cannot be read or written, is left out.
+void carry_logs_over(const std::vector<std::string>& from, const std::string& to);
 
 // The last lines that a run has in a log with this prefix, at most `most` of them, without the number of the run.
 // `trouble`: why a log cannot be read.

@@ -62,5 +62,30 @@ TEST_F(PrintedLines, AreQuotedByReplayForTheRunThatPrintedThem) {
   EXPECT_THAT(run("replay b.db 3").out, Not(HasSubstr("printed"))) << "nothing was";
 }
 
+// Each shard writes beside its own session; the results file is put together elsewhere.
+TEST_F(PrintedLines, AreFoundAfterTheShardsArePutTogether) {
+  write_campaign("a.toml", "print 1");
+  ASSERT_TRUE(test::has_verdict(run("run a.toml --db whole.db -j 1")));
+  for (const std::string shard : {"1/2", "2/2"})
+    ASSERT_TRUE(test::has_verdict(run("run a.toml -j 1 --out shards --shard " + shard)));
+  ASSERT_TRUE(test::has_verdict(run("merge shards --db a.db")));
+  const auto printed = [&](const std::string& replay) {
+    return nlohmann::json::parse(run(replay + " --json").out).at("printed");
+  };
+  for (const std::string run_index : {"0", "3", "5"}) {
+    const auto of_shard = printed("replay a.db " + run_index);
+    EXPECT_THAT(of_shard.at("log").get<std::string>(), testing::StartsWith("a.worker-"));
+    EXPECT_EQ(of_shard.at("lines"), printed("replay whole.db " + run_index).at("lines"));
+  }
+  ASSERT_TRUE(test::has_verdict(run("merge shards --db a.db --overwrite")));
+  EXPECT_FALSE(std::filesystem::exists(path("a.worker-2.log"))) << "those of the earlier merge are gone";
+  // What else has the name of a log is neither waited for nor told.
+  const auto shell_result = shell(
+      "rm shards/sessions/*.worker-0.log; for s in shards/sessions/*.sessions.jsonl; do "
+      "mkfifo \"${s%.sessions.jsonl}.worker-0.log\"; done");
+  ASSERT_EQ(shell_result.exit_code, 0) << shell_result.err;
+  EXPECT_TRUE(test::has_verdict(run("merge shards --db a.db --overwrite")));
+}
+
 }  // namespace
 }  // namespace fleetproof::printed_lines_test
