@@ -15,6 +15,7 @@
 #include "core/base/json_text.hpp"
 #include "reports/evidence/evidence.hpp"
 #include "reports/evidence/gate_bounds.hpp"
+#include "reports/evidence/gate_words.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/page/wording.hpp"
 
@@ -122,15 +123,15 @@ std::optional<std::uint64_t> replicates_without_failure(const Forecast& forecast
 void print_gate(const Forecast& forecast, std::size_t index) {
   const GateRecord& gate = forecast.plan.gates[index];
   const std::size_t cells = forecast.gates[index].size();
-  put("gate {}: {}, limit {:g} at confidence {:g}\n", in_quotes(gate.name), count_text(cells, "cell"), gate.limit,
-      gate.confidence);
+  put("gate {}: {}, limit {} at confidence {}\n", in_quotes(gate.name), count_text(cells, "cell"), limit_text(gate),
+      percent(gate.confidence));
   if (cells == 0 || counts_only(forecast)) {
     put("  {}\n", cells == 0 ? "no cell lies in its region" : "a search gives counts, no bounds");
     return;
   }
   const auto tell = [&](const Reach& reach, std::string_view whose) {
     put("  {} ({}): the bound is {} if none fails\n", count_text(reach.replicates, "replicate"), whose,
-        rounded_up(bound_without_failure(forecast, index, reach.replicates)));
+        value_text(gate, bound_without_failure(forecast, index, reach.replicates), rounded_up));
   };
   tell(forecast.file, "of the file");
   if (forecast.budget) tell(*forecast.budget, "in the time given");

@@ -8,6 +8,7 @@
 #include "core/base/contract.hpp"
 #include "reports/campaign_page/chart.hpp"
 #include "reports/campaign_page/quality_maps.hpp"
+#include "reports/evidence/gate_words.hpp"
 #include "reports/markup/section_tables.hpp"
 #include "reports/page/wording.hpp"
 #include "reports/sections/plan_conditions.hpp"
@@ -69,18 +70,22 @@ Table tail_columns() {
 CurveChart bound_chart(const ReportInput& input, const CampaignFigures& figures) {
   CurveChart chart{"Upper bounds against replicates", "complete replicates", "upper bound", {}, true, false, {}};
   const auto& gates = input.evidence.gates();
+  bool hourly = false, in_percent = false;
   for (std::size_t i = 0; i < figures.bounds().size(); ++i) {
     ChartLine curve{printable(gates[i].name, 60), {}};
+    const double scale = gates[i].unit == GateUnit::AgvHour ? 1.0 : 100.0;
     for (const auto& [replicates, upper] : figures.bounds()[i]) {
-      if (upper > 0.0) curve.points.emplace_back(static_cast<double>(replicates), upper);
+      if (upper > 0.0) curve.points.emplace_back(static_cast<double>(replicates), scale * upper);
     }
     if (curve.points.empty()) continue;
-    curve.name += fmt::format(" (agent {}, limit {:g})", printable(gates[i].agent, 40), gates[i].limit);
-    const std::string level = fmt::format("limit {:g}", gates[i].limit);
+    curve.name += fmt::format(" (agent {}, limit {})", printable(gates[i].agent, 40), limit_text(gates[i]));
+    const std::string level = "limit " + limit_text(gates[i]);
     const bool is_new = std::ranges::none_of(chart.levels, [&](const auto& known) { return known.second == level; });
-    if (gates[i].limit > 0.0 && is_new) chart.levels.emplace_back(gates[i].limit, level);
+    if (gates[i].limit > 0.0 && is_new) chart.levels.emplace_back(scale * gates[i].limit, level);
+    (gates[i].unit == GateUnit::AgvHour ? hourly : in_percent) = true;
     chart.curves.push_back(std::move(curve));
   }
+  chart.y_name += hourly && in_percent ? " (%, or per AGV-hour)" : hourly ? " (per AGV-hour)" : " (%)";
   return chart;
 }
 
@@ -127,7 +132,7 @@ Element map_part(const ReportInput& input, const CampaignFigures& figures) {
       (counts_only ? "A search gives counts, no rates."
                    : "The colour of the first map is the upper bound, not the rate: with few runs it stays high, "
                      "even without a failure.")));
-  if (!counts_only) part.add(draw_ramp(Ramp::Risk, "bound 0.0001", "bound 1"));
+  if (!counts_only) part.add(draw_ramp(Ramp::Risk, "bound 0.01 %", "bound 100 %"));
   if (list.empty()) part.add(paragraph("The campaign has no cell (test condition)."));
   for (const auto& maps : list) {
     part.add(text_element("h3", maps.title));
@@ -135,8 +140,7 @@ Element map_part(const ReportInput& input, const CampaignFigures& figures) {
     row.add(figure_of(risk_caption(input.evidence), draw(maps.risk)));
     row.add(figure_of("Transports (orders) done per AGV-hour", draw(maps.throughput)));
     row.add(figure_of("Share of time in safe mode", draw(maps.safe_mode)));
-    if (maps.envelope)
-      row.add(figure_of("Guaranteed envelope: is the rate shown to be below the limit?", draw(maps.envelope->map)));
+    if (maps.envelope) row.add(figure_of("Guaranteed envelope: bounds that hold together", draw(maps.envelope->map)));
     part.add(row);
     if (maps.envelope) part.add(paragraph(maps.envelope->sentence));
   }

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "reports/evidence/gate_words.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/page/wording.hpp"
 #include "reports/sections/condition_table.hpp"
@@ -51,10 +52,11 @@ MapField risk_field(const Condition& condition, const Evidence& evidence) {
     const auto failing = worlds.failing_or_unknown;
     return {fmt::format("{}/{}", failing, worlds.units), "counts only", failing > 0 ? 0.75 : 0.0};
   }
-  const Estimate claim = estimate(bound_rule(evidence, condition.agent), worlds.failing_or_unknown, worlds.counted);
+  const GateRecord rule = bound_rule(evidence, condition.agent);
+  const Estimate claim = estimate(rule, worlds.failing_or_unknown, worlds.counted);
   if (is_always_the_same(worlds))
     return {fmt::format("{}/{}", claim.failing, claim.units), "always the same", claim.failing > 0 ? 0.75 : 0.0};
-  return {fmt::format("{}/{}", claim.failing, claim.units), "≤ " + rounded_up(claim.upper),
+  return {fmt::format("{}/{}", claim.failing, claim.units), "≤ " + value_text(rule, claim.upper, rounded_up),
           shade_of_bound(claim.upper)};
 }
 

@@ -36,8 +36,8 @@ std::vector<std::vector<bool>> safe_envelope(const EnvelopeGrid& grid, double li
   return predecessor_rule(envelope_p_values(grid, limit), confidence);
 }
 
-std::vector<std::vector<bool>> predecessor_rule(const std::vector<std::vector<double>>& p_values,
-                                                Confidence confidence) {
+std::vector<std::vector<bool>> predecessor_rule(const std::vector<std::vector<double>>& p_values, Confidence confidence,
+                                                const std::vector<std::vector<bool>>& known) {
   const std::size_t rows = p_values.size(), columns = p_values.front().size();
   const double risk = confidence.risk() / static_cast<double>(std::min(rows, columns));
   std::vector claimed(rows, std::vector<bool>(columns));
@@ -45,7 +45,8 @@ std::vector<std::vector<bool>> predecessor_rule(const std::vector<std::vector<do
     for (std::size_t delay = 0; delay < columns; ++delay) {
       const bool less_loss = loss == 0 || claimed[loss - 1][delay];
       const bool less_delay = delay == 0 || claimed[loss][delay - 1];
-      claimed[loss][delay] = less_loss && less_delay && p_values[loss][delay] <= risk;
+      const bool is_known = !known.empty() && known[loss][delay];
+      claimed[loss][delay] = is_known || (less_loss && less_delay && p_values[loss][delay] <= risk);
     }
   }
   return claimed;

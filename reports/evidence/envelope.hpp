@@ -32,9 +32,11 @@ std::vector<std::vector<double>> any_time_p_values(const EnvelopeGrid& grid, dou
 // rejects a minimal unsafe cell, minimal unsafe cells are no predecessors of each other, and a grid has at most
 // min(rows, columns) such cells (union bound). Requires: a grid and a limit that were fixed beforehand.
 std::vector<std::vector<bool>> safe_envelope(const EnvelopeGrid& grid, double limit, Confidence confidence);
-// The same with p-values of either kind.
-std::vector<std::vector<bool>> predecessor_rule(const std::vector<std::vector<double>>& p_values,
-                                                Confidence confidence);
+// The same with p-values of either kind, and with cells that something else has shown to be safe (empty: none). If
+// those are safe, the other claims hold together with the stated confidence: their minimal unsafe cells are no
+// predecessors of each other either.
+std::vector<std::vector<bool>> predecessor_rule(const std::vector<std::vector<double>>& p_values, Confidence confidence,
+                                                const std::vector<std::vector<bool>>& known = {});
 
 // The same guarantee without regard to the places of the cells: a cell is claimed if its p-value is at most risk /
 // cells (Bonferroni). For more than a few cells it claims less.

@@ -2,10 +2,18 @@
 
 #include <fmt/format.h>
 
+#include "reports/evidence/rounding.hpp"
+
 namespace fleetproof {
 
 std::string value_text(const GateRecord& gate, double value, std::string (*rounded)(double)) {
   return gate.unit == GateUnit::AgvHour ? rounded(value) + " per AGV-hour" : rounded(100.0 * value) + " %";
+}
+
+std::string interval_text(const GateRecord& gate, double lower, double upper) {
+  const bool hourly = gate.unit == GateUnit::AgvHour;
+  return hourly ? fmt::format("[{}, {}] per AGV-hour", rounded_down(lower), rounded_up(upper))
+                : fmt::format("[{}, {}]", value_text(gate, lower, rounded_down), value_text(gate, upper, rounded_up));
 }
 
 std::string limit_text(const GateRecord& gate) {

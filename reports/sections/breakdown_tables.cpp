@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "reports/evidence/clusters.hpp"
+#include "reports/evidence/gate_words.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/page/wording.hpp"
 #include "reports/sections/condition_table.hpp"
@@ -41,7 +42,7 @@ std::vector<std::string> row(const ReportInput& input, const BreakdownRow& group
     const Estimate share = estimate(rule, worlds.failing_or_unknown, worlds.counted);
     cells.push_back(fmt::format("{}/{}", failed_text(worlds.failing, worlds.failing_or_unknown), share.units));
     const bool says_nothing = worlds.counted == 0 || is_always_the_same(worlds);
-    cells.push_back(says_nothing ? "-" : rounded_up(share.upper));
+    cells.push_back(says_nothing ? "-" : value_text(rule, share.upper, rounded_up));
     if (says_nothing) {
       cells.insert(cells.end(), {"-", "-"});
     } else {

@@ -1,11 +1,13 @@
 #include "reports/sections/condition_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 #include <tuple>
 
+#include "reports/evidence/gate_words.hpp"
 #include "reports/evidence/rounding.hpp"
 #include "reports/page/wording.hpp"
 
@@ -59,10 +61,9 @@ std::vector<std::string> row(const Condition& condition, const Shown& shown, con
     if (is_always_the_same(worlds)) {
       cells.insert(cells.end(), {"-", "-", "-"});
     } else {
-      cells.push_back(claim.rate() ? rounded_rate(*claim.rate()) : "-");
-      cells.push_back(
-          fmt::format("[{}, {}]", rounded_down(claim.interval_95.lower), rounded_up(claim.interval_95.upper)));
-      cells.push_back(rounded_up(claim.upper));
+      cells.push_back(claim.rate() ? value_text(rule, *claim.rate(), rounded_rate) : "-");
+      cells.push_back(interval_text(rule, claim.interval_95.lower, claim.interval_95.upper));
+      cells.push_back(value_text(rule, claim.upper, rounded_up));
     }
   }
   const auto ended_early = tally.crash_runs + tally.hang_runs;
@@ -140,6 +141,25 @@ Section condition_section(const ReportInput& input, std::string title,
   return section;
 }
 
+namespace {
+
+// What a row can show at most with so many worlds, by each way in which its bound is computed.
+std::string best_bound_text(const Evidence& evidence, const std::vector<std::string>& agents) {
+  std::set<std::string> bounds;
+  const std::uint64_t worlds = evidence.complete_replicates();
+  for (const std::string& agent : agents) {
+    const GateRecord rule = bound_rule(evidence, agent);
+    bounds.insert(fmt::format("{} ({})", value_text(rule, estimate(rule, 0, worlds).upper, rounded_up),
+                              percent(rule.confidence)));
+  }
+  return fmt::format(
+      "With {} and no failure, the upper bound of a row by itself is {}. A gate over several cells counts a world as "
+      "failed if any of them fails: its bound holds in all of them together.",
+      count_text(worlds, "world"), fmt::join(bounds, " or "));
+}
+
+}  // namespace
+
 Section table_legend(const ReportInput& input) {
   const auto& evidence = input.evidence;
   const auto conditions = evidence.conditions();
@@ -182,6 +202,7 @@ Section table_legend(const ReportInput& input) {
       bound += fmt::format("{} {} for {}", i == 0 ? ", at" : ",", confidences[i], printable(agents[i], 40));
   }
   add(bound + ".");
+  if (evidence.complete_replicates() > 0) add(best_bound_text(evidence, agents));
   return section;
 }
 

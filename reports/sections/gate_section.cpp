@@ -122,9 +122,7 @@ std::string estimate_text(const GateRecord& gate, const GateResult& result) {
   if (claim.rate()) {
     text += ": ";
     if (claim.failing > 0) text += value_text(gate, *claim.rate(), rounded_rate) + ", ";
-    const double percents = gate.unit == GateUnit::AgvHour ? 1.0 : 100.0;
-    text += fmt::format("two-sided 95 % interval {} to {}", rounded_down(percents * claim.interval_95.lower),
-                        up(claim.interval_95.upper));
+    text += "two-sided 95 % interval " + interval_text(gate, claim.interval_95.lower, claim.interval_95.upper);
   }
   return text +
          fmt::format(", one-sided {} upper bound {}, limit {} ({}).", percent(gate.confidence), up(claim.upper),
@@ -164,8 +162,12 @@ Remark remark_of(const ReportInput& input, std::size_t index) {
 
 std::string worst_run_text(const GateResult& result) {
   const bool known = !result.optimistic || result.optimistic->failing > 0;
-  return fmt::format("{} is {} ({}):", known ? "Its most serious run" : "The most serious of the unknown runs",
-                     result.worst->run_index, result.worst->severity());
+  const FailingRun& worst = *result.worst;
+  const bool has_reason = worst.end == OutcomeClass::Crash || worst.end == OutcomeClass::Hang;
+  return fmt::format(
+      "{} is {} ({}{}):", known ? "Its most serious run" : "The most serious of the unknown runs", worst.run_index,
+      worst.severity(),
+      has_reason && !worst.message.empty() ? fmt::format(": \"{}\"", printable(worst.message, 120)) : "");
 }
 
 std::string finding_text(const ReportInput& input, std::size_t index) {

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "reports/evidence/gate_bounds.hpp"
+#include "reports/evidence/gate_words.hpp"
 #include "reports/page/wording.hpp"
 #include "reports/sections/coverage_section.hpp"
 
@@ -50,9 +51,9 @@ void name_short_gates(std::vector<std::string>& points, const ReportInput& input
     const auto needed = units_to_pass(gate, 0, 0, evidence.gate_cells(i));
     const auto done = evidence.complete_replicates();
     if (!needed || done >= *needed || evidence.cells_of(i).empty()) continue;
-    points.push_back(
-        fmt::format("Gate \"{}\": every cell of it has {}; even without a failure a limit of {:g} at {} takes {}.",
-                    printable(gate.name, 60), count_text(done, "run"), gate.limit, percent(gate.confidence), *needed));
+    points.push_back(fmt::format(
+        "Gate \"{}\": every cell of it has {}; even without a failure a limit of {} at {} takes {}.",
+        printable(gate.name, 60), count_text(done, "run"), limit_text(gate), percent(gate.confidence), *needed));
   }
 }
 

@@ -62,6 +62,7 @@ class Archive:
         self.campaign = self.one("SELECT * FROM campaign")
         self.cells = self.all("SELECT * FROM cells ORDER BY cell")
         self.gates = self.all("SELECT * FROM gates ORDER BY gate")
+        self.demonstrated = set()  # of these, as the page says
         self.runs = self.one("SELECT coalesce((SELECT min(run_index) + 1 FROM runs r WHERE NOT EXISTS "
                              "(SELECT 1 FROM runs n WHERE n.run_index = r.run_index + 1)), 0) AS n "
                              "WHERE EXISTS (SELECT 1 FROM runs WHERE run_index = 0) UNION ALL SELECT 0 LIMIT 1")["n"]

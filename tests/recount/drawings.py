@@ -3,9 +3,9 @@ from collections import defaultdict
 from math import ceil, log, log1p
 
 import wording as w
-from bounds import beta_cdf, largest_share, log_gate
+from bounds import beta_cdf, bounds, largest_share, log_gate
 from counts import UNMEASURED
-from tables import share
+from tables import deciding_units, share
 
 
 def axes(places):
@@ -27,7 +27,8 @@ def panels(archive):
 
 
 def field_maps(archive):
-    """label -> the texts of the fields, row by row from the bottom."""
+    """label -> the texts of the fields, row by row from the bottom. Which gates are demonstrated, check_gates has read:
+    recount.py compares the bounds of gates elsewhere."""
     maps = {}
     for title, places in panels(archive).items():
         agent = title.split(",")[0].removeprefix("Agent ")
@@ -44,7 +45,7 @@ def field_maps(archive):
                 risk.append(f"{failing}/{units}")
                 same = every > 1 >= distinct
                 risk.append("counts only" if archive.search else "always the same" if same else
-                            "≤ " + w.up(share(archive, agent, failing, units)[0]))
+                            "≤ " + w.share_up(share(archive, agent, failing, units)[0]))
                 if tally["agv_us"]:
                     done.append(w.per_hour(tally["done"], tally["agv_us"]))
                 if tally["all_ns"]:
@@ -95,6 +96,10 @@ def envelope_fields(archive, agent, losses, delays, by_place):
     if gate["method"] == "fixed" and archive.replicates < archive.campaign["replicates"]:
         return None
     risk = round(1.0 - gate["confidence"], 12) / min(len(losses), len(delays))
+    own = set(archive.cells_of_gate(gate)) if gate["gate"] in archive.demonstrated else set()
+    units, _, failing, *_ = deciding_units(archive, gate, archive.cells_of_gate(gate))
+    bound = w.share_up(bounds(gate["method"], gate["unit"], failing, units, round(1.0 - gate["confidence"], 12),
+                              len(archive.cells_of_gate(gate)))[1])
     limit, texts, claimed = gate["limit_rate"], [], {}
     for r, loss in enumerate(losses):
         for d, delay in enumerate(delays):
@@ -106,9 +111,11 @@ def envelope_fields(archive, agent, losses, delays, by_place):
                 enough = log_gate(failing, units, limit) >= -log(risk)
             else:  # P(Binomial(units, limit) <= failing)
                 enough = failing < units and 1.0 - beta_cdf(limit, failing + 1, units - failing) <= risk
-            claimed[r, d] = enough and claimed.get((r - 1, d), True) and claimed.get((r, d - 1), True)
+            of_gate = bool(own) and bool(cells) and set(cells) <= own
+            claimed[r, d] = of_gate or enough and claimed.get((r - 1, d), True) and claimed.get((r, d - 1), True)
             if units:
-                texts += ["yes" if claimed[r, d] else "no", f"{failing}/{units}"]
+                texts += [f"≤ {bound}", f"gate, {failing}/{units}"] if of_gate else \
+                    [f"< {100.0 * limit:g} %" if claimed[r, d] else "open", f"{failing}/{units}"]
     return texts
 
 

@@ -5,10 +5,12 @@ A sentence with digits that no pattern knows is an error, so that no figure reac
 import re
 
 import wording as w
+from bounds import bounds
 from conditions import is_sample, plan_of
 from counts import END_POINTS, KINDS
 from drawings import field_maps, gate_on_violations, grids, worlds_needed
 from leading import failures, rows_of
+from tables import rule, share
 from waived import sentence
 
 ENDS = "CASE WHEN contact THEN 'contact' WHEN violation THEN 'violation' WHEN crash THEN 'crash' WHEN hang THEN 'hang' " \
@@ -117,16 +119,41 @@ def engine_errors(archive, found):
 
 
 def is_envelope(archive, found):
-    shown, fields, agent, limit, confidence, any_time, needed = found.groups()
-    gate = gate_on_violations(archive, agent)
+    agent = found[4]
+    gates = [gate_on_violations(archive, name) for name in ([agent] if agent else archive.agents)]
+    return any(gate and is_envelope_of(archive, gate, found.groups()) for gate in gates)
+
+
+def is_envelope_of(archive, gate, told):
+    shown, fields, with_gate, _, bound, alone, limit, confidence, any_time, worlds, best, needed = told
+    agent = gate["agent"]
     maps = [texts for label, texts in field_maps(archive).items()
             if label.startswith(f"Guaranteed envelope. Agent {agent}")]
     # Which of the panels of an agent a sentence belongs to is not said; one of them must have these numbers.
-    counts = {(str(texts.count("yes")), grid) for texts, grid in zip(maps, grids(archive, agent))}
+    counts = {(sum(text.startswith("gate, ") for text in texts), sum(text.startswith("< ") for text in texts), grid)
+              for texts, grid in zip(maps, grids(archive, agent))}
+    bounds_shown = {text for texts in maps for text in texts if text.startswith("≤ ")}
     rows_columns = {size for size in grids(archive, agent) if str(size[0] * size[1]) == fields}
-    return ((limit, confidence) == (f"{100.0 * gate['limit_rate']:g}", w.percent(gate["confidence"]))
-            and bool(any_time) == (gate["method"] == "any-time")
-            and any((shown, size) in counts and worlds_needed(archive, gate, min(size)) == int(needed) for size in rows_columns))
+    parts = (int(with_gate or 0), int(alone or 0))
+    limits = (f"{100.0 * gate['limit_rate']:g}", w.percent(gate["confidence"]), gate["method"] == "any-time")
+    return ((alone is None or (limit, confidence, bool(any_time)) == limits)
+            and int(shown) == sum(parts) and (bound is None or f"≤ {bound}" in bounds_shown)
+            and (worlds is None or int(worlds) == archive.replicates)
+            and any((*parts, size) in counts and is_best(archive, gate, min(size), best)
+                    and worlds_needed(archive, gate, min(size)) == int(needed) for size in rows_columns))
+
+
+def is_best(archive, gate, parts, told):
+    """The bound of so many worlds without a failure, when the risk is shared."""
+    risk = round(1.0 - gate["confidence"], 12) / parts
+    return told is None or told == w.share_up(bounds(gate["method"], "world", 0, archive.replicates, risk)[1])
+
+
+def best_bound(archive, found):
+    """"With 32 worlds and no failure, the upper bound of a row by itself is 10 % (95 %) or 14 % (99 %)."."""
+    expected = {f"{w.share_up(share(archive, agent, 0, archive.replicates)[0])} ({w.percent(rule(archive, agent)[1])})"
+                for agent in archive.agents}
+    return int(found[1]) == archive.replicates and set(found[2].split(" or ")) == expected
 
 
 def foreign_body_runs(archive, found):
@@ -217,7 +244,7 @@ def sample(archive, found):
 def short_gate(archive, found):
     """"every cell of it has 3 runs; even without a failure a limit of 0.01 at 95 % takes 337"."""
     gates = [gate for gate in archive.gates if gate["name"] == found[1]]
-    return any((int(found[2]), found[3], found[4]) == (archive.replicates, f"{gate['limit_rate']:g}",
+    return any((int(found[2]), found[3], found[4]) == (archive.replicates, w.of_gate(gate, "{:g}".format, gate["limit_rate"]),
                                                        w.percent(gate["confidence"]))
                and int(found[5]) == worlds_needed(archive, gate, 1) for gate in gates)
 
@@ -310,11 +337,16 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^.*: (contact|violation|crash|hang|indeterminate|engine error|stuck|incident); leading failure: ", compared_elsewhere),
     (r"^The runs of agent (.+?): (?:never met|too rare): ", probes_missing),
     (r"^([0-9]+) runs? ended in an error of the simulator itself", engine_errors),
-    (r"^Guaranteed envelope: shown in ([0-9]+) of ([0-9]+) fields. .* in which (.+) breaks the safety distance is below "
-     r"([0-9.e-]+) %: in all these fields together, with ([0-9.]+ %) confidence(, however often one looks)?\. .* each needs "
+    (r"^Guaranteed envelope: shown in ([0-9]+) of ([0-9]+) fields\. (?:([0-9]+) as parts of the gate \".*\": .* in which (.+) "
+     r"breaks the safety distance is at most ([0-9.e-]+ %) in all of them together, with [0-9.]+ % confidence.*?\. )?"
+     r"(?:([0-9]+) by (?:its|their) own worlds: there the share is below ([0-9.e-]+) %, in all of them together, with "
+     r"([0-9.]+ %) confidence(, however often one looks)?(?:; this is a statement of its own)?\. )?.*?(?: By itself, with ([0-9]+) worlds? "
+     r"and no failure, a field shows at most ([0-9.e-]+ %)\.) Because such fields are claimed together, each needs "
      r"([0-9]+) worlds? without a failure\.$", is_envelope),
-    (r"^Gate \"(.*)\": every cell of it has ([0-9]+) runs?; even without a failure a limit of ([0-9.e-]+) at ([0-9.]+ %) "
-     r"takes ([0-9]+)\.$", short_gate),
+    (r"^With ([0-9]+) worlds? and no failure, the upper bound of a row by itself is (.*)\. A gate over several cells ",
+     best_bound),
+    (r"^Gate \"(.*)\": every cell of it has ([0-9]+) runs?; even without a failure a limit of ([0-9.e-]+ (?:%|per AGV-hour)) at "
+     r"([0-9.]+ %) takes ([0-9]+)\.$", short_gate),
     (r"^[^:]*: newly failing: [0-9]+ runs?; newly passing: ", compared_elsewhere),
     (r"^Newly failing: run [0-9]+", compared_elsewhere),
     (r"^[0-9]+ more newly failing runs", compared_elsewhere),

@@ -87,6 +87,8 @@ def check_gates(archive, page, section, head):
         if not any(re.match(pattern, each) for each in map(plain, section.sentences)):
             differ(f"{page}, gates", s.gate_sentence(gate, counts), section.sentences)
         verdict = re.search(r"(not demonstrated|demonstrated|violated)( \(reported only\))?$", text)
+        if verdict and verdict[1] == "demonstrated":
+            archive.demonstrated.add(gate["gate"])
         distance = re.escape(safety_distance(archive))
         told = s.finding(gate, counts, verdict and verdict[1], distance)
         if told and gate["decides"]:
@@ -106,8 +108,9 @@ def check_gates(archive, page, section, head):
 
 
 def plain(text):
-    """Without the mark of a list and without the command that follows."""
-    return " ".join(text.removeprefix("* ").removeprefix("- ").split(" -> ")[0].split())
+    """Without the mark of a list, without the command that follows, and without what an agent says of its crash."""
+    whole = " ".join(text.removeprefix("* ").removeprefix("- ").split(" -> ")[0].split())
+    return re.sub(r' \((crash|hang): ".*"\):$', r" (\1):", whole)
 
 
 def check_head(archive, page, sections):

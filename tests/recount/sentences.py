@@ -41,8 +41,7 @@ def gate_sentence(gate, counts):
         text += f" and {failing - known} stayed unknown, which counts as failing"
     if units:
         text += f": {w.of_gate(gate, w.rate, failing / exposure)}, " if failing else ": "
-        lower = w.down(pair[0] if hourly else 100.0 * pair[0])
-        text += f"two-sided 95 % interval {lower} to {w.of_gate(gate, w.up, pair[1])}"
+        text += "two-sided 95 % interval " + (w.interval(pair) + " per AGV-hour" if hourly else w.shares(pair))
     when = "valid however often one looks" if gate["method"] == "any-time" else "for the planned worlds"
     return text + (f", one-sided {w.percent(gate['confidence'])} upper bound {w.of_gate(gate, w.up, upper)}, limit "
                    f"{w.of_gate(gate, '{:g}'.format, gate['limit_rate'])} ({when}).")

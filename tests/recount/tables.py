@@ -43,8 +43,8 @@ def condition_tables(archive):
         if not archive.search:
             upper, pair = share(archive, agent, failing, units)
             row.append(f"{w.failed(known, failing)}/{units}")
-            row += ["-"] * 3 if every > 1 >= distinct else [w.rate(failing / units) if units else "-", w.interval(pair),
-                                                            w.up(upper)]
+            row += ["-"] * 3 if every > 1 >= distinct else [
+                w.rate(100.0 * failing / units) + " %" if units else "-", w.shares(pair), w.share_up(upper)]
         row += [str(tally[name]) for name in ("contact", "stuck", "ended")]
         row += [w.closest(tally), w.per_hour(tally["done"], tally["agv_us"])]
         for title, wanted in titles.items():
@@ -61,7 +61,7 @@ def group_row(archive, agent, name, inside, cells):
         row.append(str(tally["violating"]))
     else:
         says = units > 0 and not every > 1 >= distinct
-        row += [f"{w.failed(known, failing)}/{units}", w.up(share(archive, agent, failing, units)[0]) if says else "-"]
+        row += [f"{w.failed(known, failing)}/{units}", w.share_up(share(archive, agent, failing, units)[0]) if says else "-"]
         hours = archive.run_hours(cells)
         if not says:
             row += ["-", "-"]

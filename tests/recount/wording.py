@@ -87,4 +87,13 @@ def grouped(number):
 
 
 def interval(pair):
+    """Of a rate."""
     return f"[{down(pair[0])}, {up(pair[1])}]"
+
+
+def shares(pair):
+    return f"[{down(100.0 * pair[0])} %, {up(100.0 * pair[1])} %]"
+
+
+def share_up(value):
+    return up(100.0 * value) + " %"

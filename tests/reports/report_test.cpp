@@ -52,9 +52,12 @@ TEST(Report, without_a_violation_the_bound_is_printed_all_the_same) {
     std::ranges::replace(page, '\n', ' ');
     EXPECT_THAT(page, HasSubstr("not demonstrated")) << format;
     EXPECT_THAT(page, HasSubstr("0 of 200 worlds failed")) << format;
-    EXPECT_THAT(page, HasSubstr("0.0149")) << format;
+    EXPECT_THAT(page, HasSubstr("1.49 %")) << format;
+    EXPECT_THAT(page, Not(HasSubstr("0.0149"))) << format << ": one notation for one figure";
     EXPECT_THAT(page, HasSubstr("2995 worlds")) << format;
   }
+  EXPECT_THAT(render("markdown", clean_campaign()),
+              HasSubstr("With 200 worlds and no failure, the upper bound of a row by itself is 1.49 % (95 %)."));
 }
 
 TEST(Report, the_verdict_claims_what_was_sampled) {
@@ -105,7 +108,7 @@ TEST(Report, a_table_row_has_interval_bound_clearance_and_progress) {
   });
   ASSERT_NE(row, lines.end());
   EXPECT_THAT(*row,
-              testing::ContainsRegex("1/5000 +0.0002 +\\[5.06e-06, 0.00112\\] +0.000949 +0 +0 +0 +0.07 m +12.00"));
+              testing::ContainsRegex("1/5000 +0.02 % +\\[0.000506 %, 0.112 %\\] +0.0949 % +0 +0 +0 +0.07 m +12.00"));
 }
 
 TEST(Report, outages_are_shown_where_the_campaign_has_them) {

@@ -170,7 +170,10 @@ TEST_F(Recount, NoticesOneFigureThatIsOff) {
   write_archive(campaign_of("claim", 12), many_cells(3, 4), gates_of_every_kind("sound", "cross"), 12 * 96);
   ASSERT_EQ(recount().out, "\nno difference\n");
   for (const char* change :
-       {"sed -i -E '0,/(interval [0-9.]+ to )/s//\\19/' page.txt",
+       {"sed -i -E '0,/(interval \\[[0-9.]+ %, )/s//\\19/' page.txt",
+        "sed -i -E 's/(Guaranteed envelope: shown in )([0-9]+)/\\19\\2/' page.html",
+        "sed -i -E 's/(of a row by itself is )/\\19/' page.html",
+        "sed -i -E 's/(a field shows at most )/\\19/' page.html",
         "sed -i -E '0,/sound +all +contract +([0-9]+)/s//sound  all  contract  1\\1/' page.txt",
         "sed -i -E '0,/(run [0-9]+: contact.*at )[0-9]/s//\\19/' page.txt",
         "sed -i -E 's/([0-9]+)\\/12<\\/text>/\\1\\/13<\\/text>/' page.html",
