@@ -167,6 +167,7 @@ class FindingsOfCampaign {
                     .until = {},
                     .reason = {},
                     .end = finding.mechanism.end,
+                    .choice = representative(finding).choice,
                     .ways = record.kept.ways,
                     .doings = record.kept.doings,
                     .says = record.kept.says,

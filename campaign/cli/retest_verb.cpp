@@ -177,7 +177,7 @@ int retest_findings(const RetestWords& words) {
   try {
     for (std::size_t i = 0; i < findings.size(); ++i) {
       progress->begin(fmt::format("{} ({} of {})", findings[i]->id, i + 1, findings.size()));
-      CaseHost host = host_of[i]->within(limit);
+      CaseHost host = host_of[i]->looking_at(findings[i]->choice).within(limit);
       all.push_back({*findings[i], retest(host, failures[i], findings[i]->neighbours, neighbours_of(*findings[i]),
                                           file.known_runs(*findings[i]))});
       progress->hide();

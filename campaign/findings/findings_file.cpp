@@ -219,6 +219,26 @@ std::string text_of_whole_runs(const KnownIssue& finding) {
          text_of_circumstances("whole_runs_circumstances", finding.whole.counts.circumstances);
 }
 
+// Which failure of a run it is, if another one leads.
+FailureChoice read_choice(TomlTable& table) {
+  FailureChoice choice;
+  for (const std::string& word : texts(table, "looked_for")) {
+    const auto end_point = value_of<EndPoint>(word);
+    if (!end_point || *end_point == EndPoint::Throughput)
+      throw InputError(table.place("looked_for"), fmt::format("{} is no failure of a run", in_quotes(word)));
+    choice.end_points |= bit_of(*end_point);
+  }
+  return choice;
+}
+
+std::string text_of_choice(FailureChoice choice) {
+  std::vector<std::string> words;
+  for (const EndPoint end_point : kValuesOf<EndPoint>) {
+    if ((choice.end_points & bit_of(end_point)) != 0) words.emplace_back(name_of(end_point));
+  }
+  return words.empty() ? std::string() : fmt::format("looked_for = {}\n", list_of(words));
+}
+
 KnownIssue read_finding(TomlTable& table) {
   KnownIssue finding;
   finding.id = needed(table, "id");
@@ -235,6 +255,7 @@ KnownIssue read_finding(TomlTable& table) {
         table.place("status"),
         "a waiver has a last day, one of the calendar, and a reason: until = \"2027-01-31\" and reason = \"...\"");
   finding.end = needed(table, "end");
+  finding.choice = read_choice(table);
   finding.ways = lists(table, "ways");
   finding.doings = texts(table, "doings");
   finding.says = texts(table, "says");
@@ -304,6 +325,7 @@ KnownRuns FindingsFile::known_runs(const KnownIssue& finding) const {
 std::string toml_of(const KnownIssue& finding) {
   std::string text = fmt::format("\n[[finding]]\nid = {}\nmechanism = {}\nstatus = \"{}\"\n", toml_text(finding.id),
                                  toml_text(finding.mechanism), name_of(finding.status));
+  text += text_of_choice(finding.choice);
   if (!finding.doings.empty()) text += fmt::format("doings = {}\n", list_of(finding.doings));
   if (!finding.says.empty()) text += fmt::format("says = {}\n", list_of(finding.says));
   text += fmt::format("end = {}\nways = {}\nfound_in = {}\ncase = {}\nworld = {}\n", toml_text(finding.end),

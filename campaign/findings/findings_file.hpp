@@ -39,6 +39,7 @@ struct KnownIssue {
   IssueStatus status = IssueStatus::Known;
   std::string until, reason;  // of a waiver: "2027-01-31", its last day
   std::string end;
+  FailureChoice choice{};                      // with which its failure is found in a run; none: it leads the run
   std::vector<std::vector<std::string>> ways;  // as KeptFailure has them; the first is the mechanism's
   std::vector<std::string> doings, says;       // as KeptFailure has them
   std::string found_in;                        // the agent that failed so

@@ -16,8 +16,10 @@ std::vector<PlayedCase> play_known_cases(const FindingsFile& file, const Campaig
   std::vector<PlayedCase> played;
   for (const AgentFactor& agent : plan.agents) {
     CaseHost host = CaseHost(case_agent(plan, agent), programs, workers).within(limit);
-    const auto runs = all_runs(host, {kept.size(), [&](std::size_t i) { return std::optional(kept[i].smallest); }});
+    auto runs = all_runs(host, {kept.size(), [&](std::size_t i) { return std::optional(kept[i].smallest); }});
     for (std::size_t i = 0; i < kept.size(); ++i) {
+      const FailureChoice choice = file.findings()[i].choice;
+      if (choice != FailureChoice{}) runs[i] = host.looking_at(choice)(kept[i].smallest);  // another failure leads it
       const auto failure = failure_of(*runs[i]);
       played.push_back({file.findings()[i].id, agent.name, file.findings()[i].status,
                         failure && end_of(*failure) == kept[i].end, failure ? text_of(failure->kind) : "none"});

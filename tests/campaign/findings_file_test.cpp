@@ -37,6 +37,7 @@ class FindingsFiles : public testing::Test {
     finding.id = "F-00000001";
     finding.mechanism = "too close; says \"a\\b\"";
     finding.end = "too close";
+    finding.choice = {bit_of(EndPoint::Contact) | bit_of(EndPoint::Deadlock)};
     finding.ways = {{"lost messages", "the \"x\" messages"}, {}};
     finding.found_in = "a\tb";
     finding.laws_left_out = {"progress"};
@@ -79,6 +80,7 @@ TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   ASSERT_NE(read, nullptr);
   EXPECT_EQ(toml_of(*read), toml_of(odd()));
   EXPECT_EQ(read->ways, odd().ways);
+  EXPECT_EQ(read->choice, odd().choice);
   EXPECT_EQ(std::pair(read->doings, read->says), std::pair(odd().doings, odd().says));
   EXPECT_EQ(read->other_worlds, odd().other_worlds);
   EXPECT_EQ(read->laws_left_out, odd().laws_left_out);
@@ -122,6 +124,11 @@ TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
   for (const char* day : {"2026-13-99", "2027-02-29", "2026-00-10", "2026-1-010", "2026-11-2x"})
     EXPECT_THAT(error_of(toml_of(waived) + "reason = \"x\"\nuntil = \"" + day + "\"\n"), HasSubstr("until")) << day;
   EXPECT_EQ(error_of(toml_of(waived) + "reason = \"x\"\nuntil = \"2028-02-29\"\n"), "");
+  EXPECT_THAT(error_of(good + "looked_for = [\"contacts\"]\n"), HasSubstr("looked_for"));
+  auto leading = odd();
+  leading.choice = {};
+  EXPECT_THAT(error_of(toml_of(leading) + "looked_for = [\"contact\", \"nap\"]\n"),
+              HasSubstr("\"nap\" is no failure of a run"));
   auto other = odd();
   other.laws_left_out = {"gravity"};
   EXPECT_THAT(error_of(toml_of(other)), HasSubstr("laws_left_out names \"gravity\", which no campaign runs"));

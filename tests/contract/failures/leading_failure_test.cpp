@@ -105,6 +105,20 @@ TEST_F(LeadingFailure, TheOthersAreNamedAndCanBeChosen) {
   EXPECT_GE(times, 2U) << both.dump(1);
 }
 
+// In the smallest case and in its neighbours, something heavier may happen as well.
+TEST_F(LeadingFailure, AFindingThatDoesNotLeadIsRetestedByItsOwnFailure) {
+  simulate_cell();
+  const auto [index, other] = run_with_two();
+  ASSERT_NE(index, "");
+  ASSERT_EQ(run("findings c.db --file f.toml --add --max-failures 1 --failure " + other).exit_code, 0);
+  EXPECT_THAT(read(path("f.toml")), HasSubstr("\nlooked_for = [\"" + other + "\"]\n"));
+  const auto same = run("retest f.toml --agent restart-forgets-lane --neighbours 20");
+  EXPECT_EQ(same.exit_code, 1) << same.err;
+  EXPECT_THAT(same.out, AllOf(HasSubstr("  still there\n"), HasSubstr("the case fails, and "))) << same.out;
+  const auto played = run("run c.toml --db d.db --replicates 1 --findings f.toml");
+  EXPECT_THAT(played.err, HasSubstr("fails as it did with restart-forgets-lane: ")) << played.err;
+}
+
 TEST_F(LeadingFailure, AWordThatNamesNoneIsRefused) {
   simulate_cell();
   const auto [index, other] = run_with_two();
