@@ -17,7 +17,8 @@ const std::vector<Trap> kTraps = {
     {R"(\bpro(ve[dns]?|of)\b)", "hull-lock is proved safe"},
     {R"(\bno collisions?\b|\bcollision[- ]free\b|\bcannot collide\b)", "no collisions possible"},
     {R"(\bcollision-free\b)", "the fleet is collision-free"},
-    {R"((fail|violat|broke|collid|crash)\w*[^.|;]{0,60}[^.0-9]0 %)", "failing worlds: 0 %"},
+    // The lower end of an interval is no claim.
+    {R"((fail|violat|broke|collid|crash)\w*[^.|;]{0,60}[^.0-9[]0 %)", "failing worlds: 0 %"},
     {R"([^.0-9]0 % of (the )?(runs|worlds|replicates))", "it failed in 0 % of the runs"},
     {R"([0-9.]+ ?% (safe|secure|reliable)\b)", "the release is 99.99 % safe"},
     {R"(\b(sure|certain|confident) (that|the)\b)", "we are 95 % sure the release is safe"},
