@@ -341,7 +341,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
      r"breaks the safety distance is at most ([0-9.e-]+ %) in all of them together, with [0-9.]+ % confidence.*?\. )?"
      r"(?:([0-9]+) by (?:its|their) own worlds: there the share is below ([0-9.e-]+) %, in all of them together, with "
      r"([0-9.]+ %) confidence(, however often one looks)?(?:; this is a statement of its own)?\. )?.*?(?: By itself, with ([0-9]+) worlds? "
-     r"and no failure, a field shows at most ([0-9.e-]+ %)\.) Because such fields are claimed together, each needs "
+     r"and no failure, a field shows at most ([0-9.e-]+ %)\.)? Because such fields are claimed together, each needs "
      r"([0-9]+) worlds? without a failure\.$", is_envelope),
     (r"^With ([0-9]+) worlds? and no failure, the upper bound of a row by itself is (.*)\. A gate over several cells ",
      best_bound),
