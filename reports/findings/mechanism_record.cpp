@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
-#include "core/base/regular_file.hpp"
+#include "reports/page/side_record.hpp"
 #include "reports/page/wording.hpp"
 #include "storage/beside.hpp"
 
@@ -87,19 +86,12 @@ std::optional<MechanismRecord> parse_findings(const std::string& text) {
 std::string findings_path(const std::string& archive_path) { return beside(archive_path, kMechanismsEnding); }
 
 MechanismFile findings_beside(const std::string& archive_path, std::uint64_t plan_hash, std::uint64_t stored_runs) {
+  constexpr const char* again = "look for the findings again.";
   const std::string path = findings_path(archive_path);
-  std::optional<std::string> text;
-  try {
-    text = read_text_file_if_there(path);
-  } catch (const InputError& error) {
-    return {{}, error.what()};
-  }
-  if (!text) return {};
-  auto record = parse_findings(*text);
-  if (!record) return {{}, path + " is damaged, or of another version of fleetproof: look for the findings again."};
-  if (record->plan_hash != plan_hash || record->stored_runs != stored_runs)
-    return {{}, path + " is of another campaign, or of fewer of its runs: look for the findings again."};
-  return {std::move(record), {}};
+  auto file = side_record<MechanismFile>(path, parse_findings, again);
+  if (file.record && (file.record->plan_hash != plan_hash || file.record->stored_runs != stored_runs))
+    return {{}, path + " is of another campaign, or of fewer of its runs: " + again};
+  return file;
 }
 
 Section findings_section(const MechanismFile& file, const std::string& archive_path) {

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
-#include "core/base/regular_file.hpp"
+#include "reports/page/side_record.hpp"
 #include "reports/page/wording.hpp"
 #include "storage/beside.hpp"
 
@@ -116,19 +115,12 @@ std::optional<SensitivityRecord> parse_sensitivity(const std::string& text) {
 std::string sensitivity_path(const std::string& archive_path) { return beside(archive_path, kSensitivityEnding); }
 
 SensitivityFile sensitivity_beside(const std::string& archive_path, const CampaignRecord& campaign) {
+  constexpr const char* again = "measure again.";
   const std::string path = sensitivity_path(archive_path);
-  std::optional<std::string> text;
-  try {
-    text = read_text_file_if_there(path);
-  } catch (const InputError& error) {
-    return {{}, error.what()};
-  }
-  if (!text) return {};
-  auto record = parse_sensitivity(*text);
-  if (!record) return {{}, path + " is damaged, or of another version of fleetproof: measure again."};
-  if (record->worlds != worlds_of(campaign.plan_json))
-    return {{}, path + " was measured in the worlds of another plan: measure again."};
-  return {std::move(record), {}};
+  auto file = side_record<SensitivityFile>(path, parse_sensitivity, again);
+  if (file.record && file.record->worlds != worlds_of(campaign.plan_json))
+    return {{}, path + " was measured in the worlds of another plan: " + again};
+  return file;
 }
 
 }  // namespace fleetproof
