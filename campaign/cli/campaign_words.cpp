@@ -192,12 +192,12 @@ void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentF
 }
 
 std::string meet_agent(const std::string& word, std::vector<std::string>& plugins, AgentPrograms& programs,
-                       MeetPlugin meet) {
+                       MeetPlugin meet, bool global_symbols) {
   const bool is_path = is_path_of_object(word);
   if (is_path && std::ranges::find(plugins, word) == plugins.end()) plugins.push_back(word);
   std::string name = word;
   for (const std::string& path : plugins) {
-    const std::string met = (programs.*meet)(path, false);
+    const std::string met = (programs.*meet)(path, global_symbols);
     if (is_path && path == word) name = met;
   }
   return name;

@@ -43,9 +43,9 @@ void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentF
                           const AgentPrograms& programs);
 
 // The name of the agent that `word` names: a name, or the path of a shared object. A path is added to `plugins`, and
-// all of them are met. Throws what `meet` throws.
+// all of them are met, with RTLD_GLOBAL if they need `global_symbols`. Throws what `meet` throws.
 std::string meet_agent(const std::string& word, std::vector<std::string>& plugins, AgentPrograms& programs,
-                       MeetPlugin meet);
+                       MeetPlugin meet, bool global_symbols = false);
 
 // The number that --jobs asks for; without it, one worker for each core. Throws InputError.
 int worker_count(const std::optional<std::uint64_t>& jobs);

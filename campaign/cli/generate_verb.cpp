@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
+#include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/layout_output.hpp"
 #include "campaign/cli/output_file.hpp"
-#include "campaign/cli/streams.hpp"
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
@@ -25,19 +27,19 @@ struct GenerateWords {
   bool stress = false;
 };
 
-Layout mutation(const GenerateWords& words, std::uint64_t key) {
+Layout mutation(const GenerateWords& words, std::uint64_t key, WorkProgress& progress) {
   if (words.from.empty()) throw InputError("--from", "is missing; name the layout file to begin with");
   if (words.stress)
     throw InputError("--stress", fmt::format("has no meaning for {}; it has one range", kMutatedImport));
   std::vector<std::string> warnings;
   const Layout base = import_layout(words.from, {}, warnings);
-  for (const std::string& warning : warnings) talk("warning: {}\n", warning);
+  for (const std::string& warning : warnings) progress.say("warning: " + warning);
   RejectionCounts counts;
   for (std::uint32_t number = 0; number < kAttempts; ++number) {
     Draws draws(key, number);
     const auto layout = draw_mutation(base, draws, counts);
     if (!layout) continue;
-    if (number > 0) talk("{} of {} draws refused: {}\n", number, number + 1, rejection_text(counts));
+    if (number > 0) progress.say(fmt::format("{} of {} draws refused: {}", number, number + 1, rejection_text(counts)));
     return *layout;
   }
   throw InputError(
@@ -48,9 +50,9 @@ Layout mutation(const GenerateWords& words, std::uint64_t key) {
 
 // The layout of the world with this seed. A scenario with this seed has the same layout, unless its first draw was
 // refused.
-Layout drawn(const GenerateWords& words) {
+Layout drawn(const GenerateWords& words, WorkProgress& progress) {
   const auto key = stream_key(words.seed.value_or(1), Stream::Layout);
-  if (words.family == kMutatedImport) return mutation(words, key);
+  if (words.family == kMutatedImport) return mutation(words, key, progress);
   if (!words.from.empty()) throw InputError("--from", fmt::format("belongs to {} alone", kMutatedImport));
   FamilyRange choice = family_range(words.family);
   if (words.stress && choice.provocation)
@@ -58,16 +60,22 @@ Layout drawn(const GenerateWords& words) {
                      fmt::format("has no meaning for {}, which names another range of plants", words.family));
   if (words.stress) choice.range = Range::Stress;
   // Without a size, draw_layout() draws for five AGVs, for which every knob has room.
-  if (const auto small = too_small(choice, 5); !small.empty()) talk("warning: {}\n", small);
+  if (const auto small = too_small(choice, 5); !small.empty()) progress.say("warning: " + small);
   Draws draws(key);
   return draw_layout(choice, draws);
 }
 
 int generate(const GenerateWords& words) {
-  const Layout layout = drawn(words);
-  if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
+  std::optional<WorkProgress> progress;
+  progress.emplace("generate", nullptr);
+  progress->begin("drawing a layout");
+  const Layout layout = drawn(words, *progress);
+  const std::string picture = words.picture.empty() ? "" : layout_svg(layout);
+  progress.reset();
+  listen_to_interrupts();  // a signal waits until the files are whole
+  if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, picture);
   put_layout(layout, words.out);
-  return kDemonstrated;
+  return interrupted() != 0 ? exit_code_of_signal(interrupted()) : kDemonstrated;
 }
 
 }  // namespace

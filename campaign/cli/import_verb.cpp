@@ -2,9 +2,12 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 
+#include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/layout_output.hpp"
 #include "campaign/cli/output_file.hpp"
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "core/base/error.hpp"
@@ -103,18 +106,25 @@ int import_file(ImportWords words) {
   const auto& entry = importer(words.format);
   const ImportChoice choice = choice_of(words);
   expect_vehicles(words);
+  std::optional<WorkProgress> progress;
+  progress.emplace("import", nullptr);
+  progress->begin("reading " + words.file);
   std::vector<std::string> warnings;
   const Layout layout = import_layout(entry, words.file, choice, warnings);
+  progress->begin("looking at what AGVs can reach");
+  const std::string reachable = reachability_text(layout);
+  const std::string picture = words.picture.empty() ? "" : layout_svg(layout);
+  progress.reset();
   for (const auto& [place, sentence] : choice.purposes.unheard()) warnings.push_back(place + ": " + sentence);
   for (const std::string& warning : warnings) talk("warning: {}\n", warning);
   talk("{}: {} stations, {} segments, {} warnings\n", words.file, layout.stations.size(), layout.segments.size(),
        warnings.size());
-  talk("size: {}\npurposes: {}\nreachability: {}\n", size_text(size_of(layout)), purposes_summary(layout),
-       reachability_text(layout));
+  talk("size: {}\npurposes: {}\nreachability: {}\n", size_text(size_of(layout)), purposes_summary(layout), reachable);
+  listen_to_interrupts();  // a signal waits until the files are whole
   if (!words.vehicles.empty()) write_vehicles(words, layout);
-  if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, layout_svg(layout));
+  if (!words.picture.empty()) write_whole({words.picture, "--svg", OutputKind::Picture}, picture);
   put_layout(layout, words.out);
-  return kDemonstrated;
+  return interrupted() != 0 ? exit_code_of_signal(interrupted()) : kDemonstrated;
 }
 
 }  // namespace

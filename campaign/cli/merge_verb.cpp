@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
-#include <chrono>
+#include <functional>
 #include <memory>
+#include <optional>
 
 #include "campaign/batch/session_log.hpp"
 #include "campaign/cli/archive_name.hpp"
 #include "campaign/cli/attempt_log.hpp"
 #include "campaign/cli/campaign_end.hpp"
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/interrupts.hpp"
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/shards/merge.hpp"
@@ -59,23 +62,27 @@ AttemptLog::Campaign attempt_words(const PublishedChunks& chunks, const MergeWor
   return attempt;
 }
 
-// A line every 30 s.
-std::function<void(std::uint64_t)> counter_talk(std::uint64_t chunks) {
-  return [chunks, last = std::chrono::steady_clock::now()](std::uint64_t done) mutable {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last < std::chrono::seconds(30)) return;
-    last = now;
-    talk("{} of {} read\n", done, count_text(chunks, "chunk"));
+struct Interrupted {};
+
+// After each chunk. A signal ends the merge there, and leaves nothing; once all is read, the file is written whole.
+std::function<void(std::uint64_t)> counter_of(WorkProgress& progress, std::uint64_t chunks) {
+  return [&progress, chunks](std::uint64_t done) {
+    if (interrupted() != 0) throw Interrupted();
+    progress.count(done, chunks);
+    if (done == chunks) progress.begin("writing the results file");
   };
 }
 
-int merge(MergeWords words) {
+int put_together(MergeWords words) {
   if (words.fail_fast && *words.fail_fast < 1) throw InputError("--fail-fast", "is 0; it is at least 1");
   const std::optional<Keep> keep = keep_of(words.keep);
   const PublishedChunks chunks(words.folders);
   if (words.archive.empty()) words.archive = archive_name_of(chunks.campaign().name);
   AttemptLog attempt(words.ledger, attempt_words(chunks, words));
   const SessionLog session(words.archive);
+  std::optional<WorkProgress> progress;
+  progress.emplace("merge", nullptr);
+  progress->begin("reading chunks");
   CampaignResult result;
   result.progress.planned = chunks.grid().runs();
   // Before the file gets its name: a merge that is killed behind that is an attempt, too.
@@ -95,10 +102,22 @@ int merge(MergeWords words) {
                                                        .fail_fast = words.fail_fast.value_or(0),
                                                        .keep = keep,
                                                        .publishes = begin,
-                                                       .tick = counter_talk(chunks.grid().count())});
+                                                       .tick = counter_of(*progress, chunks.grid().count())});
+  progress.reset();
   session.end(result, 0);
   talk("{} of {} put together in {}\n", result.stored, count_text(result.progress.planned, "run"), words.archive);
-  return tell_verdict(words.archive, attempt, {words.json, words.exit_zero});
+  const int verdict = tell_verdict(words.archive, attempt, {words.json, words.exit_zero});
+  return interrupted() != 0 ? exit_code_of_signal(interrupted()) : verdict;
+}
+
+int merge(const MergeWords& words) {
+  listen_to_interrupts();
+  try {
+    return put_together(words);
+  } catch (const Interrupted&) {
+    talk("interrupted before all chunks were read; nothing was written\n");
+    return exit_code_of_signal(interrupted());
+  }
 }
 
 }  // namespace

@@ -8,10 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/known_ends.hpp"
+#include "campaign/cli/progress.hpp"
 #include "campaign/cli/run_observers.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
+#include "campaign/cli/work_time.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/run/case_file.hpp"
 #include "campaign/run/case_run.hpp"
@@ -36,7 +39,7 @@ struct SimulateWords {
   std::string granularity;
   std::optional<std::uint64_t> draw, radio_draw;
   ObserverWords observed;
-  bool json = false, in_process = false;
+  bool json = false, in_process = false, global_symbols = false;
   std::string agent_place;  // what names the agent: the option, or the key of the scenario file
 };
 
@@ -246,7 +249,7 @@ std::vector<Violation> violations_before(const SimulateWords& words, const Scena
 std::vector<KnownEnd> ends_of_plugin(SimulateWords words, const Scenario& scenario) {
   if (words.in_process) return {};
   AgentPrograms known;
-  words.agent = meet_agent(words.agent, words.plugins, known, &AgentPrograms::know);
+  words.agent = meet_agent(words.agent, words.plugins, known, &AgentPrograms::know, words.global_symbols);
   known.program(words.agent, words.agent_place);
   return known_ends(scenario, {words.agent, words.config, scenario.law.leave_out}, known);
 }
@@ -271,6 +274,7 @@ Scenario with_draws(const SimulateWords& words, Scenario scenario) {
 ReplayWords page_words(const SimulateWords& words) {
   std::string command = "fleetproof simulate " + shell_word(words.scenario) + " --agent " + shell_word(words.agent);
   for (const std::string& plugin : words.plugins) command += " --plugin " + shell_word(plugin);
+  if (words.global_symbols) command += " --global-symbols";
   if (!words.config.empty()) command += " --agent-config " + shell_word(words.config);
   if (words.law != judge_of_violations().name) command += " --law " + shell_word(words.law);
   if (words.draw) command += fmt::format(" --draw {}", *words.draw);
@@ -288,10 +292,21 @@ int simulate_scenario(SimulateWords words) {
   words.agent_place = names_agent ? words.scenario + ": /agent" : "--agent";
   words.agent = agent_of(words, scenario, programs);
   if (words.config.empty()) words.config = scenario.agent_config;
+  std::optional<WorkProgress> progress;
+  progress.emplace("simulate", nullptr);
+  progress->begin("simulating the run");
   const std::vector<KnownEnd> ends = ends_of_plugin(words, scenario);
-  words.agent = meet_agent(words.agent, words.plugins, programs, &AgentPrograms::load);
+  words.agent = meet_agent(words.agent, words.plugins, programs, &AgentPrograms::load, words.global_symbols);
+  if (words.global_symbols && words.plugins.empty())
+    throw InputError("--global-symbols", fmt::format("has no meaning for {}, which comes from no shared object; name "
+                                                     "one with --plugin",
+                                                     in_quotes(words.agent)));
+  // The published laws work on after the last event, where only the signal itself can end them.
+  if (measures_clearance(words)) listen_to_interrupts();
+  const TimeLimit limit({}, is_interrupted);
   RunWatch watch;
   watch.known_ends = ends;
+  watch.abandon = &limit.over();
   const fp_agent_type& agent = programs.find(words.agent, words.agent_place);
   const AgentProgram& program = programs.program(words.agent, words.agent_place);
   require_room(program, *scenario.map, scenario.agvs.size(), "the scenario", words.agent_place);
@@ -300,11 +315,13 @@ int simulate_scenario(SimulateWords words) {
   std::optional<RunObservers> observed;
   if (words.observed.wanted())
     observed.emplace(words.observed, scenario, violations_before(words, scenario, agent, watch), page_words(words));
+  if (words.observed.trace.wanted()) progress.reset();  // the trace itself shows how far it is
   const Outcome outcome =
       simulate(scenario, agent, observers.laws, observed ? &*observed : nullptr, words.config.c_str(), watch);
   if (observed) observed->finish(outcome);
   const bool is_saved_case = scenario.expected != ExpectedOutcome{};
   const ExpectedOutcome found = is_saved_case ? found_now(words, scenario, agent, watch) : ExpectedOutcome{};
+  progress.reset();
   if (words.json) {
     print_json(scenario, outcome, words, observers, found);
   } else {
@@ -321,6 +338,16 @@ int simulate_scenario(SimulateWords words) {
   return outcome.outcome_class() == OutcomeClass::Clean ? kDemonstrated : kNotDemonstrated;
 }
 
+// A signal ends the run in its middle. What the trace has told until then stands.
+int simulate_until_interrupted(const SimulateWords& words) {
+  try {
+    return simulate_scenario(words);
+  } catch (const RunAbandoned&) {
+    talk("interrupted before the end of the run; it has no outcome\n");
+    return exit_code_of_signal(interrupted());
+  }
+}
+
 }  // namespace
 
 Action prepare_simulate(Options& options) {
@@ -332,6 +359,9 @@ Action prepare_simulate(Options& options) {
   options.option("--agent-config", words->config,
                  "text handed to the agent as its own parameters (default: the scenario file's)");
   options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
+  options.flag("--global-symbols", words->global_symbols,
+               "load the shared objects with RTLD_GLOBAL, as embedded Python needs it (symbols = \"global\" of a "
+               "campaign)");
   options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");
   options.option("--granularity", words->granularity,
                  "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");
@@ -340,7 +370,7 @@ Action prepare_simulate(Options& options) {
   options.flag("--in-process", words->in_process, "run the agent in this process at once, for a debugger");
   options.flag("--json", words->json, "print JSON");
   add_observer_options(options, words->observed);
-  return [words] { return simulate_scenario(*words); };
+  return [words] { return simulate_until_interrupted(*words); };
 }
 
 }  // namespace fleetproof::cli

@@ -94,6 +94,19 @@ TEST_F(NamedAgents, SymbolsMayBeGlobal) {
   }
 }
 
+TEST_F(NamedAgents, ASimulationHasGlobalSymbolsIfItIsTold) {
+  ASSERT_LT(campaign("[{ file = \"failing.so\", config = \"symbols 1\", symbols = \"global\" }]").exit_code, 5);
+  ASSERT_EQ(run("replay c.db 0 --scenario case.json").exit_code, 0);
+  const std::string simulate = "simulate case.json --plugin failing.so --json";
+  EXPECT_THAT(run(simulate).out, HasSubstr("its symbols are local"));
+  for (const char* more : {" --global-symbols", " --global-symbols --in-process"})
+    EXPECT_THAT(run(simulate + more).out, testing::Not(HasSubstr("symbols"))) << more;
+  const auto refused = run("simulate case.json --agent hull-lock --agent-config \"\" --global-symbols");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("--global-symbols: has no meaning for \"hull-lock\", which comes from no shared "
+                                     "object; name one with --plugin"));
+}
+
 TEST_F(NamedAgents, AStoredCampaignFindsItsPlugins) {
   std::filesystem::copy_file(FLEETPROOF_PLUGIN, path("other.so"));
   ASSERT_TRUE(test::has_verdict(campaign("[{ file = \"failing.so\", symbols = \"global\" }, \"other.so\"]")));

@@ -54,5 +54,47 @@ TEST_F(Interruption, AKillKeepsWhatWasCommitted) {
   EXPECT_EQ(run("replay long.db.partial 3").exit_code, 0);
 }
 
+TEST_F(Interruption, ASimulationEndsInItsMiddleAndSaysWhatItDoes) {
+  write("c.toml",
+        "kind = \"search\"\nreplicates = 1\nhorizon_s = 3600\n[factors]\nagents = [\"hull-lock\"]\nlayouts = "
+        "[\"aisle-grid\"]\nfleet_sizes = [2]\n");
+  run("run c.toml --db c.db");
+  ASSERT_EQ(run("replay c.db 0 --scenario case.json").exit_code, 0);
+  const auto finished = shell(R"(sed -i 's/"horizon_ns": 3600000000000/"horizon_ns": 9000000000000000/' case.json
+"$FLEETPROOF" simulate case.json --json & pid=$!
+for i in $(seq 600); do grep -q 'simulate: simulating the run; ' stderr.txt && break; sleep 0.1; done
+kill -TERM $pid; wait $pid)");
+  EXPECT_EQ(finished.exit_code, 143) << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("simulate: simulating the run; "));
+  EXPECT_THAT(finished.err, HasSubstr("interrupted before the end of the run; it has no outcome"));
+  EXPECT_EQ(finished.out, "") << "no half an answer";
+}
+
+TEST_F(Interruption, NoVerbLeavesHalfAFile) {
+  write("c.toml",
+        "name = \"c\"\nkind = \"search\"\nreplicates = 400\nhorizon_s = 5\n[factors]\nagents = "
+        "[\"hull-lock\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [3]\n");
+  ASSERT_EQ(run("run c.toml --shard 1/1 --out part").exit_code, 0);
+  ASSERT_LT(run("merge part --db whole.db").exit_code, 5);
+  ASSERT_EQ(run("generate aisle-grid -o whole.json").exit_code, 0);
+  ASSERT_EQ(run("import whole.json -o whole.csv").exit_code, 0);
+  const std::pair<std::string, std::string> verbs[] = {
+      {"merge part --db ", "db"}, {"generate aisle-grid -o ", "json"}, {"import whole.json -o ", "csv"}};
+  for (const auto& [verb, ending] : verbs) {
+    for (const char* after_s : {"0", "0.005", "0.01", "0.02", "0.04", "0.08"}) {
+      const std::string name = "cut." + ending;
+      const auto finished = shell("\"$FLEETPROOF\" " + verb + name + " & pid=$!; sleep " + after_s +
+                                  "; kill -TERM $pid; wait $pid; code=$?; ls -A; exit $code");
+      EXPECT_TRUE(finished.exit_code == 143 || test::has_verdict(finished)) << verb << finished.err;
+      for (const char* left : {"draft", ".partial", ".merging", "-wal", "-journal"})
+        EXPECT_THAT(finished.out, testing::Not(HasSubstr(left))) << verb << " after " << after_s;
+      if (std::filesystem::exists(path(name))) {
+        EXPECT_EQ(read(path(name)), read(path("whole." + ending))) << verb;
+      }
+      std::filesystem::remove(path(name));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof::interruption_test
