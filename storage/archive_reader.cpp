@@ -345,6 +345,8 @@ std::uint64_t ArchiveReader::run_count() const {
       [&] { return static_cast<std::uint64_t>(impl_->db->execAndGet("SELECT count(*) FROM runs").getInt64()); });
 }
 
+bool ArchiveReader::is_published() const { return impl_->published; }
+
 bool ArchiveReader::is_folded() const { return impl_->fold.has_value(); }
 
 std::uint64_t ArchiveReader::unplaced_repeats() const {

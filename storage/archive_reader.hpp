@@ -41,6 +41,8 @@ class ArchiveReader {
   std::uint64_t run_count() const;
   // Whether runs in which nothing went wrong have no rows of their own.
   bool is_folded() const;
+  // Whether `run` or `merge` has brought it to an end and sealed it. A live file is not.
+  bool is_published() const;
   // Of a folded file of an older schema: how many runs have a trace that another run of their cell had before. The file
   // does not say which, and RunRecord::repeats is false for all.
   std::uint64_t unplaced_repeats() const;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <unordered_set>
+#include <vector>
 
 #include "campaign/batch/audit_counts.hpp"
 #include "campaign/batch/same_campaign.hpp"
@@ -23,6 +24,13 @@ namespace {
 // Runs between the oldest unfinished and the newest handed out: one slow run stalls nothing, and memory stays bounded.
 constexpr std::uint64_t kLiveWindow = 65'536;
 
+// By agent of the plan.
+std::vector<bool> which_are_plugins(const CampaignPlan& plan, const AgentPrograms& programs) {
+  std::vector<bool> are;
+  for (const AgentFactor& agent : plan.agents) are.push_back(programs.is_plugin(agent.program));
+  return are;
+}
+
 // Stores the runs of a session in the results file. A results file that goes on gives the runs that it holds.
 class CampaignPolicy final : public SessionPolicy {
  public:
@@ -30,6 +38,7 @@ class CampaignPolicy final : public SessionPolicy {
                  const std::string& path)
       : session_(session),
         audit_counts_(plan, programs),
+        is_plugin_(which_are_plugins(plan, programs)),
         verdict_(stored),
         archive_(path, stored, session.options().overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
     session_.progress().planned = plan.run_count();
@@ -99,8 +108,13 @@ class CampaignPolicy final : public SessionPolicy {
               count(run);
               // Another engine's run may well differ.
               if (!stored_runs_are_ours_ || audited_before_.contains(run.run_index)) return;
-              if (!session_.audits().offer(run) && !run.outcome.is_failure()) sample_.add(run);
+              if (!session_.audits().offer(run) && is_sampled(run)) sample_.add(run);
             }};
+  }
+
+  // What a plug-in failed in would take a worker and its limits again. A claim counts it as failing anyway.
+  bool is_sampled(const RunRecord& run) const {
+    return !run.outcome.is_failure() || !is_plugin_[audit_counts_.agent_of(run.run_index)];
   }
 
   void count(const RunRecord& run) {
@@ -129,6 +143,7 @@ class CampaignPolicy final : public SessionPolicy {
   std::unordered_set<std::uint64_t> audited_before_;  // in an earlier session
   StoredSample sample_;
   AuditCounts audit_counts_;
+  std::vector<bool> is_plugin_;  // by agent
   VerdictWatch verdict_;
   ArchiveWriter archive_;
   Clock::time_point last_commit_ = Clock::now(), last_without_waiting_ = last_commit_;

@@ -38,6 +38,14 @@ std::string know_at(const std::string& place, const std::string& path, bool glob
   }
 }
 
+// Pages would speak of software that did not run.
+void require_own_name(const AgentFactor& agent, const AgentPrograms& programs, const std::string& place) {
+  if (agent.name == agent.program) return;
+  if (std::ranges::find(programs.all(), agent.name, &AgentProgram::name) == programs.all().end()) return;
+  throw InputError(place, fmt::format("factors.agents: {} has the name of another agent, {}; give it a name of its own",
+                                      in_quotes(agent.program), in_quotes(agent.name)));
+}
+
 // An object that is loaded once.
 struct KnownObject {
   std::string program;
@@ -127,6 +135,7 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
     agents[i].program = object.program;
     if (agents[i].name.empty()) agents[i].name = object.program;
   }
+  for (std::size_t i = 0; i < agents.size(); ++i) require_own_name(agents[i], programs, place_of(i));
   check_plan(file.plan, file.places);
   warn_of_foreign_types(file);
   warn_of_idle_gates(file);

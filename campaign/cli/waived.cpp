@@ -11,6 +11,7 @@
 #include "campaign/plan/plan_fields.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
+#include "core/outcome/probe_names.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -79,10 +80,13 @@ class StatedFields {
       walk(path + ".", gate);
     }
   }
-  // A list that is left out asks for what the kind of campaign asks for.
+  // A list that is left out asks for what the kind of campaign asks for. Whatever else one asks for, nobody has to be
+  // met without an encounter.
   void amounts(const std::string& path, const Field& field, const std::optional<std::vector<std::string>>&) {
     const std::vector<std::string> probes = plan_.probes_to_meet();
-    add(path, field, {static_cast<double>(probes.size()), "", fmt::format("[{}]", fmt::join(probes, ", "))});
+    const bool asks_for_others = std::ranges::find(probes, kEncounterProbe) != probes.end();
+    add(path, field,
+        {asks_for_others ? static_cast<double>(probes.size()) : 0.0, "", fmt::format("[{}]", fmt::join(probes, ", "))});
   }
   template <class Value>
   void amounts(const std::string& path, const Field& field, const Value& value) {

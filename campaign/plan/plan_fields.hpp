@@ -163,9 +163,10 @@ void visit_radio_table(Plan& plan, Visit&& visit) {
   visit(kConstantDelayShare.left_out_if(plan.constant_delay_share == 0.0), plan.constant_delay_share);
 }
 
-inline constexpr Field kProbes{.key = "probes",
-                               .text = "names of probes; left out: what the kind of campaign asks for",
-                               .lenient = Lenient::down(Weight::Judgement)};
+inline constexpr Field kProbes{
+    .key = "probes",
+    .text = "names of probes; left out: what the kind of campaign asks for; without encounter it asks for nobody",
+    .lenient = Lenient::down(Weight::Judgement)};
 
 template <FieldsOf<AuditSetup> Audit, class Visit>
 void visit_fields(Audit& audit, Visit&& visit) {

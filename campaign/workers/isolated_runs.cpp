@@ -19,6 +19,9 @@ constexpr std::chrono::milliseconds kLookEvery{100};
 constexpr double kTimesSlowest = 20.0;  // the CPU time that a run may use, in times of the slowest run so far
 constexpr double kRepeatFactor = 4.0;   // a run that went beyond it gets so much more in the repeat
 constexpr int kKillsFromOutside = 3;    // of one run; then the run itself is the reason
+// Somebody else may end the workers now and then: twice each, and in one of so many runs. Software that does it itself
+// does so again and again.
+constexpr std::uint64_t kEndsPerWorker = 2, kRunsPerEnd = 100;
 
 // Whether what ended the first attempt of a run ended a later one, too. A run that is only slow needs its time again.
 bool came_again(const CauseOfDeath& first, double limit_s, const RunOrder& order, const RunAnswer& answer) {
@@ -119,9 +122,15 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls, H
   record.scenario_digest = answer.scenario_digest;
   record.outcome = std::move(answer.run.outcome);
   record.recording = std::move(answer.recording);
-  record.was_disturbed = answer.ended_otherwise && answer.ended_otherwise->maybe_outside;
+  ++hosted_;
+  record.was_disturbed =
+      answer.ended_otherwise && answer.ended_otherwise->maybe_outside && may_be_from_outside(++ended_from_outside_);
   if (answer.ended_otherwise && !record.was_disturbed) record.otherwise = audit_of(*answer.ended_otherwise, record);
   return record;
+}
+
+bool IsolatedRuns::may_be_from_outside(std::uint64_t ends) const {
+  return ends <= kEndsPerWorker * static_cast<std::uint64_t>(hosting_.workers) + hosted_ / kRunsPerEnd;
 }
 
 CaseRun IsolatedRuns::of_case(const Scenario& scenario, const CaseWishes& wishes) {

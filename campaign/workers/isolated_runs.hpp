@@ -102,6 +102,8 @@ class IsolatedRuns {
   // Tells of a repeat as long as it lives.
   class ToldRepeat;
 
+  // Whether so many ends of workers are what somebody else does to them.
+  bool may_be_from_outside(std::uint64_t ends) const;
   Member take_member();
   void give_back(Member member);
   Attempt attempt(Member& member, const RunOrder& order, WorkerWatch::Limits limits, bool alone = false);
@@ -128,6 +130,7 @@ class IsolatedRuns {
   Forker forker_;
   CaseWriter cases_;
   std::atomic<bool> abandoned_ = false;
+  std::atomic<std::uint64_t> hosted_ = 0, ended_from_outside_ = 0;  // runs of the plan; of their workers
   std::atomic<std::uint64_t> slowest_ns_ = 0;
 
   mutable std::mutex mutex_;

@@ -17,6 +17,11 @@ bool had_other_luck(const Attempt& attempt, const Attempt& own) {
          attempt.verdict != own.verdict;
 }
 
+// Where nobody noted the release, as in shards without their session logs, it may have been this one.
+bool is_same_release(const Attempt& attempt, const Attempt& own) {
+  return attempt.release == own.release || attempt.release.empty() || own.release.empty();
+}
+
 // Older programs did not note the conditions.
 bool is_same_plan(const Attempt& attempt, const Attempt& own) {
   if (attempt.conditions.empty() || own.conditions.empty()) return attempt.worlds == own.worlds;
@@ -49,7 +54,7 @@ AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord
   if (own == attempts.rend()) return history;
   history.own = *own;
   for (auto attempt = attempts.begin(); attempt != attempts.end(); ++attempt) {
-    const bool same_release = attempt->release == own->release, same_worlds = attempt->worlds == own->worlds;
+    const bool same_release = is_same_release(*attempt, *own), same_worlds = attempt->worlds == own->worlds;
     if (same_release) {
       if (same_worlds && !had_other_luck(*attempt, *own)) continue;
       if (!same_worlds)
@@ -148,8 +153,11 @@ std::string attempts_sentence(const AttemptHistory& history, double risk) {
         " Another release was tried in the same worlds before ({}): failures that were mended since do not count as "
         "evidence. seed = \"fresh\" gives each release worlds of its own.",
         history.same_worlds.back().begun_utc.empty() ? "date unknown" : history.same_worlds.back().begun_utc);
-  } else if (!history.own->fresh_seed) {
-    text += " A person chose the seed: whether these worlds were seen before in a search, no ledger tells.";
+  } else {
+    text += history.own->fresh_seed
+                ? " The seed follows from the digests of release and plan: whoever changes a byte of either gets other "
+                  "worlds, and how many were tried no other ledger tells."
+                : " A person chose the seed: whether these worlds were seen before in a search, no ledger tells.";
   }
   return text + trouble_sentences(history);
 }

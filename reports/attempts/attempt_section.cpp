@@ -34,8 +34,7 @@ std::string plan_sentence(const AttemptHistory& history, const CampaignRecord& c
 
 std::string seed_sentence(const AttemptHistory& history, std::uint64_t seed) {
   const auto& own = history.own;
-  if (own && own->fresh_seed)
-    return fmt::format("Seed {} follows from the digests of release and plan; nobody chose it.", seed);
+  if (own && own->fresh_seed) return fmt::format("Seed {} follows from the digests of release and plan.", seed);
   std::string text = fmt::format("Seed {} was chosen by a person", seed);
   if (!history.overrides.empty()) text += fmt::format("; options changed the campaign file: {}", history.overrides);
   return text + ".";

@@ -129,7 +129,7 @@ std::vector<World> worlds_at(const ReleaseRuns& a, const ReleaseRuns& b, EndPoin
   for (std::size_t i = 0; i < worlds.size(); ++i) {
     const Replicate &before = a.replicates[i], &now = b.replicates[i];
     World& world = worlds[i];
-    world.is_new = is_new(before) || is_new(now);
+    world.is_new = is_new(before) && is_new(now);
     if (end_point == EndPoint::Throughput) {
       const Work work_before(before), work_now(now);
       if (work_now.is_slower_than(work_before)) world.now = RunResult::Failed;

@@ -115,6 +115,8 @@ Seen Coverage::seen(std::string_view probe) const {
   return found == told.end() ? Seen{} : found->second;
 }
 
+std::uint64_t runs_alone(const Coverage& coverage) { return coverage.runs() - coverage.seen(kEncounterProbe).runs; }
+
 std::optional<std::uint64_t> runs_beyond_following(const Coverage& coverage) {
   if (coverage.seen(kEncounterProbe).runs == 0) return std::nullopt;
   std::uint64_t most = 0;

@@ -84,6 +84,9 @@ struct MissingProbe {
 // missing, also if there are only few runs.
 inline constexpr std::uint64_t kRunsPerProbe = 20'000;
 
+// The runs in which no two AGVs met.
+std::uint64_t runs_alone(const Coverage& coverage);
+
 // The runs that met the most frequent of head-on, crossing and merging: what an encounter is besides one AGV behind
 // another. Empty: no run had an encounter.
 std::optional<std::uint64_t> runs_beyond_following(const Coverage& coverage);

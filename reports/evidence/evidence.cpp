@@ -205,6 +205,8 @@ GateResult Evidence::judge(std::size_t index) const {
   if (!pool.cells.empty()) counts.doubt = audit_doubt(audits_.of(gate.agent));
   if (counts.doubt.empty() && has_several_programs(plan_.campaign.engine))
     counts.doubt = "its runs are those of more than one program";
+  if (counts.doubt.empty() && !is_sealed_)
+    counts.doubt = "the campaign is not at an end, and its file not sealed; the same command goes on";
   counts.transports_per_agv_hour = progress.transports_per_agv_hour();
   counts.counts_only = counts_only();
   const bool asks_for_encounters =

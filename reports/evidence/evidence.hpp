@@ -63,6 +63,8 @@ class Evidence {
 
   // So many of the runs to come have a trace that an earlier run of their cell had, and nobody knows which.
   void know_unplaced_repeats(std::uint64_t runs) { unplaced_repeats_ = runs; }
+  // The runs are those of a file that nobody has sealed: it may say anything.
+  void know_unsealed() { is_sealed_ = false; }
   void know_recordings(const std::string& agent, std::uint64_t count) { audits_.add_recordings(agent, count); }
 
   bool counts_only() const { return plan_.campaign.kind == "search"; }  // a campaign of kind "search"
@@ -113,6 +115,7 @@ class Evidence {
   std::vector<bool> judged_anew_;      // in the same order
   std::uint64_t runs_ = 0, replicates_ = 0, engine_errors_ = 0;
   std::uint64_t repeated_runs_ = 0, unplaced_repeats_ = 0;
+  bool is_sealed_ = true;
   AuditTally audits_;
   std::vector<Tally> tallies_, pending_tallies_;  // by cell
   std::vector<PoolCounter> pools_;                // one for each gate, then one for each condition

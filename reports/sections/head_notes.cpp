@@ -64,11 +64,15 @@ std::vector<Remark> meeting_notes(const ReportInput& input) {
   std::vector<Remark> notes;
   for (const auto& [agent, coverage, missing, incidents] : input.evidence.agent_coverage()) {
     if (!is_under_test(input.evidence.plan(), agent)) continue;
+    const std::uint64_t alone = runs_alone(coverage);
+    if (2 * alone > coverage.runs() && alone < coverage.runs())
+      notes.emplace_back().text =
+          fmt::format("In {} of {} runs of {} no two AGVs met.", alone, coverage.runs(), printable(agent, 40));
     const auto others = runs_beyond_following(coverage);
     if (!others || *others * kRunsPerProbe >= coverage.runs()) continue;
     notes.emplace_back().text = fmt::format(
-        "{} only followed other AGVs: {} had two AGVs that came head-on, crossed or merged.", printable(agent, 40),
-        *others == 0 ? "no run" : fmt::format("fewer than one in {} runs", kRunsPerProbe));
+        "{} only followed other AGVs: {} had drives of two AGVs that came head-on, crossed or merged.",
+        printable(agent, 40), *others == 0 ? "no run" : fmt::format("fewer than one in {} runs", kRunsPerProbe));
   }
   return notes;
 }
@@ -80,9 +84,12 @@ std::vector<Remark> foreign_code_notes(const ReportInput& input) {
       plugins.push_back(printable(audit.agent, 40));
   }
   if (plugins.empty()) return {};
-  return {{fmt::format("{} {} in the process of the engine that judges: that is safe from accidents, and not from "
-                       "forgery. Nor is it seen whether software does otherwise on a vehicle than in simulation.",
-                       joined(plugins), plugins.size() == 1 ? "runs" : "run"),
+  return {{fmt::format(
+               "{} {} in the process of the engine that judges, all AGVs in one: that is safe from accidents, and "
+               "not from forgery or from AGVs that agree through memory instead of messages. Nor is it seen whether "
+               "software does otherwise on a vehicle than in simulation. Digests are those of the named files, not "
+               "of what these load.",
+               joined(plugins), plugins.size() == 1 ? "runs" : "run"),
            ""}};
 }
 
@@ -107,7 +114,10 @@ std::vector<Remark> sensitivity_notes(const ReportInput& input) {
   const auto& [record, trouble] = input.sensitivity;
   if (!record) return trouble.empty() ? std::vector<Remark>{} : std::vector<Remark>{{printable(trouble, 400), ""}};
   return {
-      {fmt::format("Tried with planted faults, a campaign in these worlds {}.", sensitivity_sentence(*record)), ""}};
+      {fmt::format(
+           "Tried with planted faults, a campaign in these worlds {}, says a file beside this one that nobody seals.",
+           sensitivity_sentence(*record)),
+       ""}};
 }
 
 }  // namespace fleetproof

@@ -16,8 +16,8 @@ std::vector<Remark> stall_notes(const ReportInput& input);
 // Crashes and hangs of the agents under test in the contract region, if no gate over the whole region judges them.
 std::vector<Remark> crash_notes(const ReportInput& input);
 
-// The agents under test whose AGVs met others in no way but one behind the other: on such a plant most of what control
-// software has to settle does not come up.
+// The agents under test whose AGVs met in less than half of the runs, or in no way but one behind the other: there,
+// most of what control software has to settle does not come up.
 std::vector<Remark> meeting_notes(const ReportInput& input);
 
 // That nothing casts doubt on the simulator: errors of its own, and audits. Empty if something does: then a headline

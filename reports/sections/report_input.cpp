@@ -24,6 +24,7 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
   };
   archive.for_each_audit([&](const AuditRecord& audit, bool same) { input.evidence.know(AuditedRun{audit, same}); });
   input.evidence.know_unplaced_repeats(archive.unplaced_repeats());
+  if (!archive.is_published()) input.evidence.know_unsealed();
   VisitFolded folded;
   folded.met = [&](std::uint32_t cell, const auto& met) { input.evidence.add_met(cell, met); };
   if (input.evidence.quiet_counts() && !also) {

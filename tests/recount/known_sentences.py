@@ -10,7 +10,7 @@ from conditions import is_sample, plan_of
 from counts import END_POINTS, KINDS
 from drawings import field_maps, gate_on_violations, grids, worlds_needed
 from leading import failures, rows_of
-from tables import rule, share
+from tables import coverage_rows, rule, share
 from waived import sentence
 
 ENDS = "CASE WHEN contact THEN 'contact' WHEN violation THEN 'violation' WHEN crash THEN 'crash' WHEN hang THEN 'hang' " \
@@ -191,6 +191,14 @@ def stalled(archive, found):
     return (archive.stalled_worlds(cells), archive.replicates) == (int(found[2]), int(found[3]))
 
 
+def met_nobody(archive, found):
+    """"In 12 of 32 runs of A no two AGVs met"."""
+    runs = archive.one("SELECT count(*) AS n FROM runs JOIN cells USING (cell) WHERE agent = ? AND replicate < ?",
+                       found[3], archive.replicates)["n"]
+    met = sum(int(row[3]) for row in coverage_rows(archive) if row[:2] == [found[3], "encounter"])
+    return (runs - met, runs) == (int(found[1]), int(found[2]))
+
+
 def crashed(archive, found):
     """"A crashed in 12 of 32 runs of the contract region"."""
     cells = [str(cell["cell"]) for cell in archive.cells if cell["agent"] == found[1] and archive.inside(cell)]
@@ -313,6 +321,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
      foreign_body_runs),
     (r"^(.+) stalled in ([0-9]+) of ([0-9]+) worlds of the contract region: ", stalled),
     (r"^(.+) (crashed|hung) in ([0-9]+) of ([0-9]+) runs of the contract region\. No gate judges", crashed),
+    (r"^In ([0-9]+) of ([0-9]+) runs of (.+) no two AGVs met\.$", met_nobody),
     (r"^.+ only followed other AGVs: fewer than one in 20000 runs had ", constant),
     (r"^No run ended in an error of the simulator\. ([0-9]+) runs? w(?:as|ere) simulated once more", soundness),
     (r"^Plan digest ([0-9a-f]{16}) was fixed before run 0, at ", plan_time),

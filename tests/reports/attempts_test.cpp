@@ -73,6 +73,15 @@ TEST_F(Attempts, WithAChosenSeedMayFollowASearch) {
   AttemptHistory fresh = attempt_history(AttemptLedger(path_), campaign(1));
   fresh.own->fresh_seed = true;
   EXPECT_THAT(attempts_sentence(fresh, 0.05), Not(HasSubstr("search")));
+  EXPECT_THAT(attempts_sentence(fresh, 0.05), HasSubstr("whoever changes a byte of either gets other worlds"));
+}
+
+TEST_F(Attempts, OfNobodyKnowsWhichReleaseMayBeOfThisOne) {
+  tried(1, "violated", "");
+  tried(2, "demonstrated", "r1");
+  EXPECT_THAT(sentence(campaign(2)), HasSubstr("2 attempts for this release"));
+  EXPECT_THAT(sentence(campaign(2)), Not(HasSubstr("other software")));
+  EXPECT_THAT(sentence(campaign(1)), HasSubstr("2 attempts for this release"));
 }
 
 TEST_F(Attempts, WithOtherSeedsAreToldWithTheirVerdictsAndTheAddedRisk) {

@@ -69,11 +69,23 @@ TEST(HeadNotes, NameAPlantOnWhichAgvsOnlyFollowEachOther) {
   };
   const ProbeCount following{ProbeSource::World, "following", 9};
   EXPECT_THAT(meeting({following}),
-              ElementsAre(Field(&Remark::text, HasSubstr("ours only followed other AGVs: no run"))));
+              ElementsAre(Field(&Remark::text,
+                                HasSubstr("ours only followed other AGVs: no run had drives of two AGVs that"))));
   for (const char* other : {"head-on", "crossing", "merging"})
     EXPECT_THAT(meeting({following, {ProbeSource::World, other, 1}}), IsEmpty()) << other;
   EXPECT_THAT(meeting({}), IsEmpty()) << "that nobody was met is told elsewhere";
   EXPECT_THAT(meeting({following, {ProbeSource::Agent, "crossing", 1}}), Not(IsEmpty())) << "an agent declares it";
+}
+
+TEST(HeadNotes, TellInHowManyRunsNobodyWasMet) {
+  const auto meeting = [](std::uint64_t from) {
+    return texts(meeting_notes(stalling(EndPoint::Violation, [&](RunRecord& run) {
+      run.outcome.probes.clear();
+      if (run.replicate >= from) file_probes(run.outcome, {{ProbeSource::World, "crossing", 1}});
+    })));
+  };
+  EXPECT_EQ(meeting(11), "In 22 of 40 runs of ours no two AGVs met.\n");
+  EXPECT_EQ(meeting(10), "") << "they did in half of the runs";
 }
 
 TEST(HeadNotes, SayThatTheSimulatorWasChecked) {

@@ -141,6 +141,9 @@ TEST(Comparison, WorldsThatRepeatOthersProveNothing) {
   EXPECT_EQ(violation_change(one, other), Change::CannotTell);
   one.replicates.back()[0].repeats = false;
   EXPECT_EQ(violation_change(one, other), Change::CannotTell) << "two are distinct";
+  EXPECT_EQ(violation_change(release("a", 200, never), other), Change::CannotTell)
+      << "the new one always does the same";
+  EXPECT_EQ(violation_change(one, release("b", 200, never)), Change::CannotTell) << "the old one always did the same";
 }
 
 TEST(Comparison, AuditsThatDifferLeaveADoubt) {

@@ -156,7 +156,7 @@ TEST_F(AttemptLedgers, AFreshSeedFollowsFromReleaseAndPlan) {
   campaign("\"fresh\"", "stuck_after_s = 100\n");
   run("run c.toml --db c.db");
   EXPECT_NE(attempts("c.db").at("own").at("seed"), a.at("seed"));
-  EXPECT_THAT(run("report a.db").out, HasSubstr("nobody chose it"));
+  EXPECT_THAT(run("report a.db").out, HasSubstr("follows from the digests of release and plan."));
   EXPECT_THAT(run("run c.toml --db d.db --seed 5").err, Not(HasSubstr("error")));
   EXPECT_EQ(attempts("d.db").at("own").at("fresh_seed"), false);
 }

@@ -404,7 +404,7 @@ TEST_F(VerdictTricks, APlantOnWhichAgvsOnlyFollowEachOtherIsNamed) {
     EXPECT_EQ(finished.exit_code, 0) << finished.out << finished.err;
     return finished.out;
   };
-  const auto named = HasSubstr("hull-lock only followed other AGVs: no run had two AGVs that came head-on");
+  const auto named = HasSubstr("hull-lock only followed other AGVs: no run had drives of two AGVs that came head-on");
   EXPECT_THAT(demonstrated_on("{ file = \"ring.csv\" }"), named);
   EXPECT_THAT(demonstrated_on("\"aisle-grid\""), testing::Not(named));
 }
