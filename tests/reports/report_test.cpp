@@ -348,6 +348,25 @@ TEST(Report, reads_an_archive_up_to_its_first_gap) {
   EXPECT_THAT(render("text", input), HasSubstr("archive: typed.fp"));
 }
 
+TEST(Report, what_is_not_sealed_demonstrates_nothing) {
+  const samples::TemporaryFolder folder;
+  const auto cells = grid({"sound"}, {0.4}, {1.0, 2.0});
+  const StoredPlan plan{campaign_of("claim", 60), cells, {gate_of("sound", GateKind::Rate, Region::Contract, 0.5)}};
+  ArchiveWriter writer(folder / "night.fp", plan);
+  for (std::uint64_t i = 0; i < 120; ++i) {
+    RunRecord run = samples::clean_run(i, 2);
+    run.outcome.digest = i + 1;
+    writer.add(run);
+  }
+  writer.commit();
+  const auto live = read_report_input(ArchiveReader(folder / "night.fp.partial"), "night.fp.partial");
+  EXPECT_EQ(conclusion_of(live), Conclusion::NotDemonstrated);
+  EXPECT_THAT(render("text", live), HasSubstr("the campaign is not at an end, and its file not sealed"));
+  writer.publish(120);
+  const auto sealed = read_report_input(ArchiveReader(folder / "night.fp"), "night.fp");
+  EXPECT_EQ(conclusion_of(sealed), Conclusion::Demonstrated) << sealed.gates[0].reason;
+}
+
 TEST(Report, a_campaign_that_is_not_complete_says_so_in_its_title) {
   const auto cells = grid({"sound"}, {0.4}, {1.0, 2.0});
   const std::vector<GateRecord> gates{gate_of("sound", GateKind::Rate, Region::Contract, 1e-2)};

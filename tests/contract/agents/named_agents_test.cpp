@@ -74,6 +74,10 @@ TEST_F(NamedAgents, WhatIsWrongIsNamed) {
   };
   refused("[{ name = \"x\" }]", "has either file = \"...\" or agent = \"...\"");
   refused("[{ file = \"failing.so\", agent = \"reckless\" }]", "has either file = \"...\" or agent = \"...\"");
+  refused("[{ agent = \"reckless\", name = \"hull-lock\" }]",
+          "factors.agents: \"reckless\" has the name of another agent, \"hull-lock\"; give it a name of its own");
+  refused("[{ file = \"failing.so\", name = \"timeout-grant\" }]", "has the name of another agent, \"timeout-grant\"");
+  refused("[\"failing.so\", { agent = \"reckless\", name = \"failing\" }]", "factors.agents");
   refused("[\"failing.so\", { file = \"failing.so\", config = \"x\" }]", "factors.agents names one value twice");
   refused("[{ file = \"failing.so\", symbols = \"globl\" }]", "did you mean \"global\"?");
   refused("[{ file = \"failing.so\", confg = \"x\" }]", "confg");

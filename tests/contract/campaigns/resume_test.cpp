@@ -131,11 +131,16 @@ TEST_F(Resume, RowsOfAnotherCampaignAreNotGoneOnWith) {
   struct Other {
     std::string agent;
     int seed, fleet;
+    std::string ours = "reckless", which = "1";
   };
-  for (const auto& [agent, seed, fleet] : {Other{"hull-lock", 1, 4}, {"reckless", 2, 4}, {"reckless", 1, 1}}) {
-    write("a.toml", text("reckless", 1, 4, 100'000));
+  for (const auto& [agent, seed, fleet, ours, which] :
+       {Other{"hull-lock", 1, 4},
+        {"reckless", 2, 4},
+        {"reckless", 1, 1},
+        {"reckless", 1, 4, "hull-lock", "run_index IN (SELECT run_index FROM other.runs WHERE violation)"}}) {
+    write("a.toml", text(ours, 1, 4, 100'000));
     write("b.toml", text(agent, seed, fleet, 300));
-    const auto swapped = shell(R"sh(
+    const auto swapped = shell("export which=\"" + which + "\"" + R"sh(
 "$FLEETPROOF" run b.toml --db b.db --overwrite >/dev/null 2>&1
 rm -f a.db*
 "$FLEETPROOF" run a.toml --db a.db >/dev/null 2>&1 & pid=$!
@@ -147,17 +152,18 @@ sys.exit(sqlite3.connect("a.db.partial").execute("SELECT count(*) FROM runs").fe
 done
 kill -9 $pid; wait $pid
 python3 - <<'END'
-import sqlite3
+import os, sqlite3
+which = os.environ["which"]
 db = sqlite3.connect("a.db.partial")
 db.execute("ATTACH 'b.db' AS other")
 tables = [n for (n,) in db.execute("SELECT name FROM main.sqlite_schema WHERE type = 'table'")]
 for table in tables:
     columns = [c[1] for c in db.execute(f"PRAGMA main.table_info({table})")]
     if "run_index" in columns:
-        db.execute(f"DELETE FROM main.{table}")
+        db.execute(f"DELETE FROM main.{table} WHERE {which} OR run_index >= 300")
         shared = [c[1] for c in db.execute(f"PRAGMA other.table_info({table})")]
         both = ", ".join(c for c in columns if c in shared)
-        db.execute(f"INSERT INTO main.{table} ({both}) SELECT {both} FROM other.{table}")
+        db.execute(f"INSERT INTO main.{table} ({both}) SELECT {both} FROM other.{table} WHERE {which}")
 db.commit()
 print(db.execute("SELECT count(*) FROM main.runs").fetchone()[0], "rows")
 END

@@ -179,6 +179,15 @@ TEST_F(VerdictTricks, WorkersThatAreKilledNowAndThenAreNamed) {
   EXPECT_THAT(page, HasSubstr("this software ends its process now and then"));
 }
 
+// Nobody else kills a worker in nearly every run.
+TEST_F(VerdictTricks, WorkersThatAreKilledAgainAndAgainAreEndedByTheirSoftware) {
+  write("c.toml", fmt::format(fmt::runtime(kPlain), test::unsteady("worn-kill"), 0.01, "worn-kill", 0.99, "violation"));
+  EXPECT_EQ(run("run c.toml --db c.db -j 1 --replicates 24").exit_code, 4);
+  std::filesystem::remove(path("c.sessions.jsonl"));
+  const json report = json::parse(run("report c.db --format json --exit-zero").out);
+  EXPECT_GE(report.at("audits").at(0).at("judged_otherwise"), 5);
+}
+
 // An exception ends no worker: it is the crash of that run.
 TEST_F(VerdictTricks, AnExceptionInAUsedProcessIsACrash) {
   write("c.toml", fmt::format(fmt::runtime(kPlain), test::unsteady("worn-throw"), 0.01, "worn-throw", 0.2, "crash"));
@@ -240,7 +249,7 @@ TEST_F(VerdictTricks, EveryClaimAboutAPlugInSaysWhatIsOutOfReach) {
   write("c.toml", fmt::format(fmt::runtime(kPlain), untidy("none", "one"), 0.1, "one", 0.9, "violation"));
   EXPECT_THAT(
       run("run c.toml --db c.db").out,
-      HasSubstr("one runs in the process of the engine that judges: that is safe from accidents, and not from"));
+      HasSubstr("one runs in the process of the engine that judges, all AGVs in one: that is safe from accidents"));
 }
 
 // ---- the ledger

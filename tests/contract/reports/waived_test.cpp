@@ -62,6 +62,7 @@ TEST_F(Waived, EachIsNamedWithItsValue) {
       {"", "contact_stops = false\n", "contact_stops", "false"},
       {"coverage", "probes = []\n", "coverage.probes", "[]"},
       {"coverage", "probes = [\"encounter\"]\n", "coverage.probes", "[encounter]"},
+      {"coverage", "probes = [\"following?\", \"near-miss?\"]\n", "coverage.probes", "[following?, near-miss?]"},
       {"audit", "share = 0\n", "audit.share", "0"},
       {"law", "leave_out = [\"normal-operation\"]\n", "law.leave_out", "[normal-operation]"},
       {"law", "safety_distance_m = 0.01\n", "law.safety_distance_m", "0.01 m"},
