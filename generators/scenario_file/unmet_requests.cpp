@@ -17,8 +17,7 @@ class Requests {
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) agv(i);
     for (std::size_t i = 0; i < scenario_.faults.size(); ++i) fault(i);
     for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) obstacle(i);
-    late_things("/fates", "deliveries are given for messages that are sent", scenario_.deliveries,
-                &GivenDelivery::sent);
+    late_things("/fates", "messages with a given delivery", scenario_.deliveries, &GivenDelivery::sent);
     adverse_scope();
     if (const auto& help = scenario_.operator_help; help.on && seconds(help.least_s) > scenario_.horizon)
       add("/operator/least_s",
@@ -43,20 +42,21 @@ class Requests {
     const auto late = [&](const Thing& thing) { return is_late(thing.*at); };
     const auto first = std::ranges::find_if(things, late);
     if (first == things.end()) return;
+    const auto count = std::ranges::count_if(things, late);
     add(fmt::format("{}/{}", list, first - things.begin()),
-        fmt::format("{} {} {}", std::ranges::count_if(things, late), what, after()));
+        fmt::format("{} of {} {} {} {}", count, things.size(), what, count == 1 ? "comes" : "come", after()));
   }
 
   void agv(std::size_t i) {
     const AgvSetup& agv = scenario_.agvs[i];
     const std::string place = fmt::format("/agvs/{}", i), name = in_quotes(agv.name);
-    late_things(place + "/transports", "orders of " + name + " are released", agv.transports, &TransportOrder::release);
+    late_things(place + "/transports", "orders of " + name, agv.transports, &TransportOrder::release);
     if (!agv.script.empty() && !scenario_.agent.empty() && scenario_.agent != "scripted")
       add(place + "/script",
           fmt::format("only the agent \"scripted\" plays a script, and the agent is {}; leave one out",
                       in_quotes(scenario_.agent)));
     else
-      late_things(place + "/script", "calls of the script of " + name + " are made", agv.script, &ScriptedCall::at);
+      late_things(place + "/script", "calls of the script of " + name, agv.script, &ScriptedCall::at);
   }
 
   void fault(std::size_t i) {
@@ -68,7 +68,16 @@ class Requests {
     if (is_late(earliest))
       add(place + "/at_s", fmt::format("the {} of {} comes {}at {:g} s, {}", name_of(fault.kind), in_quotes(agv.name),
                                        counts_from_pick ? "at the earliest " : "", to_seconds(earliest), after()));
-    if (fault.kind == Fault::Kind::LoadDrop) load_drop(place, fault, agv);
+    if (fault.kind == Fault::Kind::LoadDrop)
+      load_drop(place, fault, agv);
+    else if (describes_load(fault))
+      add(place,
+          fmt::format("a {} has no load, so length_m, width_m, ahead_m and left_m change nothing; leave them out",
+                      name_of(fault.kind)));
+  }
+  static bool describes_load(const Fault& fault) {
+    const Fault usual;
+    return fault.load != usual.load || fault.ahead_m != usual.ahead_m || fault.left_m != usual.left_m;
   }
 
   void load_drop(const std::string& place, const Fault& fault, const AgvSetup& agv) {

@@ -152,6 +152,17 @@ TEST_F(AskedFor, AFaultOfWhatIsOutOfOrderIsAnIncident) {
   EXPECT_THAT(warnings(json), HasSubstr("/faults/2/at_s: the breakdown of \"V0\" comes at 60.5 s, after the end"));
 }
 
+TEST_F(AskedFor, ALoadOfAFaultWithoutOneIsTold) {
+  Json json = plain();
+  json["faults"] = Json::parse(R"([{"kind": "breakdown", "agv": "V0", "at_s": 20, "lasts_s": 1}])");
+  EXPECT_THAT(warnings(json), IsEmpty());
+  for (const char* field : {"length_m", "width_m", "ahead_m", "left_m"}) {
+    Json given = json;
+    given["faults"][0][field] = 2.5;
+    EXPECT_THAT(warnings(given), HasSubstr("/faults/0: a breakdown has no load, so length_m, width_m")) << field;
+  }
+}
+
 TEST_F(AskedFor, OrdersAndCallsBehindTheEndOfTheRunAreAnIncident) {
   Json json = plain();
   json["agvs"][0]["transports"] =
@@ -159,8 +170,8 @@ TEST_F(AskedFor, OrdersAndCallsBehindTheEndOfTheRunAreAnIncident) {
   json["agvs"][0]["script"].push_back(Json::parse(R"({"at_s": 61, "action": "park"})"));
   EXPECT_THAT(incidents(json), ElementsAre("not-reached: V0 from 60.0 to 60.0 (2)"));
   const std::string said = warnings(json);
-  EXPECT_THAT(said, HasSubstr("/agvs/0/transports/1: 1 orders of \"V0\" are released after the end of the run"));
-  EXPECT_THAT(said, HasSubstr("/agvs/0/script/1: 1 calls of the script of \"V0\" are made after the end of the run"));
+  EXPECT_THAT(said, HasSubstr("/agvs/0/transports/1: 1 of 2 orders of \"V0\" comes after the end of the run"));
+  EXPECT_THAT(said, HasSubstr("/agvs/0/script/1: 1 of 2 calls of the script of \"V0\" comes after the end of the run"));
 }
 
 TEST_F(AskedFor, ACallOfAScriptThatIsRefusedIsAnIncident) {
