@@ -81,7 +81,7 @@ const Slip kSlips[] = {
     {"{\"name\": \"B\", ", "{\"name\": \"A\", ", "s.json:18: /agvs/1/name: \"A\" is refused: the name \"A\" is taken"},
     {"{\"name\": \"B\", ", "{", "s.json:18: /agvs/1: \"name\" is missing; add it"},
     {"\"start\": \"10\"", "\"start\": \"11\"",
-     "s.json:17: /agvs/0/start: \"11\" is refused: there is no such station; did you mean \"1\"?"},
+     "s.json:17: /agvs/0/start: \"11\" is refused: there is no such station"},
     {"\"heading\": [1, 0]", "\"heading\": [0, 0]",
      "s.json:17: /agvs/0/heading: [0, 0] is refused: a heading is a direction"},
     {"\"heading\": [1, 0]", "\"heading\": 90",
