@@ -113,11 +113,10 @@ std::vector<Remark> soundness_notes(const ReportInput& input) {
 std::vector<Remark> sensitivity_notes(const ReportInput& input) {
   const auto& [record, trouble] = input.sensitivity;
   if (!record) return trouble.empty() ? std::vector<Remark>{} : std::vector<Remark>{{printable(trouble, 400), ""}};
-  return {
-      {fmt::format(
-           "Tried with planted faults, a campaign in these worlds {}, says a file beside this one that nobody seals.",
-           sensitivity_sentence(*record)),
-       ""}};
+  return {{fmt::format("Tried with planted faults, a campaign in these worlds {}. A file beside this one says so; no "
+                       "seal covers it.",
+                       sensitivity_sentence(*record)),
+           ""}};
 }
 
 }  // namespace fleetproof
