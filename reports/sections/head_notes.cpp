@@ -112,7 +112,9 @@ std::vector<Remark> soundness_notes(const ReportInput& input) {
 
 std::vector<Remark> sensitivity_notes(const ReportInput& input) {
   const auto& [record, trouble] = input.sensitivity;
-  if (!record) return trouble.empty() ? std::vector<Remark>{} : std::vector<Remark>{{printable(trouble, 400), ""}};
+  if (!record && trouble.empty())
+    return {{"Which planted faults these worlds detect was not measured; `fleetproof sensitivity` does that.", ""}};
+  if (!record) return {{printable(trouble, 400), ""}};
   return {{fmt::format("Tried with planted faults, a campaign in these worlds {}. A file beside this one says so; no "
                        "seal covers it.",
                        sensitivity_sentence(*record)),

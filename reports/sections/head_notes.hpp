@@ -28,7 +28,7 @@ std::vector<Remark> soundness_notes(const ReportInput& input);
 // than on a vehicle.
 std::vector<Remark> foreign_code_notes(const ReportInput& input);
 
-// Which planted faults these worlds detect, if that was measured, or why what was measured tells nothing.
+// Which planted faults these worlds detect, that it was not measured, or why what was measured tells nothing.
 std::vector<Remark> sensitivity_notes(const ReportInput& input);
 
 }  // namespace fleetproof

@@ -97,6 +97,13 @@ TEST(HeadNotes, SayThatTheSimulatorWasChecked) {
   EXPECT_THAT(soundness_notes(with({first, second, samples::audit_of(5, false)})), IsEmpty()) << "a headline says more";
 }
 
+TEST(HeadNotes, SayThatNobodyTriedPlantedFaults) {
+  auto input = stalling(EndPoint::Violation, {});
+  EXPECT_THAT(texts(sensitivity_notes(input)), HasSubstr("planted faults these worlds detect was not measured"));
+  input.sensitivity.trouble = "c.sensitivity.json: is a folder";
+  EXPECT_EQ(texts(sensitivity_notes(input)), "c.sensitivity.json: is a folder\n");
+}
+
 TEST(HeadNotes, AreSilentAboutSoundnessBesideAnEngineError) {
   const auto input = stalling(EndPoint::Violation, [](RunRecord& run) {
     if (run.run_index == 7) run.outcome.engine_error = true;
