@@ -41,7 +41,9 @@ def read(path, level=None, graph=0):
                           properties(point).get("allowrotate", True)))
     for curve in root["advancedCurveList"]:
         one, other = (plant.stations[curve[end]["instanceName"]] for end in ("startPos", "endPos"))
-        corners = [(one.x, one.y)] + [place(curve[key]) for key in ("controlPos1", "controlPos2") if key in curve]
+        times = 2 if curve["className"] == "DegenerateBezier" else 1  # a quintic, with each of its two points twice
+        corners = [(one.x, one.y)] + [place(curve[key]) for key in ("controlPos1", "controlPos2") if key in curve
+                                      for _ in range(times)]
         corners.append((other.x, other.y))
         spots = [point_on(corners, i / CHORDS) for i in range(CHORDS + 1)]
         words = properties(curve)
