@@ -32,7 +32,7 @@ TEST_F(Survey, FindsWhatIsImported) {
                           "graph.yaml | 3 | 4 | 26.50 | 1 | 1 | 1 | 1 | 1 | 0 | 2 | 0 | 0 |",
                           "house@L2@1.building.yaml | 5 | 8 | 32.73 | 2 | 1 | 1 | 2 | 1 | 0 | 2 | 0 | 0 |",
                           "depot.geojson | 4 | 5 | 30.00 | 1 | 1 | 0 | 1 | 0 | 0 | 0 | 0 | 0 |",
-                          "hall.smap | 5 | 8 | 42.20 | 1 | 1 | 1 | 1 | 2 | 0 | 0 | 2 | 1 |",
+                          "hall.smap | 5 | 8 | 42.31 | 1 | 1 | 1 | 1 | 2 | 0 | 0 | 2 | 1 |",
                           "tables.csv | 4 | 7 | 47.85 | 1 | 1 | 1 | 4 | 3 | 5 | 5 | 1 | 1 |",
                           "cells.map | 17 | 44 | 52.80 | 2 | 0 | 0 |"})
     EXPECT_THAT(finished.out, HasSubstr(row));
