@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <optional>
 #include <unordered_set>
-#include <vector>
 
 #include "campaign/batch/audit_counts.hpp"
 #include "campaign/batch/same_campaign.hpp"
@@ -24,21 +23,15 @@ namespace {
 // Runs between the oldest unfinished and the newest handed out: one slow run stalls nothing, and memory stays bounded.
 constexpr std::uint64_t kLiveWindow = 65'536;
 
-// By agent of the plan.
-std::vector<bool> which_are_plugins(const CampaignPlan& plan, const AgentPrograms& programs) {
-  std::vector<bool> are;
-  for (const AgentFactor& agent : plan.agents) are.push_back(programs.is_plugin(agent.program));
-  return are;
-}
-
 // Stores the runs of a session in the results file. A results file that goes on gives the runs that it holds.
 class CampaignPolicy final : public SessionPolicy {
  public:
   CampaignPolicy(Session& session, const CampaignPlan& plan, const AgentPrograms& programs, const StoredPlan& stored,
                  const std::string& path)
       : session_(session),
+        plan_(plan),
+        programs_(programs),
         audit_counts_(plan, programs),
-        is_plugin_(which_are_plugins(plan, programs)),
         verdict_(stored),
         archive_(path, stored, session.options().overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
     session_.progress().planned = plan.run_count();
@@ -48,9 +41,7 @@ class CampaignPolicy final : public SessionPolicy {
   }
 
   // Before any other run: rows that are not those of this campaign would count in what is published.
-  void simulate_some_again(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path) const {
-    sample_.simulate_again(session_, plan, programs, path);
-  }
+  void simulate_some_again(const std::string& path) const { sample_.simulate_again(session_, plan_, programs_, path); }
 
   TaskRange runs_to_do() const {
     return {.begin = ledger_.prefix_length(),
@@ -114,7 +105,7 @@ class CampaignPolicy final : public SessionPolicy {
 
   // What a plug-in failed in would take a worker and its limits again. A claim counts it as failing anyway.
   bool is_sampled(const RunRecord& run) const {
-    return !run.outcome.is_failure() || !is_plugin_[audit_counts_.agent_of(run.run_index)];
+    return !run.outcome.is_failure() || !programs_.is_plugin(plan_.agent_of_cell(run.run_index).program);
   }
 
   void count(const RunRecord& run) {
@@ -138,12 +129,13 @@ class CampaignPolicy final : public SessionPolicy {
   }
 
   Session& session_;
+  const CampaignPlan& plan_;
+  const AgentPrograms& programs_;
   RunLedger ledger_;
   bool stored_runs_are_ours_ = true;
   std::unordered_set<std::uint64_t> audited_before_;  // in an earlier session
   StoredSample sample_;
   AuditCounts audit_counts_;
-  std::vector<bool> is_plugin_;  // by agent
   VerdictWatch verdict_;
   ArchiveWriter archive_;
   Clock::time_point last_commit_ = Clock::now(), last_without_waiting_ = last_commit_;
@@ -179,7 +171,7 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
   Session session(plan, programs, options, listener);
   CampaignPolicy policy(session, plan, programs, stored, path);
   listener.started();
-  policy.simulate_some_again(plan, programs, path);
+  policy.simulate_some_again(path);
   CampaignResult result = session.run(policy, policy.runs_to_do());
   policy.publish(result, plan.keep);
   return result;

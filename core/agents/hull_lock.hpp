@@ -126,7 +126,7 @@ class HullLock {
   double plan_after_s_ = 0.0;
 };
 
-// The messages have no room for larger numbers: of stations, lanes and AGVs, there are so many each at most.
+// The most stations, lanes or AGVs that a plant may have: messages name each of them by a number of 16 bits.
 inline constexpr std::uint32_t kNumbersOnTheWire = 0xffff;
 
 // For the C table. Returns null, and says why, if there are more of them.

@@ -158,7 +158,7 @@ struct Lane {
   // Of the AGV's nose, at either end.
   Vec2 start_heading() const { return curve.pose_at(0.0).heading; }
   Vec2 end_heading() const { return curve.pose_at(curve.length_m()).heading; }
-  // The limits of a drive on the lane: those of the vehicle (VehicleType::drive_with) and that of the lane.
+  // The same limits, with the top speed cut to the speed limit of the lane. `of_vehicle`: VehicleType::drive_with.
   MotionLimits limits(MotionLimits of_vehicle) const;
 };
 

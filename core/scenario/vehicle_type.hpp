@@ -41,7 +41,7 @@ struct VehicleType {
                             footprint.centre_ahead_m}
                 : footprint;
   }
-  // The limits of a drive, forward or tail first. A load has the same share in both directions.
+  // How fast a drive may be, and how fast it speeds up and brakes. A load slows both directions by the same share.
   MotionLimits drive_with(bool load, bool backward) const {
     MotionLimits limits = drive;
     if (backward && reverse_speed_mps > 0.0) limits.speed_mps = reverse_speed_mps;

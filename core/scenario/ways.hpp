@@ -72,7 +72,7 @@ std::vector<ShortestWay> shortest_ways(const LogicalMap& map, StationId from, St
 void visit_shortest_ways(const LogicalMap& map, StationId from, const LaneRules* rules,
                          const std::function<bool(const ShortestWay&)>& visit);
 
-// The lengths of the shortest ways from all stations to this one, by station; infinity where none leads to it.
+// How far each station is from the goal, along the shortest way; infinity if no way leads there. By station.
 std::vector<double> lengths_to(const LogicalMap& map, StationId goal);
 
 }  // namespace fleetproof

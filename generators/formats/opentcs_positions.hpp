@@ -10,7 +10,7 @@
 
 namespace fleetproof {
 
-// The lengths of the paths, as the file says them; none: it says none that can be read.
+// The lengths that the file gives for its paths; an empty one: it gives none, or none that can be read.
 using StoredLengths = std::vector<std::optional<double>>;
 
 // Whether a stored length is that of the geometry, to 2 % and the millimetre to which files round it.
@@ -32,7 +32,7 @@ bool fits(double stored_m, double length_m);
 std::string settle_positions(Layout& layout, const std::map<std::string, Vec2>& drawn_m, const StoredLengths& stored_m,
                              Positions wish = Positions::ByFile);
 
-// The stations that straight segments without length join, made one station.
+// What becomes of stations on one spot, which a straight segment without length joins: one station.
 struct JoinedSpots {
   std::vector<StationId> station;               // by station of before: the one that it is now
   std::vector<std::size_t> stations, segments;  // those of before that are left

@@ -65,7 +65,7 @@ std::vector<Remark> meeting_notes(const ReportInput& input) {
   for (const auto& [agent, coverage, missing, incidents] : input.evidence.agent_coverage()) {
     if (!is_under_test(input.evidence.plan(), agent)) continue;
     const std::uint64_t alone = runs_alone(coverage);
-    if (2 * alone > coverage.runs() && alone < coverage.runs())
+    if (2 * alone > coverage.runs())
       notes.emplace_back().text =
           fmt::format("In {} of {} runs of {} no two AGVs met.", alone, coverage.runs(), printable(agent, 40));
     const auto others = runs_beyond_following(coverage);
