@@ -11,7 +11,7 @@ namespace fleetproof {
 // Stores the timelines of a run for a comparison. It finds nothing itself.
 class TimelineKeeper final : public Law {
  public:
-  explicit TimelineKeeper(const Scenario& scenario) : timelines_(scenario.body_count()) {}
+  explicit TimelineKeeper(const Scenario& scenario) : timelines_(scenario.entity_count()) {}
 
   void piece_ended(const Piece& piece) override { timelines_[piece.entity.index()].push_back(piece); }
   LawResults findings() const override { return {}; }

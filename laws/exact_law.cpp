@@ -110,7 +110,7 @@ class ExactLaw final : public Law {
   explicit ExactLaw(const Scenario& scenario)
       : agv_count_(scenario.agvs.size()),
         threshold_m_(violation_threshold_m(scenario.law)),
-        bodies_(scenario.body_count()) {}
+        bodies_(scenario.entity_count()) {}
 
   double looks_within_m() const override { return std::max(kMeasuredBelow_m, threshold_m_); }
   Pieces hears_pieces() const override { return Pieces::Ends; }

@@ -21,9 +21,7 @@ bool plays_scripts(const Scenario& scenario) {
 class FaultRecordLaw final : public Law {
  public:
   explicit FaultRecordLaw(const Scenario& scenario)
-      : scenario_(scenario),
-        agv_count_(scenario.agvs.size()),
-        with_obstacles_(agv_count_ + scenario.obstacles.size()) {}
+      : scenario_(scenario), first_obstacle_(scenario.first_obstacle()), first_load_(scenario.first_fallen_load()) {}
 
   Pieces hears_pieces() const override { return Pieces::None; }
   TraceKinds reads() const override {
@@ -43,10 +41,10 @@ class FaultRecordLaw final : public Law {
         ends(IncidentKind::FaultInjected, record, read<traced::FaultOver>(record).number);
         break;
       case TraceKind::Appears:
-        if (record.entity.index() >= agv_count_) appears(record);  // else the operator sets an AGV down
+        if (record.entity >= first_obstacle_) appears(record);  // else the operator sets an AGV down
         break;
       case TraceKind::Denied:
-        if (record.entity.index() < agv_count_)
+        if (record.entity < first_obstacle_)
           denied(record);
         else
           begins({IncidentKind::ObstacleWithoutRoom, record.entity, {}, record.at, record.at, kNeverCame}, 0);
@@ -64,7 +62,7 @@ class FaultRecordLaw final : public Law {
   void finish(SimTime end) override {
     for (const auto& [key, place] : under_way_) {
       const bool waits = std::get<IncidentKind>(key) == IncidentKind::ObstacleWithoutRoom;
-      incidents_[place].last = waits ? std::min(end, kStart + obstacle(std::get<EntityId>(key)).leaves) : end;
+      incidents_[place].last = waits ? std::min(end, kStart + scenario_.obstacle(std::get<EntityId>(key)).leaves) : end;
     }
     under_way_.clear();
     not_reached(end);
@@ -88,7 +86,7 @@ class FaultRecordLaw final : public Law {
       incidents_[waited->second].last = record.at, incidents_[waited->second].value = kCameLater;
       under_way_.erase(waited);
     }
-    const bool stood = record.entity.index() < with_obstacles_;
+    const bool stood = record.entity < first_load_;
     begins({IncidentKind::ForeignBody, record.entity, {}, record.at, record.at, stood ? kObstacle : kFallenLoad}, 0);
   }
   void denied(const TraceRecord& record) {
@@ -125,7 +123,7 @@ class FaultRecordLaw final : public Law {
   void not_reached(SimTime end) {
     const auto late = [&](Duration at) { return kStart + at > end; };
     std::map<EntityId, std::int64_t> counts;
-    for (std::size_t i = 0; i < agv_count_; ++i) {
+    for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
       const AgvSetup& agv = scenario_.agvs[i];
       const auto orders = std::ranges::count_if(agv.transports, late, &TransportOrder::release);
       const auto calls = plays_scripts(scenario_) ? std::ranges::count_if(agv.script, late, &ScriptedCall::at) : 0;
@@ -133,14 +131,13 @@ class FaultRecordLaw final : public Law {
     }
     for (std::size_t i = 0; i < scenario_.faults.size(); ++i)
       counts[scenario_.faults[i].agv] += decided_.contains(i) ? 0 : 1;
-    for (std::size_t i = agv_count_; i < with_obstacles_; ++i) {
-      if (late(obstacle(EntityId{i}).appears)) counts[EntityId{i}] = 1;
+    for (EntityId body = first_obstacle_; body < first_load_; ++body.value) {
+      if (late(scenario_.obstacle(body).appears)) counts[body] = 1;
     }
     for (const auto& [body, count] : counts) {
       if (count > 0) incidents_.push_back({IncidentKind::NotReached, body, {}, end, end, count});
     }
   }
-  const ObstacleSetup& obstacle(EntityId body) const { return scenario_.obstacles[body.index() - agv_count_]; }
   void ends(IncidentKind kind, const TraceRecord& record, std::uint64_t number) {
     const auto found = under_way_.find({kind, record.entity, number});
     if (found == under_way_.end()) return;
@@ -149,7 +146,7 @@ class FaultRecordLaw final : public Law {
   }
 
   const Scenario& scenario_;
-  std::size_t agv_count_, with_obstacles_;
+  EntityId first_obstacle_, first_load_;
   std::set<std::uint64_t> decided_;                     // faults that struck or were denied, by number
   std::set<std::pair<EntityId, std::size_t>> refused_;  // calls of scripts, by place
   std::map<Key, std::size_t> under_way_;                // by place in incidents_

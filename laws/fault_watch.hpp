@@ -9,12 +9,13 @@
 
 namespace fleetproof {
 
-// Whether an AGV is held by a breakdown or a protective stop, or is out of order until the operator has set it down.
-// During this time laws do not accuse the fleet of standing still.
+// Whether an AGV is held by a breakdown or a protective stop, or is out of order until the operator has set it down, or
+// a fault keeps a computer from its work. During this time laws do not accuse the fleet of standing still.
 class FaultWatch {
  public:
   explicit FaultWatch(const Scenario& scenario)
-      : out_of_order_(scenario.operator_help.on && scenario.contact_stops ? scenario.agvs.size() : 0) {}
+      : first_computer_(scenario.first_computer()),
+        out_of_order_(scenario.operator_help.on && scenario.contact_stops ? scenario.agvs.size() : 0) {}
 
   static constexpr TraceKinds reads() {
     return {TraceKind::FaultStrikes, TraceKind::FaultOver, TraceKind::Contact, TraceKind::Appears};
@@ -30,7 +31,7 @@ class FaultWatch {
     if (!strikes && record.kind != TraceKind::FaultOver) return false;
     const Fault::Kind fault =
         strikes ? read<traced::FaultStrikes>(record).fault : read<traced::FaultOver>(record).fault;
-    if (holds_agv(fault)) changes(strikes, record.at);
+    if (holds_agv(fault) || record.entity >= first_computer_) changes(strikes, record.at);
     return true;
   }
   bool holds_anybody() const { return held_ > 0; }
@@ -47,6 +48,7 @@ class FaultWatch {
     last_ = at;
   }
 
+  EntityId first_computer_;
   std::vector<bool> out_of_order_;  // by AGV; empty if contacts stop no AGV, or stop it for good
   int held_ = 0;
   SimTime last_ = kStart;

@@ -76,7 +76,7 @@ void InferredWaits::find_lane(Answer& answer, EntityId agv, SimTime now) const {
 
 void InferredWaits::find_neighbours(const Box& swept, EntityId agv) {
   neighbours_.clear();
-  for (std::size_t i = 0; i < bodies_.body_count(); ++i) {
+  for (std::size_t i = 0; i < bodies_.entity_count(); ++i) {
     const EntityId other{i};
     if (other == agv || !bodies_.on_floor(other) || bodies_.moves(other)) continue;
     if (swept.overlaps(bodies_.of(other).planned_box)) neighbours_.push_back({other, bodies_.piece_number(other)});

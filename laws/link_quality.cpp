@@ -78,11 +78,11 @@ std::uint32_t losses_that_reject(std::uint32_t receptions) {
       std::ceil(kContractLoss * n + kNormalQuantile * std::sqrt(n * kContractLoss * (1.0 - kContractLoss)) + 0.5));
 }
 
-LinkQuality::LinkQuality(std::size_t agvs) : agvs_(agvs) { waiting_.reserve(kFirstParts); }
+LinkQuality::LinkQuality(std::size_t participants) : participants_(participants) { waiting_.reserve(kFirstParts); }
 
 LinkQuality::Link& LinkQuality::now(std::size_t sender, std::size_t receiver, std::int64_t second) {
   auto& row = places_[receiver];
-  if (row.empty()) row.resize(agvs_, kSilent);
+  if (row.empty()) row.resize(participants_, kSilent);
   std::uint32_t& place = row[sender];
   if (place == kSilent) {
     place = static_cast<std::uint32_t>(links_.size());
@@ -101,7 +101,7 @@ void LinkQuality::note_sent(const TraceRecord& record) {
 void LinkQuality::take(const TraceRecord& record, std::int64_t second) {
   if (record.kind == TraceKind::Sent) return note_sent(record);
   const auto reception = read<traced::Reception>(record);
-  if (reception.sender.index() >= agvs_ || record.entity.index() >= agvs_) return;
+  if (reception.sender.index() >= participants_ || record.entity.index() >= participants_) return;
   Link& link = now(reception.sender.index(), record.entity.index(), second);
   ++link.receptions;
   if (reception.is_lost()) {
@@ -145,7 +145,7 @@ void LinkQuality::forget_taken_parts() {
 
 void LinkQuality::skip_to(std::int64_t second) {
   make_room();
-  places_.assign(agvs_, {}), broken_.assign(agvs_, 0);
+  places_.assign(participants_, {}), broken_.assign(participants_, 0);
   links_.clear();
   for (auto& places : received_) places.clear();
   const SimTime end = kStart + std::chrono::seconds(second);
@@ -173,7 +173,7 @@ void LinkQuality::let_go_before(SimTime end, TracePart& part) {
 }
 
 void LinkQuality::make_room() {
-  if (places_.empty()) places_.resize(agvs_), broken_.resize(agvs_), sent_.resize(agvs_);
+  if (places_.empty()) places_.resize(participants_), broken_.resize(participants_), sent_.resize(participants_);
 }
 
 // Only links that received in the second that leaves the window, or in the one that comes into it, can have changed.
@@ -224,7 +224,7 @@ LinkQuality::Link LinkQuality::link(std::size_t sender, std::size_t receiver) co
 
 std::int64_t LinkQuality::worst_loss_ppm(std::size_t receiver) const {
   std::int64_t worst = 0;
-  for (std::size_t sender = 0; sender < agvs_; ++sender) {
+  for (std::size_t sender = 0; sender < participants_; ++sender) {
     const Link one = link(sender, receiver);
     if (one.receptions > 0) worst = std::max(worst, std::int64_t{1'000'000} * one.lost / one.receptions);
   }

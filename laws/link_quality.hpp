@@ -42,14 +42,14 @@ inline constexpr int kQualityWindow_s = 10;
 // at 1e-4. Larger than `receptions` if no number of losses rejects it.
 std::uint32_t losses_that_reject(std::uint32_t receptions);
 
-// The links of a fleet over the last ten whole seconds, from the records of the trace. A loss counts at the instant of
-// sending (by interference: when the air time ends), a reception at its arrival, however late it comes. A second copy
-// of a message does not count. If several messages of a sender have equal bytes, the last one that was sent counts as
-// the one received. The delay is therefore never too large. Records wait until a second is ended: whoever does not ask
-// about the links pays only for keeping them.
+// The links between the participants of a fleet over the last ten whole seconds, from the records of the trace. A loss
+// counts at the instant of sending (by interference: when the air time ends), a reception at its arrival, however late
+// it comes. A second copy of a message does not count. If several messages of a sender have equal bytes, the last one
+// that was sent counts as the one received. The delay is therefore never too large. Records wait until a second is
+// ended: whoever does not ask about the links pays only for keeping them.
 class LinkQuality {
  public:
-  explicit LinkQuality(std::size_t agvs);
+  explicit LinkQuality(std::size_t participants);
 
   void note(const TracePart& part) {
     waiting_.push_back(part);
@@ -101,7 +101,7 @@ class LinkQuality {
   void take_out(Active& link, std::int64_t second);
   void judge(Active& link);
 
-  std::size_t agvs_;
+  std::size_t participants_;
   // Whoever does not ask about the links needs none of these: they are empty until the first second is ended, and
   // the first four again when seconds are skipped.
   std::vector<std::vector<std::uint32_t>> places_;  // in links_, by receiver and sender; or kSilent. No row: all silent

@@ -35,7 +35,7 @@ class NormalOperationLaw final : public Law {
  public:
   explicit NormalOperationLaw(const Scenario& scenario)
       : scenario_(scenario),
-        quality_(scenario.agvs.size()),
+        quality_(scenario.participant_count()),
         most_waiting_(std::max(kMostWaiting, kMostWaitingOfAgv * scenario.agvs.size())),
         fleet_{std::vector<Operation>(scenario.agvs.size())},
         faults_(scenario) {}

@@ -23,7 +23,7 @@ bool overlap(const OrientedRectangle& first, const OrientedRectangle& second) {
 PublishedLaw::PublishedLaw(const Scenario& scenario)
     : threshold_m_(violation_threshold_m(scenario.law)),
       step_(seconds(scenario.law.snapshot_s)),
-      timelines_(scenario.body_count()) {
+      timelines_(scenario.entity_count()) {
   ensure(step_ > Duration::zero(), "snapshots are at least a nanosecond apart");
 }
 

@@ -11,7 +11,7 @@ namespace fleetproof {
 // What every body on the floor does now, as the engine announced it. It points at pieces; none is copied.
 class Whereabouts {
  public:
-  explicit Whereabouts(const Scenario& scenario) : scenario_(scenario), bodies_(scenario.body_count()) {}
+  explicit Whereabouts(const Scenario& scenario) : scenario_(scenario), bodies_(scenario.entity_count()) {}
 
   void note(const Piece& piece) { bodies_[piece.entity.index()] = {&piece, true, ++changes_}; }
   void note_leaving(EntityId body) {
@@ -24,7 +24,7 @@ class Whereabouts {
   std::uint64_t piece_number(EntityId body) const { return bodies_[body.index()].number; }
   bool on_floor(EntityId body) const { return bodies_[body.index()].on_floor; }
   std::size_t agv_count() const { return scenario_.agvs.size(); }
-  std::size_t body_count() const { return bodies_.size(); }
+  std::size_t entity_count() const { return bodies_.size(); }
   // Requires: the body has been on the floor.
   const Piece& of(EntityId body) const { return *bodies_[body.index()].piece; }
   bool moves(EntityId body) const { return of(body).manner != Manner::Rest; }

@@ -22,7 +22,7 @@ TraceFormat format_of(const std::string& word) {
 
 EntityId body_of(const Scenario& scenario, const std::string& name) {
   std::vector<std::string> known;
-  for (std::size_t i = 0; i < scenario.body_count(); ++i) {
+  for (std::size_t i = 0; i < scenario.entity_count(); ++i) {
     known.push_back(body_name(scenario, EntityId{i}));
     if (known.back() == name) return EntityId{i};
   }

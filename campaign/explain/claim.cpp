@@ -9,9 +9,8 @@ bool avoids(const CaseRun& run, const FailingCase& failing, const FailurePattern
 }
 
 std::string name_of_body(const Scenario& scenario, EntityId body) {
-  if (body.index() < scenario.agvs.size()) return scenario.agvs[body.index()].name;
-  const std::size_t obstacle = body.index() - scenario.agvs.size();
-  if (obstacle < scenario.obstacles.size()) return scenario.obstacles[obstacle].name;
+  if (body < scenario.first_obstacle()) return scenario.name_of(body);
+  if (body < scenario.first_fallen_load()) return scenario.obstacle(body).name;
   return "a fallen load";
 }
 

@@ -38,7 +38,7 @@ Scenario shifted(Scenario scenario, Dice& dice) {
     for (TransportOrder& order : agv.transports) order.release = later(order.release, shifts.back());
   }
   for (Fault& fault : scenario.faults) {
-    if (!fault.transport) fault.at = later(fault.at, shifts[fault.agv.index()]);
+    if (!fault.transport && scenario.is_agv(fault.agv)) fault.at = later(fault.at, shifts[fault.agv.index()]);
   }
   return scenario;
 }

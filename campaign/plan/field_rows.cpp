@@ -115,6 +115,7 @@ class RowWriter {
     }
   }
   static std::string special(const Vec2&) { return "[x, y] in metres"; }
+  static std::string special(const std::optional<Vec2>&) { return special(Vec2()); }
   template <class Vector>
   static std::string special(const Direction<Vector>&) {
     return "[x, y], of any length but 0";

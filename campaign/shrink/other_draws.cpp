@@ -41,7 +41,7 @@ Scenario with_other_timeline(Scenario scenario, std::uint32_t number, Duration l
     for (TransportOrder& order : scenario.agvs[i].transports) order.release += shifts[i];
   }
   for (Fault& fault : scenario.faults) {
-    if (!fault.transport) fault.at += shifts[fault.agv.index()];
+    if (!fault.transport && scenario.is_agv(fault.agv)) fault.at += shifts[fault.agv.index()];
   }
   return redrawn(std::move(scenario), number, {Stream::Motion, Stream::Radio, Stream::Agent});
 }

@@ -225,6 +225,7 @@ bool Shrinker::take_out_things() {
                                   });
   };
   bool smaller = take_out("fewer AGVs", list(&Scenario::agvs).first, with_agvs);
+  smaller |= take_out("fewer computers", list(&Scenario::computers).first, with_computers);
   smaller |= take_out(
       "fewer transports", [](const Scenario& s) { return transports_of(s).size(); }, with_transports);
   const auto [fault_count, fewer_faults] = list(&Scenario::faults);

@@ -29,14 +29,8 @@ class Places {
   std::uint32_t left_ = 0;
 };
 
-}  // namespace
-
-Scenario with_agvs(const Scenario& scenario, const Keeps& keeps) {
-  const Places places(scenario.agvs.size(), keeps);
-  const DrawNumbers numbers(scenario);
-  Scenario less = scenario;
-  for (std::size_t i = 0; i < less.agvs.size(); ++i) less.agvs[i].draws_as = numbers.of(AgvId{i}).value;
-  less.agvs = kept(less.agvs, keeps);
+// What refers to participants that are gone goes, and the rest gets their new ids.
+void forget_others(Scenario& less, const Places& places) {
   std::erase_if(less.faults, [&](const Fault& fault) { return !places.has(fault.agv.index()); });
   for (Fault& fault : less.faults) places.renumber(fault.agv);
   std::erase_if(less.deliveries, [&](const GivenDelivery& delivery) {
@@ -46,6 +40,29 @@ Scenario with_agvs(const Scenario& scenario, const Keeps& keeps) {
     places.renumber(delivery.sender);
     places.renumber(delivery.receiver);
   }
+}
+
+}  // namespace
+
+Scenario with_agvs(const Scenario& scenario, const Keeps& keeps) {
+  const std::size_t fleet = scenario.agvs.size();
+  const DrawNumbers numbers(scenario);
+  Scenario less = scenario;
+  for (std::size_t i = 0; i < fleet; ++i) less.agvs[i].draws_as = numbers.of(AgvId{i}).value;
+  less.agvs = kept(less.agvs, keeps);
+  forget_others(less, Places(scenario.participant_count(), [&](std::size_t i) { return i >= fleet || keeps(i); }));
+  return less;
+}
+
+Scenario with_computers(const Scenario& scenario, const Keeps& keeps) {
+  const std::size_t fleet = scenario.agvs.size();
+  Scenario less = scenario;
+  for (std::uint32_t i = 0; i < less.computers.size(); ++i) {
+    if (!less.computers[i].draws_as) less.computers[i].draws_as = i;
+  }
+  less.computers = kept(less.computers, keeps);
+  forget_others(less,
+                Places(scenario.participant_count(), [&](std::size_t i) { return i < fleet || keeps(i - fleet); }));
   return less;
 }
 
@@ -55,8 +72,8 @@ Scenario with_fleet_renumbered(const Scenario& scenario, std::size_t first) {
   const std::size_t fleet = other.agvs.size();
   for (std::size_t i = 0; i < fleet; ++i) other.agvs[i].draws_as = numbers.of(AgvId{i}).value;
   std::rotate(other.agvs.begin(), other.agvs.begin() + static_cast<std::ptrdiff_t>(first), other.agvs.end());
-  const auto renumber = [&](auto& id) {
-    id = std::remove_reference_t<decltype(id)>{(id.index() + fleet - first) % fleet};
+  const auto renumber = [&](EntityId& id) {
+    if (id.index() < fleet) id = EntityId{(id.index() + fleet - first) % fleet};
   };
   for (Fault& fault : other.faults) renumber(fault.agv);
   for (GivenDelivery& delivery : other.deliveries) {

@@ -134,7 +134,7 @@ void ChromeTrace::name_rows(const std::map<EntityId, std::vector<SimTime>>& dist
     json["args"] = {{key, value}};
     events_.push_back(text_of(json));
   };
-  for (std::size_t i = 0; i < context_.scenario().body_count(); ++i) {
+  for (std::size_t i = 0; i < context_.scenario().entity_count(); ++i) {
     const EntityId body{i};
     name("process_name", body, kDoes, "name", body_name(context_.scenario(), body));
     name("process_sort_index", body, kDoes, "sort_index", i);

@@ -79,6 +79,12 @@ web::MotionPiece motion_of(web::Film& film, const Scenario& scenario, const Piec
   return motion;
 }
 
+web::BodyKind kind_of(const Scenario& scenario, EntityId id) {
+  if (scenario.is_agv(id)) return web::BodyKind::Agv;
+  if (scenario.is_computer(id)) return web::BodyKind::Computer;
+  return id < scenario.first_fallen_load() ? web::BodyKind::Obstacle : web::BodyKind::Load;
+}
+
 }  // namespace
 
 std::int64_t film_us(SimTime t) { return thousandth(to_ns(t)); }
@@ -101,11 +107,8 @@ void add_floor(web::Film& film, const Scenario& scenario) {
   }
   for (const Station& station : layout.stations)
     film.stations.push_back({station.name, film_um(station.position_m.x()), film_um(station.position_m.y())});
-  for (std::size_t i = 0; i < scenario.body_count(); ++i) {
-    const std::size_t after_agvs = scenario.agvs.size(), after_obstacles = after_agvs + scenario.obstacles.size();
-    film.bodies.push_back({body_name(scenario, EntityId{i}), i < after_agvs        ? web::BodyKind::Agv
-                                                             : i < after_obstacles ? web::BodyKind::Obstacle
-                                                                                   : web::BodyKind::Load});
+  for (std::size_t i = 0; i < scenario.entity_count(); ++i) {
+    film.bodies.push_back({body_name(scenario, EntityId{i}), kind_of(scenario, EntityId{i})});
   }
 }
 

@@ -36,8 +36,8 @@ std::string short_name(const Scenario& scenario, EntityId id) {
 // A load that has not fallen yet, an obstacle that has not come yet, or an AGV that was taken off.
 std::string absence_text(const Scenario& scenario, EntityId id) {
   std::string what = "load";
-  if (id.index() < scenario.agvs.size() + scenario.obstacles.size()) what = "obstacle";
-  if (id.index() < scenario.agvs.size()) what = short_name(scenario, id);
+  if (id < scenario.first_fallen_load()) what = "obstacle";
+  if (scenario.is_agv(id)) what = short_name(scenario, id);
   return what + " not on the floor";
 }
 

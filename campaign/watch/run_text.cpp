@@ -69,10 +69,9 @@ std::string value_text(const Incident& incident) {
 std::string shown_name(const Scenario& scenario, EntityId id) { return printable(body_name(scenario, id)); }
 
 std::string body_name(const Scenario& scenario, EntityId id, std::string_view load_of) {
-  if (id.index() < scenario.agvs.size()) return scenario.agvs[id.index()].name;
-  std::size_t number = id.index() - scenario.agvs.size();
-  if (number < scenario.obstacles.size()) return scenario.obstacles[number].name;
-  number -= scenario.obstacles.size();
+  if (id < scenario.first_obstacle()) return scenario.name_of(id);
+  if (id < scenario.first_fallen_load()) return scenario.obstacle(id).name;
+  std::size_t number = id.index() - scenario.first_fallen_load().index();
   for (const Fault& fault : scenario.faults) {
     if (fault.kind == Fault::Kind::LoadDrop && number-- == 0)
       return std::string(load_of) + scenario.agvs[fault.agv.index()].name;

@@ -21,8 +21,8 @@ struct StrongId {
   friend constexpr auto operator<=>(StrongId, StrongId) = default;
 };
 
-// Entities that occupy floor: first the AGVs (0 .. fleet-1), then the obstacles. All bodies have one numbering, so that
-// a law can name each of them by one id.
+// Whatever a run has: first the AGVs (0 .. fleet-1), then the computers, the obstacles, and the loads that fall. All
+// have one numbering, so that a law can name each of them by one id. A computer occupies no floor.
 using EntityId = StrongId<struct EntityTag>;
 using AgvId = EntityId;
 using StationId = StrongId<struct StationTag>;

@@ -12,11 +12,12 @@ namespace fleetproof {
 
 // One call into an agent. The create() and the on_event() of a start are one call.
 struct AgentCall {
-  AgvId agv;
+  const fp_agent_type& type;
+  EntityId agv;  // or computer
   SimTime at;
   const fp_event* event = nullptr;        // null: the agent is destroyed
-  fp_controller* controller = nullptr;    // of this AGV; null if the agent is destroyed
-  const fp_briefing* briefing = nullptr;  // of this AGV, for a start
+  fp_controller* controller = nullptr;    // of this participant; null if the agent is destroyed
+  const fp_briefing* briefing = nullptr;  // the same, for a start
 
   bool is_start() const { return event != nullptr && event->kind == FP_EVENT_START; }
   std::uint32_t kind() const { return event == nullptr ? CallNote::kDestroy : event->kind; }

@@ -9,9 +9,8 @@
 
 namespace fleetproof {
 
-AgentCaller::AgentCaller(const fp_agent_type& type, const RunWatch& watch)
-    : type_(type),
-      counter_(watch),
+AgentCaller::AgentCaller(const RunWatch& watch)
+    : counter_(watch),
       tape_(watch.play.empty() ? watch.record : nullptr),
       host_(tape_ != nullptr || watch.foreign != nullptr ? &kForeignHost : &kHost),
       is_plain_(watch.record == nullptr && watch.play.empty() && watch.foreign == nullptr),
@@ -34,7 +33,7 @@ const AgentFailure* AgentCaller::destroy(const AgentCall& call, void* agent) {
 
 [[gnu::noinline]] const AgentFailure* AgentCaller::tell_watched(const AgentCall& call, void* agent) {
   const KnownEnd* known = counter_.next(call.agv, call.kind(), call.at);
-  return known != nullptr || !is_plain_ ? make_otherwise(call, known, agent) : hear(*call.event, agent);
+  return known != nullptr || !is_plain_ ? make_otherwise(call, known, agent) : hear(call.type, *call.event, agent);
 }
 
 [[gnu::noinline]] const AgentFailure* AgentCaller::make_otherwise(const AgentCall& call, const KnownEnd* known,
@@ -82,9 +81,9 @@ const AgentFailure* AgentCaller::make_foreign(const AgentCall& call, void*& agen
 
 const AgentFailure* AgentCaller::reach(const AgentCall& call, fp_controller* handle, void*& agent) {
   if (call.is_start()) return create_and_start(call, handle, agent);
-  if (call.event != nullptr) return hear(*call.event, agent);
+  if (call.event != nullptr) return hear(call.type, *call.event, agent);
   try {
-    type_.destroy(agent);
+    call.type.destroy(agent);
     return nullptr;
   } catch (...) {
     return failed(false, "exception in destroy()");
@@ -94,12 +93,12 @@ const AgentFailure* AgentCaller::reach(const AgentCall& call, fp_controller* han
 const AgentFailure* AgentCaller::create_and_start(const AgentCall& call, fp_controller* handle, void*& agent) {
   std::string why_not;
   call.controller->why_not = &why_not;
-  const AgentFailure* failure = guarded([&] { agent = type_.create(host_, handle, call.briefing); });
+  const AgentFailure* failure = guarded([&] { agent = call.type.create(host_, handle, call.briefing); });
   call.controller->why_not = nullptr;
   if (failure != nullptr) return failure;
   if (agent == nullptr) return failed(false, "create() returned null" + (why_not.empty() ? "" : ": " + why_not));
   if (tape_ != nullptr) tape_->agent_created();
-  return hear(*call.event, agent);
+  return hear(call.type, *call.event, agent);
 }
 
 // An agent may throw a text of any length. What is filed are its first 200 characters, which are at most 800 bytes.

@@ -13,21 +13,22 @@
 
 namespace fleetproof {
 
-// Makes the calls into the agents of one run. A call goes to the agent type; or it is left out, because it is known to
-// end the process; or it is played from a tape.
+// Makes the calls into the agents of one run. A call goes to the agent's type; or it is left out, because it is known
+// to end the process; or it is played from a tape.
 class AgentCaller {
  public:
   // Throws EngineError if the watch has a tape that no CallTape wrote.
-  AgentCaller(const fp_agent_type& type, const RunWatch& watch);
+  explicit AgentCaller(const RunWatch& watch);
 
   bool plays() const { return player_.has_value(); }
   // Each of these makes one call. Null: it has returned. Else how it failed, valid until the next call. They throw
   // EngineError if the tape holds another call. `start` puts the agent into `agent` as soon as it exists.
   const AgentFailure* start(const AgentCall& call, void*& agent);
-  const AgentFailure* tell(AgvId agv, SimTime at, const fp_event& event, fp_controller* controller, void* agent) {
+  const AgentFailure* tell(const fp_agent_type& type, EntityId agv, SimTime at, const fp_event& event,
+                           fp_controller* controller, void* agent) {
     if (!is_watched_) [[likely]]
-      return hear(event, agent);
-    return tell_watched({agv, at, &event, controller}, agent);
+      return hear(type, event, agent);
+    return tell_watched({type, agv, at, &event, controller}, agent);
   }
   const AgentFailure* destroy(const AgentCall& call, void* agent);
   // At the end of the run. Throws EngineError if the tape holds more calls.
@@ -36,8 +37,8 @@ class AgentCaller {
   std::uint64_t processor_changes() const;
 
  private:
-  const AgentFailure* hear(const fp_event& event, void* agent) {
-    return guarded([&] { type_.on_event(agent, &event); });
+  const AgentFailure* hear(const fp_agent_type& type, const fp_event& event, void* agent) {
+    return guarded([&] { type.on_event(agent, &event); });
   }
   // Calls a function of the agent, which may throw.
   template <class Function>
@@ -64,7 +65,6 @@ class AgentCaller {
   const AgentFailure* create_and_start(const AgentCall& call, fp_controller* handle, void*& agent);
   const AgentFailure* failed(bool hang, std::string_view message);
 
-  const fp_agent_type& type_;
   CallCounter counter_;
   CallTape* tape_;
   const fp_host* host_;                          // what agents are given

@@ -19,18 +19,19 @@ bool is_usable(const ToldPlant* plant, const Scenario& scenario) { return plant 
 
 }  // namespace
 
-AgentHost::AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& type, const char* agent_config,
-                     const RunWatch& watch)
+AgentHost::AgentHost(RunContext& run, const Ports& ports, const FleetSoftware& software, const RunWatch& watch)
     : run_(run),
       ports_(ports),
       own_plant_(is_usable(watch.plant, run.scenario) ? nullptr : std::make_unique<ToldPlant>(run.scenario)),
-      briefings_(run.scenario, agent_config, own_plant_ ? *own_plant_ : *watch.plant, watch.share_facts),
-      caller_(type, watch),
+      briefings_(run.scenario, software, own_plant_ ? *own_plant_ : *watch.plant, watch.share_facts),
+      caller_(watch),
       activations_max_(kActivationsPerRun +
                        kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(run.scenario.horizon))),
-      agv_states_(run.agvs.size()) {
-  for (std::size_t i = 0; i < agv_states_.size(); ++i)
-    agv_states_[i].controller = ports_.controller.handle_of(AgvId{i});
+      agv_states_(run.scenario.participant_count()) {
+  for (std::size_t i = 0; i < agv_states_.size(); ++i) {
+    agv_states_[i].type = software.of(run.scenario, EntityId{i}).type;
+    agv_states_[i].controller = ports_.controller.handle_of(EntityId{i});
+  }
 }
 
 AgentHost::~AgentHost() {
@@ -94,7 +95,8 @@ void AgentHost::freeze_until(AgvId agv, SimTime until) {
   ++run_.counters.activations;
   ports_.controller.begin_activation(*agv_state.controller);
   const AgentFailure* failure =
-      starts ? start_agent(agv, event) : caller_.tell(agv, run_.now, event, agv_state.controller, agv_state.agent);
+      starts ? start_agent(agv, event)
+             : caller_.tell(*agv_state.type, agv, run_.now, event, agv_state.controller, agv_state.agent);
   if (failure != nullptr) [[unlikely]]
     give_up(agv, failure->hang, failure->message);
   if (ports_.controller.end_activation(*agv_state.controller)) [[unlikely]]
@@ -119,7 +121,8 @@ void AgentHost::freeze_until(AgvId agv, SimTime until) {
     std::erase_if(agv_state.waiting_events,
                   [](const fp_event& waiting) { return waiting.kind == FP_EVENT_ACTION_DONE; });
   }
-  return caller_.start({agv, run_.now, &event, agv_state.controller, &briefings_.of(agv)}, agv_state.agent);
+  return caller_.start({*agv_state.type, agv, run_.now, &event, agv_state.controller, &briefings_.of(agv)},
+                       agv_state.agent);
 }
 
 [[gnu::noinline]] void AgentHost::give_up(AgvId agv, bool hang, std::string_view message) {
@@ -139,7 +142,8 @@ bool AgentHost::file_failure(AgvId agv, bool hang, std::string_view message) {
   ++agv_state.away;  // for good
   agv_state.waiting_events.clear();
   (hang ? hang_ : crash_) = true;
-  if (message_.empty()) message_ = "agent of " + run_.setup(agv).name + ": " + printable(message, kLongestMessage);
+  if (message_.empty())
+    message_ = "agent of " + run_.scenario.name_of(agv) + ": " + printable(message, kLongestMessage);
   return true;
 }
 
@@ -202,7 +206,7 @@ void AgentHost::comes_back(AgvId agv) {
   std::erase_if(waiting, [](const fp_event& event) { return event.kind == FP_EVENT_ORDER; });
   const auto arrived = std::exchange(waiting, {});
   const auto loads = run_.world.loads();
-  const LoadId on_board = run_.world.carried_load(agv);
+  const LoadId on_board = run_.scenario.is_agv(agv) ? run_.world.carried_load(agv) : LoadId{};
   if (on_board.valid()) tell_again(agv, loads[on_board.index()]);
   for (std::size_t i = 0; i < loads.size(); ++i) {
     if (loads[i].carrier == agv && !loads[i].is_over() && LoadId{i} != on_board) tell_again(agv, loads[i]);
@@ -221,6 +225,7 @@ void AgentHost::tell_again(AgvId agv, const Load& load) {
 }
 
 void AgentHost::renew_briefing(AgvId agv) {
+  if (run_.scenario.is_computer(agv)) return briefings_.renew(agv, agv_states_[agv.index()].boot);
   const LanesAhead lanes = ports_.actions.lanes(agv);
   briefings_.renew(agv, agv_states_[agv.index()].boot, run_.status(agv).station,
                    lanes.still_to_drive ? lanes.current : nullptr, lanes.next);
@@ -230,7 +235,7 @@ void AgentHost::destroy(AgvId agv) {
   AgvState& agv_state = agv_states_[agv.index()];
   if (agv_state.agent == nullptr) return;
   void* agent = std::exchange(agv_state.agent, nullptr);
-  if (const AgentFailure* failure = caller_.destroy({.agv = agv, .at = run_.now}, agent))
+  if (const AgentFailure* failure = caller_.destroy({*agv_state.type, agv, run_.now}, agent))
     file_failure(agv, failure->hang, failure->message);
 }
 

@@ -11,6 +11,7 @@
 #include "core/base/sim_time.hpp"
 #include "core/engine/agent_caller.hpp"
 #include "core/engine/briefings.hpp"
+#include "core/engine/fleet_software.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
 #include "core/engine/run_watch.hpp"
@@ -44,8 +45,8 @@ class ActivationCount {
   std::uint64_t in_run_ = 0;
 };
 
-// The agents and the computers on which they run: when an agent is called, what it is told, and what happens when it
-// crashes, hangs or loses its computer for a time.
+// The agents of all participants and the computers on which they run: when an agent is called, what it is told, and
+// what happens when it crashes, hangs or loses its computer for a time.
 class AgentHost {
  public:
   struct Ports {
@@ -53,9 +54,7 @@ class AgentHost {
     AgvController& controller;
     TimersPort timers;
   };
-  // `agent_config` is handed to every agent as its own parameters.
-  AgentHost(RunContext& run, const Ports& ports, const fp_agent_type& type, const char* agent_config,
-            const RunWatch& watch);
+  AgentHost(RunContext& run, const Ports& ports, const FleetSoftware& software, const RunWatch& watch);
   ~AgentHost();
   AgentHost(const AgentHost&) = delete;
   AgentHost& operator=(const AgentHost&) = delete;
@@ -85,6 +84,7 @@ class AgentHost {
 
  private:
   struct AgvState {
+    const fp_agent_type* type = nullptr;
     void* agent = nullptr;
     fp_controller* controller = nullptr;
     bool failed = false;
@@ -118,7 +118,7 @@ class AgentHost {
   std::uint64_t activations_max_;  // of one agent in this run
   bool crash_ = false, hang_ = false;
   std::string message_;
-  std::vector<AgvState> agv_states_;  // by AGV
+  std::vector<AgvState> agv_states_;  // by participant
 };
 
 }  // namespace fleetproof

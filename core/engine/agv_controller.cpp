@@ -23,9 +23,12 @@ AgvController::AgvController(RunContext& run, const Ports& ports)
       ports_(ports),
       call_cost_(seconds(run.scenario.agent_clock.call_cost_s)),
       random_key_(stream_key(run.scenario.seed_of(Stream::Agent), Stream::Agent)),
-      agv_states_(run.agvs.size()) {
+      agv_states_(run.scenario.participant_count()) {
   for (std::size_t i = 0; i < agv_states_.size(); ++i)
-    agv_states_[i].handle = {.part = this, .agv = AgvId{i}, .hears_notes = run.hears_notes()};
+    agv_states_[i].handle = {.part = this,
+                             .agv = EntityId{i},
+                             .is_computer = run.scenario.is_computer(EntityId{i}),
+                             .hears_notes = run.hears_notes()};
 }
 
 // ---- activations
@@ -52,7 +55,7 @@ void AgvController::forget(AgvId agv) {
     if (call.kind == PendingCall::Kind::Send) ports_.messenger.withdraw(call.message);
     call.kind = PendingCall::Kind::Nothing;  // its event still comes
   }
-  ports_.actions.withdraw_accepted(agv);
+  if (!agv_state.handle.is_computer) ports_.actions.withdraw_accepted(agv);
   ports_.declarations.forget(agv);
 }
 
@@ -177,7 +180,7 @@ std::int32_t AgvController::declare_safe_mode(AgvId agv, bool on) {
 }
 
 std::int32_t AgvController::declare_waiting(AgvId agv, std::uint32_t other) {
-  if (other != FP_NONE && other >= agv_states_.size()) return FP_INVALID;
+  if (other != FP_NONE && other >= run_.agvs.size()) return FP_INVALID;
   return take_effect(agv, {.kind = PendingCall::Kind::WaitingFor, .what = other});
 }
 

@@ -1,4 +1,4 @@
-// The controller of the AGVs: what an agent calls, and the handle by which it calls.
+// The controller of the participants: what an agent calls, and the handle by which it calls.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,12 @@ class AgvController;
 class CallTape;
 }  // namespace fleetproof
 
-// The handle that an agent holds: which AGV of which run, and what the activation under way has used so far.
+// The handle that an agent holds: which AGV or computer of which run, and what the activation under way has used so
+// far.
 struct fp_controller {
   fleetproof::AgvController* part = nullptr;
-  fleetproof::AgvId agv;
+  fleetproof::EntityId agv;               // or computer
+  bool is_computer = false;               // it has no AGV to act with
   bool hears_notes = false;               // as RunContext::hears_notes
   fleetproof::CallTape* tape = nullptr;   // takes the calls of the activation; null: nobody records them
   std::string* why_not = nullptr;         // takes why the agent cannot start; null: it is not being created
@@ -113,7 +115,7 @@ class AgvController {
   Ports ports_;
   Duration call_cost_;
   std::uint64_t random_key_;
-  std::vector<AgvState> agv_states_;  // by AGV
+  std::vector<AgvState> agv_states_;  // by participant
 };
 
 }  // namespace fleetproof

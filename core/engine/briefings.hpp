@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/engine/fleet_software.hpp"
 #include "core/engine/told_plant.hpp"
 #include "core/scenario/scenario.hpp"
 #include "core/sdk/fact_store.hpp"
@@ -16,21 +17,27 @@ class Briefings {
  public:
   // `share_facts`: the agents share what they derive from the plant. Else each has a store of its own. Requires: the
   // plant fits the scenario and outlives the object.
-  Briefings(const Scenario& scenario, const char* agent_config, const ToldPlant& plant, bool share_facts = true);
+  Briefings(const Scenario& scenario, const FleetSoftware& software, const ToldPlant& plant, bool share_facts = true);
   Briefings(const Briefings&) = delete;
   Briefings& operator=(const Briefings&) = delete;
 
-  const fp_briefing& of(AgvId agv) const { return briefings_[agv.index()]; }
+  const fp_briefing& of(EntityId participant) const { return briefings_[participant.index()]; }
   // After a restart. `station`: where the AGV stands, or the last station it left. `lane`: the lane that it drives, or
   // null. `next`: the lane that it is going to drive after that, or null.
   void renew(AgvId agv, std::uint32_t boot, StationId station, const Lane* lane, const Lane* next);
+  // The same for a computer.
+  void renew(EntityId computer, std::uint32_t boot) { briefings_[computer.index()].boot = boot; }
 
  private:
   void describe_scripts(const Scenario& scenario);
+  void name_participants(const Scenario& scenario);
+  fp_briefing common(const Scenario& scenario, const ToldPlant& plant, bool share_facts);
 
   std::vector<std::vector<fp_scripted_call>> scripts_;  // by AGV
-  std::vector<std::unique_ptr<FactStore>> own_facts_;   // by AGV, if they are not shared
-  std::vector<fp_briefing> briefings_;
+  std::vector<const char*> agv_names_;
+  std::vector<fp_computer> computers_;
+  std::vector<std::unique_ptr<FactStore>> own_facts_;  // by participant, if they are not shared
+  std::vector<fp_briefing> briefings_;                 // by participant
 };
 
 }  // namespace fleetproof

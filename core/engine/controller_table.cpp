@@ -17,18 +17,27 @@ std::int32_t admitted(fp_controller* controller, Call call) {
   return call(part, controller->agv);
 }
 
+// The same for a call that only an AGV has.
+template <class Call>
+std::int32_t admitted_on_board(fp_controller* controller, Call call) {
+  return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
+    return controller->is_computer ? std::int32_t{FP_INVALID} : call(part, agv);
+  });
+}
+
 template <fp_call kCall>
 std::int32_t action(fp_controller* controller, std::uint32_t segment) {
-  return admitted(controller, [&](AgvController& part, AgvId agv) { return part.act(agv, kCall, segment); });
+  return admitted_on_board(controller, [&](AgvController& part, AgvId agv) { return part.act(agv, kCall, segment); });
 }
 
 std::int32_t pick_load(fp_controller* controller, std::uint32_t segment, std::uint32_t order) {
-  return admitted(controller, [&](AgvController& part, AgvId agv) { return part.pick_load(agv, segment, order); });
+  return admitted_on_board(controller,
+                           [&](AgvController& part, AgvId agv) { return part.pick_load(agv, segment, order); });
 }
 
 template <bool kOn>
 std::int32_t stop(fp_controller* controller) {
-  return admitted(controller, [](AgvController& part, AgvId agv) { return part.stop(agv, kOn); });
+  return admitted_on_board(controller, [](AgvController& part, AgvId agv) { return part.stop(agv, kOn); });
 }
 
 // FP_NONE: to all.
@@ -49,7 +58,7 @@ std::int32_t send_unicast(fp_controller* controller, const void* bytes, std::uin
 }
 
 std::int32_t get_position(fp_controller* controller, fp_pose* out) {
-  return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
+  return admitted_on_board(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
     const Pose pose = part.ports().sensor.perceived(agv);
     *out = {pose.position_m.x(), pose.position_m.y(), pose.heading.x(), pose.heading.y()};
@@ -58,7 +67,7 @@ std::int32_t get_position(fp_controller* controller, fp_pose* out) {
 }
 
 std::int32_t get_battery_level(fp_controller* controller, double* out) {
-  return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
+  return admitted_on_board(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
     *out = part.ports().battery.level(agv);
     return FP_OK;
@@ -74,7 +83,7 @@ std::int32_t get_battery_level(fp_controller* controller, double* out) {
 }
 
 std::int32_t is_loaded(fp_controller* controller, std::uint32_t* out) {
-  return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
+  return admitted_on_board(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
     *out = part.is_loaded(agv) ? 1 : 0;
     return FP_OK;
@@ -82,7 +91,7 @@ std::int32_t is_loaded(fp_controller* controller, std::uint32_t* out) {
 }
 
 std::int32_t get_load(fp_controller* controller, std::uint32_t* order) {
-  return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
+  return admitted_on_board(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (order == nullptr) return FP_INVALID;
     *order = part.order_on_board(agv);
     return FP_OK;
@@ -90,7 +99,7 @@ std::int32_t get_load(fp_controller* controller, std::uint32_t* order) {
 }
 
 std::int32_t get_action(fp_controller* controller, std::uint32_t* out) {
-  return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
+  return admitted_on_board(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
     *out = part.ports().actions.doing(agv);
     return FP_OK;
@@ -118,11 +127,13 @@ std::int32_t declare_cost_ns(fp_controller* controller, std::int64_t cost_ns) {
 }
 
 std::int32_t safe_mode(fp_controller* controller, std::uint32_t on) {
-  return admitted(controller, [&](AgvController& part, AgvId agv) { return part.declare_safe_mode(agv, on != 0); });
+  return admitted_on_board(controller,
+                           [&](AgvController& part, AgvId agv) { return part.declare_safe_mode(agv, on != 0); });
 }
 
 std::int32_t waiting_for(fp_controller* controller, std::uint32_t other) {
-  return admitted(controller, [&](AgvController& part, AgvId agv) { return part.declare_waiting(agv, other); });
+  return admitted_on_board(controller,
+                           [&](AgvController& part, AgvId agv) { return part.declare_waiting(agv, other); });
 }
 
 template <TraceKind kKind>

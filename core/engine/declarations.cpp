@@ -26,8 +26,10 @@ void Declarations::note(AgvId agv, TraceKind kind, std::string_view text) {
 }
 
 void Declarations::forget(AgvId agv) {
-  set_safe_mode(agv, false);
-  set_waiting_for(agv, {});
+  if (run_.scenario.is_agv(agv)) {
+    set_safe_mode(agv, false);
+    set_waiting_for(agv, {});
+  }
   set_state(agv, {});
 }
 
@@ -56,7 +58,7 @@ void Declarations::set_state(AgvId agv, std::string_view state) {
 }
 
 void Declarations::believe(AgvId agv, std::uint32_t about, const NotedPose& where, std::int64_t as_of_ns) {
-  if (about >= agv_states_.size()) return;
+  if (about >= run_.agvs.size()) return;
   run_.note(agv, traced::Belief{AgvId{about}, as_of_ns, where});
 }
 

@@ -16,7 +16,7 @@ namespace fleetproof {
 // they go to the sink of the trace, and the run is the same without them, unless its radio spares kinds of messages.
 class Declarations {
  public:
-  explicit Declarations(RunContext& run) : run_(run), agv_states_(run.agvs.size()) {}
+  explicit Declarations(RunContext& run) : run_(run), agv_states_(run.scenario.participant_count()) {}
 
   void set_safe_mode(AgvId agv, bool on);
   // Invalid: it waits for no AGV.
@@ -53,7 +53,7 @@ class Declarations {
 
   RunContext& run_;
   ProbeTally probes_;
-  std::vector<AgvState> agv_states_;  // by AGV
+  std::vector<AgvState> agv_states_;  // by participant
 };
 
 }  // namespace fleetproof

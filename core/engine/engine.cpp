@@ -10,7 +10,7 @@
 namespace fleetproof {
 
 // A part may get another one that has not been constructed yet: it keeps the address and calls nothing.
-Parts::Parts(RunContext& run, const fp_agent_type& agent, const char* agent_config, const RunWatch& watch)
+Parts::Parts(RunContext& run, const FleetSoftware& software, const RunWatch& watch)
     : battery(run, {HaltsPort(halts), operator_actions}),
       contacts(run, {ActionsPort(actions), operator_actions}),
       sensor(run),
@@ -27,11 +27,11 @@ Parts::Parts(RunContext& run, const fp_agent_type& agent, const char* agent_conf
       declarations(run),
       controller(run, {ActionsPort(actions), BatteryPort(battery), declarations, HaltsPort(halts),
                        MessengerPort(messenger), PositionSensorPort(sensor), TimersPort(timers)}),
-      agents(run, {ActionsPort(actions), controller, TimersPort(timers)}, agent, agent_config, watch) {}
+      agents(run, {ActionsPort(actions), controller, TimersPort(timers)}, software, watch) {}
 
-Engine::Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
-               TraceSink* sink, const char* agent_config, const RunWatch& watch)
-    : laws_(laws), abandon_(watch.abandon), run_(scenario, laws, sink), parts_(run_, agent, agent_config, watch) {}
+Engine::Engine(const Scenario& scenario, const FleetSoftware& software, std::span<const std::unique_ptr<Law>> laws,
+               TraceSink* sink, const RunWatch& watch)
+    : laws_(laws), abandon_(watch.abandon), run_(scenario, laws, sink), parts_(run_, software, watch) {}
 
 // Everything that each event passes through is inlined into this loop.
 [[gnu::flatten]] void Engine::run() {
@@ -85,6 +85,8 @@ inline void Engine::goes_on_until(SimTime at) {
     parts_.contacts.predict(agv);
     parts_.battery.predict_empty(agv);
   }
+  for (std::size_t i = 0; i < run_.scenario.computers.size(); ++i)
+    run_.queue.push(kStart, EntityId{run_.scenario.first_computer().index() + i}, Event::Kind::Start);
   // Faults and the operator concern the whole fleet and come last: this order is part of the digest.
   parts_.faults.schedule();
   if (run_.scenario.operator_help.on) run_.queue.push(kStart, EntityId{}, Event::Kind::OperatorLooks);

@@ -13,6 +13,7 @@
 #include "core/engine/declarations.hpp"
 #include "core/engine/drives.hpp"
 #include "core/engine/fault_injector.hpp"
+#include "core/engine/fleet_software.hpp"
 #include "core/engine/halts.hpp"
 #include "core/engine/messenger.hpp"
 #include "core/engine/operator_actions.hpp"
@@ -26,7 +27,7 @@ namespace fleetproof {
 // The parts of the engine, wired to each other. Each gets the parts and ports that it needs and no more. The agents
 // come last, so that they are destroyed while everything they may call is still there.
 struct Parts {
-  Parts(RunContext& run, const fp_agent_type& agent, const char* agent_config, const RunWatch& watch = {});
+  Parts(RunContext& run, const FleetSoftware& software, const RunWatch& watch = {});
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
@@ -51,8 +52,8 @@ struct Parts {
 // its kind belongs to. A local variable of simulate(); thousands can live at once.
 class Engine {
  public:
-  Engine(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
-         TraceSink* sink, const char* agent_config, const RunWatch& watch = {});
+  Engine(const Scenario& scenario, const FleetSoftware& software, std::span<const std::unique_ptr<Law>> laws,
+         TraceSink* sink, const RunWatch& watch = {});
 
   // From the start to the horizon. Call it once. Throws RunAbandoned if the watch says so.
   void run();

@@ -24,7 +24,7 @@ void FaultInjector::schedule() {
     if (!fault.transport) run_.queue.push(kStart + fault.at, fault.agv, Event::Kind::FaultStrikes, i);
   }
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
-    const EntityId id{scenario.agvs.size() + i};
+    const EntityId id{scenario.first_obstacle().index() + i};
     const ObstacleSetup& obstacle = scenario.obstacles[i];
     if (obstacle.appears > Duration::zero()) run_.queue.push(kStart + obstacle.appears, id, Event::Kind::BodyAppears);
     if (obstacle.leaves < scenario.horizon) run_.queue.push(kStart + obstacle.leaves, id, Event::Kind::BodyLeaves);
@@ -44,8 +44,9 @@ void FaultInjector::load_taken_up(AgvId agv, TransportId transport) {
 // An AGV or agent that is already out of order cannot fail.
 std::optional<Denial> FaultInjector::denial_of(AgvId agv, std::uint64_t number) {
   const Fault::Kind kind = run_.scenario.faults[number].kind;
-  if (concerns_agent_alone(kind) && !ports_.agents.is_up(agv)) return Denial::AgentAway;
-  if (!concerns_agent_alone(kind) && run_.status(agv).out_of_order) return Denial::OutOfOrder;
+  if (concerns_agent_alone(kind) || run_.scenario.is_computer(agv))
+    return ports_.agents.is_up(agv) ? std::nullopt : std::optional(Denial::AgentAway);
+  if (run_.status(agv).out_of_order) return Denial::OutOfOrder;
   return kind == Fault::Kind::LoadDrop ? load_drops(agv, number) : std::nullopt;
 }
 
@@ -54,7 +55,8 @@ void FaultInjector::strikes(AgvId agv, std::uint64_t number) {
   if (const auto why = denial_of(agv, number)) return run_.deny(agv, *why, number);
   ++run_.counters.faults;
   run_.trace(agv, traced::FaultStrikes{fault.kind, number});
-  if (holds_agv(fault.kind)) fault_states_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
+  if (holds_agv(fault.kind) && run_.scenario.is_agv(agv))
+    fault_states_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
   if (stops_computer(fault.kind)) ports_.agents.goes_away(agv);
   if (fault.kind == Fault::Kind::Freeze) ports_.agents.freeze_until(agv, run_.now + fault.lasts);
   run_.queue.push(run_.now + fault.lasts, agv, Event::Kind::FaultOver, number);
@@ -62,7 +64,7 @@ void FaultInjector::strikes(AgvId agv, std::uint64_t number) {
 
 void FaultInjector::ends(AgvId agv, std::uint64_t number) {
   const Fault::Kind kind = run_.scenario.faults[number].kind;
-  if (holds_agv(kind)) {
+  if (holds_agv(kind) && run_.scenario.is_agv(agv)) {
     halt_ends(agv, number);
   } else {
     run_.trace(agv, traced::FaultOver{kind, number});
@@ -87,7 +89,7 @@ void FaultInjector::halt_ends(AgvId agv, std::uint64_t number) {
 // ---- bodies that come and go
 
 void FaultInjector::obstacle_appears(EntityId body) {
-  const ObstacleSetup& obstacle = run_.scenario.obstacles[body.index() - run_.agvs.size()];
+  const ObstacleSetup& obstacle = run_.scenario.obstacle(body);
   if (run_.now >= kStart + obstacle.leaves) return;
   const double margin_m = run_.scenario.law.safety_distance_m + kAppearsClear_m;
   if (!run_.world.is_free(placed(obstacle.footprint, obstacle.pose), margin_m, run_.now)) {
@@ -116,7 +118,7 @@ EntityId FaultInjector::fallen_body(std::uint64_t number) const {
   const auto& faults = run_.scenario.faults;
   const auto is_drop = [](const Fault& f) { return f.kind == Fault::Kind::LoadDrop; };
   const auto before = std::count_if(faults.begin(), faults.begin() + static_cast<std::ptrdiff_t>(number), is_drop);
-  return EntityId{run_.agvs.size() + run_.scenario.obstacles.size() + static_cast<std::size_t>(before)};
+  return EntityId{run_.scenario.first_fallen_load().index() + static_cast<std::size_t>(before)};
 }
 
 // A load that would fall on another body, or on its own AGV, does not fall.

@@ -16,9 +16,13 @@ class Hearers {
  public:
   explicit Hearers(RunContext& run);
 
-  // Whether a message to all reaches every other AGV, wherever it is: the range is longer than the floor.
+  // Whether a message to all reaches every other AGV, wherever it is, and every computer: the range is longer than the
+  // floor.
   bool are_everybody() const { return !reach_; }
-  bool is_in_range(AgvId receiver, const Vec2& from_m) const;
+
+  // Whether a message of this sender, which is there, reaches the receiver; absent: the sender is connected everywhere.
+  // Ask only if not everybody hears everything.
+  bool hears(EntityId receiver, EntityId sender, const std::optional<Vec2>& from_m) const;
 
   // Call these as the functions of RadioReach.
   void piece_begins(const Piece& piece) {
@@ -37,15 +41,15 @@ class Hearers {
   bool hear_alike(AgvId sender) const { return sent_to_[sender.index()].receivers.empty(); }
   // If so: this number, which is then taken.
   std::uint32_t next_number(AgvId sender) { return sent_to_[sender.index()].to_all++; }
-  // Those who hear it, if not everybody, in ascending order; counts the others. Three more may be read.
+  // The AGVs that hear it, if not everybody does, in ascending order; counts the others. Three more may be read.
   std::span<const std::uint32_t> in_range(AgvId sender, const Vec2& from_m);
   // Those who hear it, in ascending order. Three more may be read. `receiver`: FP_NONE, or the only one for whom it is;
-  // `from_m` matters only if not everybody hears it.
-  std::span<const Hearer> of(AgvId sender, std::uint32_t receiver, const Vec2& from_m);
+  // `from_m`: where the sender is, or absent if it is connected everywhere; it matters only if not everybody hears it.
+  std::span<const Hearer> of(EntityId sender, std::uint32_t receiver, const std::optional<Vec2>& from_m);
 
  private:
-  // What one AGV sent at the last instant at which it sent anything: the number of its messages to all, the number of
-  // further ones by receiver, and these receivers.
+  // What one participant sent at the last instant at which it sent anything: the number of its messages to all, the
+  // number of further ones by receiver, and these receivers.
   struct SentTo {
     std::uint32_t to_all = 0;
     std::vector<std::uint32_t> counts;  // empty until the first of them

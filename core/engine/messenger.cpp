@@ -31,8 +31,9 @@ Messenger::Messenger(RunContext& run, AgentHostPort agents)
       draws_decide_(radio_.is_plain() && !contended_ && !run.writer.has_sink()),
       losses_decide_(draws_decide_ && radio_.only_loses()),
       others_(run.agvs.size() - 1),
-      agv_states_(run.agvs.size()),
-      draws_(run.agvs.size() + 3) {}
+      wire_delay_(seconds(run.scenario.wire.delay_s)),
+      agv_states_(run.scenario.participant_count()),
+      draws_(run.scenario.participant_count() + 3) {}
 
 // ---- sending
 
@@ -52,8 +53,9 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   run_.trace(sender, traced::Sent{AgvId{receiver}, message.hash, static_cast<std::uint32_t>(size), message.number},
              message.bytes);
   if (size != air_time_.bytes) air_time_ = {size, run_.scenario.radio.air_time(size)};
-  message.on_air = contended_ ? channel_.contend(sender, run_.now, ordinal, air_time_.lasts)
-                              : AirInterval{run_.now, run_.now + air_time_.lasts};
+  message.on_air = contended_ && !run_.scenario.are_wired(sender, EntityId{receiver})
+                       ? channel_.contend(sender, run_.now, ordinal, air_time_.lasts)
+                       : AirInterval{run_.now, run_.now + air_time_.lasts};
   hearers_.begin(sender, ordinal);
   if (losses_decide_ && receiver == FP_NONE && hearers_.hear_alike(sender) && !message.spared) {
     const std::uint32_t number = hearers_.next_number(sender);
@@ -76,12 +78,26 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   deliver_together(slot, heard_by.size(), [&](std::size_t i) { return Hearer{AgvId{heard_by.data()[i]}, number}; });
 }
 
-// Not so simple a message: to one AGV, or with deliveries of many kinds.
+// Of a message that a computer sends. What is left over goes by radio: computers are the last of those who hear it.
+std::span<const Hearer> Messenger::deliver_by_wire(std::uint32_t slot, std::span<const Hearer> hearers) {
+  const auto is_agv = [&](const Hearer& hearer) { return run_.scenario.is_agv(hearer.receiver); };
+  const auto by_radio = static_cast<std::size_t>(std::ranges::partition_point(hearers, is_agv) - hearers.begin());
+  for (const auto& [receiver, ordinal] : hearers.subspan(by_radio)) {
+    run_.queue.push_arrivals(run_.now + wire_delay_, {&receiver, 1}, slot);
+    run_.counters.delay_sum_ns += static_cast<std::uint64_t>(wire_delay_.count());
+  }
+  const std::size_t by_wire = hearers.size() - by_radio;
+  if (by_wire > 0) count_receptions(pool_[slot], by_wire, by_wire);
+  return hearers.first(by_radio);
+}
+
+// Not so simple a message: to one participant, or with deliveries of many kinds.
 [[gnu::noinline]] void Messenger::deliver_one_by_one(std::uint32_t slot, std::uint32_t to) {
-  const AgvId sender = pool_[slot].sender;
+  const EntityId sender = pool_[slot].sender;
   const bool spared = pool_[slot].spared;
-  const Vec2 from_m = needs_places_ ? run_.pose_now(sender).position_m : Vec2::Zero();
-  const std::span<const Hearer> hearers = hearers_.of(sender, to, from_m);
+  const std::optional<Vec2> from_m = needs_places_ ? run_.antenna_m(sender) : Vec2::Zero();
+  std::span<const Hearer> hearers = hearers_.of(sender, to, from_m);
+  if (run_.scenario.is_computer(sender)) hearers = deliver_by_wire(slot, hearers);
   if (losses_decide_ && !spared)
     return deliver_together(slot, hearers.size(), [&](std::size_t i) { return hearers.data()[i]; });
   radio_.draw(sender, run_.now, hearers, draws_.data());
@@ -136,12 +152,21 @@ void Messenger::count_receptions(Message& message, std::size_t hearing, std::siz
   message.copies += static_cast<std::uint32_t>(arriving);
 }
 
-void Messenger::deliver(const Hearer& hearer, const Block& draws, std::uint32_t slot, const Vec2& from_m) {
-  const AgvId receiver = hearer.receiver;
+// The ends of a link. A computer that is connected everywhere is at the place of the AGV.
+LinkPlaces Messenger::places_of(EntityId sender, const std::optional<Vec2>& from_m, EntityId receiver) const {
+  const std::optional<Vec2> at_m = run_.antenna_m(receiver);
+  return {.sender_m = from_m ? *from_m : *at_m,
+          .receiver_m = at_m ? *at_m : *from_m,
+          .sender_roams = run_.scenario.is_agv(sender),
+          .receiver_roams = run_.scenario.is_agv(receiver)};
+}
+
+void Messenger::deliver(const Hearer& hearer, const Block& draws, std::uint32_t slot,
+                        const std::optional<Vec2>& from_m) {
+  const EntityId receiver = hearer.receiver;
   Message& message = pool_[slot];
   Counters& counters = run_.counters;
-  LinkPlaces places{from_m, {}};
-  if (needs_places_) places.receiver_m = run_.pose_now(receiver).position_m;
+  const LinkPlaces places = needs_places_ ? places_of(message.sender, from_m, receiver) : LinkPlaces{};
   const Delivery delivery = radio_.delivery(message.sender, hearer, run_.now, draws, places, message.spared);
   const SimTime on_air_until = message.on_air.end;
   const SimTime arrival = std::max(run_.now + delivery.delay, on_air_until);
@@ -214,7 +239,7 @@ void Messenger::air_time_ends(AgvId receiver, std::uint32_t slot) {
 bool Messenger::is_drowned(AgvId receiver, const Message& message) const {
   return channel_.any_other_on_air(message.sender, message.on_air, [&](AgvId other) {
     if (other == receiver || hearers_.are_everybody()) return true;
-    return (run_.pose_now(other).position_m - run_.pose_now(receiver).position_m).norm() <= run_.scenario.radio.range_m;
+    return hearers_.hears(receiver, other, run_.antenna_m(other));
   });
 }
 

@@ -18,7 +18,7 @@
 
 namespace fleetproof {
 
-// The unread messages of an AGV, oldest first. A message is named by its slot in the message pool.
+// The unread messages of a participant, oldest first. A message is named by its slot in the message pool.
 class Inbox {
  public:
   bool empty() const { return read_ == end_; }
@@ -52,8 +52,8 @@ class Inbox {
   std::uint32_t read_ = 0, end_ = 0, capacity_ = 0;
 };
 
-// Messages between AGVs: a transmission has an air time of its own and one reception for each receiver in range. What
-// arrives waits in the receiver's inbox.
+// Messages between participants: a transmission has an air time of its own and one reception for each receiver in
+// range. Between computers a message goes by wire, which loses nothing. What arrives waits in the receiver's inbox.
 class Messenger {
  public:
   Messenger(RunContext& run, AgentHostPort agents);
@@ -68,7 +68,7 @@ class Messenger {
     hearers_.forget_path(agv);
   }
 
-  // Takes a message in hand that is going to be sent to `receiver`, or to all AGVs if that is FP_NONE. Returns its
+  // Takes a message in hand that is going to be sent to `receiver`, or to all if that is FP_NONE. Returns its
   // slot, or nothing if the message is too long or there is no such receiver. Requires: `transmit` or `withdraw`.
   std::optional<std::uint32_t> accept(AgvId sender, std::string_view bytes, std::uint32_t receiver);
   void transmit(AgvId sender, std::uint32_t slot, std::uint32_t receiver);
@@ -107,9 +107,11 @@ class Messenger {
   void deliver_one_by_one(std::uint32_t slot, std::uint32_t to);
   template <class HearerAt>
   void deliver_together(std::uint32_t slot, std::size_t hearing, HearerAt hearer_at);
+  std::span<const Hearer> deliver_by_wire(std::uint32_t slot, std::span<const Hearer> hearers);
+  LinkPlaces places_of(EntityId sender, const std::optional<Vec2>& from_m, EntityId receiver) const;
   void deliver_plainly(std::uint32_t slot, std::span<const Hearer> hearers);
   void count_receptions(Message& message, std::size_t hearing, std::size_t arriving);
-  void deliver(const Hearer& hearer, const Block& draws, std::uint32_t slot, const Vec2& from_m);
+  void deliver(const Hearer& hearer, const Block& draws, std::uint32_t slot, const std::optional<Vec2>& from_m);
   // For an observer that wants to write the run's deliveries down.
   void note_delivery(const Hearer& hearer, const Message& message, const Delivery& delivery);
   void lose(AgvId receiver, const Message& message, TraceKind cause);
@@ -132,8 +134,9 @@ class Messenger {
   // Of a message that is not spared: nothing but its draws decides its delivery, and nobody notes it; and they only
   // decide whether it is lost.
   bool draws_decide_, losses_decide_;
-  std::size_t others_;                // so many AGVs but the sender
-  std::vector<AgvState> agv_states_;  // by AGV
+  std::size_t others_;  // so many AGVs but the sender
+  Duration wire_delay_;
+  std::vector<AgvState> agv_states_;  // by participant
   std::vector<Block> draws_;          // of those who hear the message being sent
 };
 

@@ -14,7 +14,7 @@ RunContext::RunContext(const Scenario& of, std::span<const std::unique_ptr<Law>>
       motion_key(stream_key(of.seed_of(Stream::Motion), Stream::Motion)),
       draw_numbers(of),
       hears_notes_(sink != nullptr || !of.radio.adverse.spared_kinds.empty()) {
-  ensure(of.body_count() < EventOrder::kNoEntity, "every body has a place in the order of events");
+  ensure(of.entity_count() < EventOrder::kNoEntity, "every entity has a place in the order of events");
   std::uint64_t transports = 0;
   for (std::size_t i = 0; i < agvs.size(); ++i) {
     agvs[i].station = of.agvs[i].start;

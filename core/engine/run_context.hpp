@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,10 @@ struct RunContext {
   const VehicleType& type_of(AgvId agv) const { return scenario.type_of(setup(agv)); }
   bool is_loaded(AgvId agv) const { return world.carried_load(agv).valid(); }
   Pose pose_now(EntityId id) const { return world.pose_of(id, now); }
+  // Where a participant sends and receives now. Absent: a computer that is connected everywhere.
+  std::optional<Vec2> antenna_m(EntityId participant) const {
+    return scenario.is_agv(participant) ? pose_now(participant).position_m : scenario.computer(participant).at_m;
+  }
   // A piece in which the AGV's body, as large as it is now, stands at `pose` from now on. A caller may set it in
   // motion.
   Piece standing_piece(AgvId agv, const Pose& pose) const;

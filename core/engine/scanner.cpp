@@ -27,7 +27,7 @@ std::optional<EntityId> Scanner::intruder(AgvId agv, double length_m) const {
   const double sign = agv_states_[agv.index()].backward ? -1.0 : 1.0;
   const OrientedRectangle field{own.centre_m + sign * (own.half_length_m + 0.5 * length_m) * own.heading, own.heading,
                                 0.5 * length_m, own.half_width_m + run_.scenario.scanner.margin_m};
-  for (std::size_t i = 0; i < run_.world.body_count(); ++i) {
+  for (std::size_t i = 0; i < run_.world.entity_count(); ++i) {
     const Body& body = run_.world.body(EntityId{i});
     if (body.on_floor && EntityId{i} != agv && clearance_m(field, body.piece.body_at(run_.now)) <= 0.0)
       return EntityId{i};

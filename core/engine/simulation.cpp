@@ -22,8 +22,14 @@ void check_abi(const fp_agent_type& agent) {
 
 Outcome simulate(const Scenario& scenario, const fp_agent_type& agent, std::span<const std::unique_ptr<Law>> laws,
                  TraceSink* sink, const char* agent_config, const RunWatch& watch) {
+  return simulate(scenario, FleetSoftware(agent, agent_config), laws, sink, watch);
+}
+
+Outcome simulate(const Scenario& scenario, const FleetSoftware& software, std::span<const std::unique_ptr<Law>> laws,
+                 TraceSink* sink, const RunWatch& watch) {
+  if (watch.play.empty()) check_roles(scenario, software);  // else nobody calls it
   try {
-    Engine engine(scenario, agent, laws, sink, agent_config, watch);
+    Engine engine(scenario, software, laws, sink, watch);
     engine.run();
     return engine.finish();
   } catch (const InvariantViolation& bug) {

@@ -39,6 +39,10 @@ SimTime AgentClock::when_it_shows_with_drift(std::int64_t ns) const {
 
 Timers::Timers(RunContext& run, AgentHostPort agents) : run_(run), agents_(agents) {
   for (const AgvSetup& agv : run.scenario.agvs) agv_states_.push_back({.clock = AgentClock(agv.sensing), .timers = {}});
+  for (const ComputerSetup& computer : run.scenario.computers) {
+    const SensingSetup clock{.clock_offset_s = computer.clock_offset_s, .clock_drift_ppm = computer.clock_drift_ppm};
+    agv_states_.push_back({.clock = AgentClock(clock), .timers = {}});
+  }
 }
 
 void Timers::set(AgvId agv, std::uint32_t number, std::int64_t at_ns) {

@@ -1,4 +1,4 @@
-// The clocks and timers of the AGVs' computers.
+// The clocks and timers of the participants.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace fleetproof {
 
-// The clock of an AGV's computer. It is ahead of the true time by an offset and drifts. All numbers are whole.
+// The clock of an AGV's computer, or of a computer. It is ahead of the true time by an offset and drifts. All numbers
+// are whole.
 class AgentClock {
  public:
   AgentClock() = default;
@@ -31,7 +32,7 @@ class AgentClock {
   std::int64_t offset_ns_ = 0, drift_ppb_ = 0;
 };
 
-// The clock and the timers of each AGV's computer. A timer goes off when the computer's own clock shows its time.
+// The clock and the timers of each participant. A timer goes off when the computer's own clock shows its time.
 class Timers {
  public:
   Timers(RunContext& run, AgentHostPort agents);
@@ -58,7 +59,7 @@ class Timers {
 
   RunContext& run_;
   AgentHostPort agents_;
-  std::vector<AgvState> agv_states_;  // by AGV
+  std::vector<AgvState> agv_states_;  // by participant
 };
 
 }  // namespace fleetproof

@@ -60,6 +60,8 @@ ToldPlant::ToldPlant(const Scenario& scenario)
       type_names_(names_of_types(scenario)),
       safety_distance_m_(scenario.law.safety_distance_m),
       fleet_(fleet_of(scenario)) {
+  for (const std::string& name : type_names_) c_type_names_.push_back(name.c_str());
+  for (const Segment& segment : of_map_->layout().segments) segment_names_.push_back(segment.name.c_str());
   describe_permissions(scenario);
   describe_map();
   facts_ = empty_store();

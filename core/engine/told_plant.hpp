@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ class ToldPlant {
   // Whether the agents of this scenario would be told the same facts.
   bool fits(const Scenario& scenario) const;
   const fp_facts& facts() const { return facts_->facts(); }
+  // Names of vehicle types and segments, by their numbers.
+  std::span<const char* const> type_names() const { return c_type_names_; }
+  std::span<const char* const> segment_names() const { return segment_names_; }
   // Another store for the same facts, without answers.
   std::unique_ptr<FactStore> empty_store() const;
 
@@ -31,6 +35,7 @@ class ToldPlant {
 
   std::shared_ptr<const LogicalMap> of_map_;
   std::vector<std::string> type_names_;
+  std::vector<const char*> c_type_names_, segment_names_;
   double safety_distance_m_;
   std::vector<std::vector<fp_permission>> permissions_;  // by segment
   std::vector<fp_arc> arcs_;

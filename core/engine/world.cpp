@@ -22,11 +22,11 @@ World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> law
     : scenario_(scenario),
       laws_(laws),
       sink_(sink),
-      bodies_(scenario.body_count()),
-      company_(scenario.body_count(), farthest_look_m(laws)),
+      bodies_(scenario.entity_count()),
+      company_(scenario.entity_count(), farthest_look_m(laws)),
       carried_(scenario.agvs.size()),
       loads_of_(scenario.agvs.size()),
-      touched_(scenario.body_count()) {
+      touched_(scenario.entity_count()) {
   listeners_.to_beginnings.reserve(laws.size()), listeners_.to_ends.reserve(laws.size());
   listeners_.to_company.reserve(laws.size());
   for (const auto& law : laws) {
@@ -44,7 +44,7 @@ World::World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> law
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
     const ObstacleSetup& obstacle = scenario.obstacles[i];
     if (obstacle.appears == Duration::zero())
-      put_on_floor(EntityId{scenario.agvs.size() + i}, obstacle.footprint, obstacle.pose, kStart);
+      put_on_floor(EntityId{scenario.first_obstacle().index() + i}, obstacle.footprint, obstacle.pose, kStart);
   }
 }
 

@@ -43,7 +43,7 @@ class World {
   // `sink` may be null.
   World(const Scenario& scenario, std::span<const std::unique_ptr<Law>> laws, TraceSink* sink = nullptr);
 
-  std::size_t body_count() const { return bodies_.size(); }
+  std::size_t entity_count() const { return bodies_.size(); }
   const Body& body(EntityId id) const { return bodies_[id.index()]; }
   Pose pose_of(EntityId id, SimTime t) const { return body(id).piece.pose_at(t); }
 

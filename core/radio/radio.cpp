@@ -148,16 +148,17 @@ Delivery Radio::delivery(AgvId sender, const Hearer& hearer, SimTime sent, const
     return delivery;
   }
   if (spared || !setup_.adverse.contains(sent)) return {};
-  return drawn_delivery(key_of(sender, hearer, sent), draws, places);
+  return drawn_delivery({sender, receiver}, key_of(sender, hearer, sent), draws, places);
 }
 
-Delivery Radio::drawn_delivery(const MessageKey& message, const Block& draws, const LinkPlaces& places) {
+Delivery Radio::drawn_delivery(const Link& link, const MessageKey& message, const Block& draws,
+                               const LinkPlaces& places) {
   const auto& [sender, receiver, sent, ordinal] = message;
   const double loss_draw = unit_interval(word64(draws, 0));
   Delivery delivery;
   delivery.lost = loss_draw < loss_at_distance(setup_.loss, setup_, places);
   delivery.delay = delay(draws);
-  if (has_states_) weigh_states(delivery, loss_draw, sender, receiver, sent, places);
+  if (has_states_) weigh_states(delivery, loss_draw, link, sent, places);
   if (!recorded_.empty()) {
     if (const auto* recorded = recorded_.at(sender, receiver, sent)) {
       delivery = Delivery{.lost = !recorded->delay, .delay = recorded->delay.value_or(Duration::zero())};
@@ -169,8 +170,9 @@ Delivery Radio::drawn_delivery(const MessageKey& message, const Block& draws, co
   return delivery;
 }
 
-void Radio::weigh_states(Delivery& delivery, double loss_draw, AgvId sender, AgvId receiver, SimTime sent,
+void Radio::weigh_states(Delivery& delivery, double loss_draw, const Link& link, SimTime sent,
                          const LinkPlaces& places) {
+  const auto& [sender, receiver] = link;
   double loss = setup_.asymmetry > 0.0 ? loss_of(sender, receiver) : setup_.loss;
   if (setup_.outages.mean_outage_s > 0.0) {
     const bool by_place = setup_.outages.scope == OutageSetup::Scope::Place;
@@ -180,9 +182,10 @@ void Radio::weigh_states(Delivery& delivery, double loss_draw, AgvId sender, Agv
     loss = delivery.in_outage ? bad : good;
   }
   delivery.lost = loss_draw < loss_at_distance(loss, setup_, places);
-  const bool at_border = places_.has_borders() &&
-                         (places_.is_roaming(places.sender_m, sent) || places_.is_roaming(places.receiver_m, sent));
-  if (at_border || crossings_.is_deaf(sender, sent) || crossings_.is_deaf(receiver, sent))
+  const bool at_border =
+      places_.has_borders() && ((places.sender_roams && places_.is_roaming(places.sender_m, sent)) ||
+                                (places.receiver_roams && places_.is_roaming(places.receiver_m, sent)));
+  if (at_border || crossings_.is_deaf(numbers_.of(sender), sent) || crossings_.is_deaf(numbers_.of(receiver), sent))
     delivery.lost = delivery.in_outage = true;
 }
 
@@ -201,7 +204,8 @@ OutageLaw Radio::outage_law(double loss) const {
           .shape = outages.shape};
 }
 
-double Radio::loss_of(AgvId sender, AgvId receiver) const {
+double Radio::loss_of(EntityId from, EntityId to) const {
+  const EntityId sender = numbers_.of(from), receiver = numbers_.of(to);
   const auto [low, high] = std::minmax(sender.value, receiver.value);
   const double draw = unit_interval(word64(philox(keys_.states, {0, kAsymmetryDraw << 1, low, high}), 0));
   const double shift = setup_.asymmetry * (2.0 * draw - 1.0) * setup_.loss * (1.0 - setup_.loss);
@@ -210,6 +214,7 @@ double Radio::loss_of(AgvId sender, AgvId receiver) const {
 
 OutageProcess& Radio::process_of(AgvId sender, AgvId receiver) {
   const auto [low, high] = std::minmax(sender.value, receiver.value);
+  const std::uint32_t from = numbers_.of(sender).value, to = numbers_.of(receiver).value;
   const bool keyed_by_direction = setup_.outages.scope == OutageSetup::Scope::Direction;
   // Two directions with different losses share the randomness. The outages of the better direction then lie within the
   // outages of the worse direction.
@@ -220,8 +225,9 @@ OutageProcess& Radio::process_of(AgvId sender, AgvId receiver) {
   auto& process = links_[row][column];
   if (!process) {
     const double loss = setup_.asymmetry > 0.0 ? loss_of(sender, receiver) : setup_.loss;
-    process.emplace(outage_law(loss), ProcessKey{keys_.states, kLinkProcess, keyed_by_direction ? sender.value : low,
-                                                 keyed_by_direction ? receiver.value : high});
+    process.emplace(outage_law(loss),
+                    ProcessKey{keys_.states, kLinkProcess, keyed_by_direction ? from : std::min(from, to),
+                               keyed_by_direction ? to : std::max(from, to)});
   }
   return *process;
 }

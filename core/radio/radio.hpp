@@ -89,14 +89,16 @@ struct Delivery {
   bool given = false;                    // by the scenario: other transmissions in the air do not destroy it
 };
 
-// The reference points of sender and receiver at the instant of sending. Used only if the radio depends on place.
+// The places of sender and receiver at the instant of sending: the reference point of an AGV, the antenna of a
+// computer. Used only if the radio depends on place.
 struct LinkPlaces {
   Vec2 sender_m = Vec2::Zero(), receiver_m = Vec2::Zero();
+  bool sender_roams = true, receiver_roams = true;  // it drives from access point to access point
 };
 
 // A receiver in range of a message.
 struct Hearer {
-  AgvId receiver;
+  EntityId receiver;
   std::uint32_t ordinal = 0;  // of the message, see MessageKey
 };
 
@@ -165,15 +167,18 @@ class Radio {
   MessageKey key_of(AgvId sender, const Hearer& hearer, SimTime sent) const {
     return {numbers_.of(sender), numbers_.of(hearer.receiver), sent, hearer.ordinal};
   }
-  Delivery drawn_delivery(const MessageKey& message, const Block& draws, const LinkPlaces& places);
+  // The participants at the ends of a link: tables go by them, and draws by their numbers.
+  struct Link {
+    EntityId sender, receiver;
+  };
+  Delivery drawn_delivery(const Link& link, const MessageKey& message, const Block& draws, const LinkPlaces& places);
   struct StateLoss {
     double good, bad;
   };
   StateLoss losses_by_state(double loss) const;
   OutageLaw outage_law(double loss) const;
-  double loss_of(AgvId sender, AgvId receiver) const;
-  void weigh_states(Delivery& delivery, double loss_draw, AgvId sender, AgvId receiver, SimTime sent,
-                    const LinkPlaces& places);
+  double loss_of(EntityId from, EntityId to) const;
+  void weigh_states(Delivery& delivery, double loss_draw, const Link& link, SimTime sent, const LinkPlaces& places);
   std::optional<Duration> copy_of(const MessageKey& message) const;
 
   RadioSetup setup_;

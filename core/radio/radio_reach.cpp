@@ -17,8 +17,8 @@ std::size_t cells_along(double floor_m, double side_m) {
 
 }  // namespace
 
-RadioReach::RadioReach(std::size_t agvs, double range_m, const Box& floor)
-    : range_m_(range_m), corner_m_(floor.low_m), circles_(agvs), answers_(agvs) {
+RadioReach::RadioReach(std::size_t agvs, std::size_t askers, double range_m, const Box& floor)
+    : range_m_(range_m), corner_m_(floor.low_m), circles_(agvs), answers_(askers) {
   const Vec2 size_m = floor.high_m - floor.low_m;
   side_m_ = std::max({range_m, size_m.maxCoeff() / kMostCells, kSmallestCell_m});
   columns_ = cells_along(size_m.x(), side_m_);

@@ -13,8 +13,8 @@ namespace fleetproof {
 // Threads: one object serves one run on one thread.
 class RadioReach {
  public:
-  // `floor`: what it finds does not depend on it, but how soon.
-  RadioReach(std::size_t agvs, double range_m, const Box& floor);
+  // `askers`: so many ids ask, AGVs and others. `floor`: what it finds does not depend on it, but how soon.
+  RadioReach(std::size_t agvs, std::size_t askers, double range_m, const Box& floor);
 
   // The AGV has this piece from now on. Call it for every AGV before the first question.
   void piece_begins(const Piece& piece);
@@ -68,7 +68,7 @@ class RadioReach {
   std::uint64_t changes_anywhere_ = 1;
   std::vector<Circle> circles_;        // by AGV
   std::vector<std::size_t> filed_in_;  // by AGV: the cell
-  std::vector<Answer> answers_;        // by AGV that asked
+  std::vector<Answer> answers_;        // by who asked
 };
 
 }  // namespace fleetproof

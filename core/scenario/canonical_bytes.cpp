@@ -136,6 +136,7 @@ class ScenarioBytes {
   void add(Duration value) { bytes_.add(std::int64_t{value.count()}); }
   void add(const std::optional<std::uint32_t>& value) { add(value.value_or(0)); }
   void add(const Vec2& vector) { bytes_.add(vector); }
+  void add(const std::optional<Vec2>& place_m) { add(place_m.value_or(Vec2::Zero())); }
   void add(Purposes purposes) { bytes_.add_byte(purposes.bits()); }
   template <class Tag>
   void add(StrongId<Tag> id) {

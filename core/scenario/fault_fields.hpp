@@ -14,7 +14,7 @@ void visit_fields(Given& fault, Visit&& visit) {
   auto& [length_m, width_m, centre_ahead_m] = load;
   const bool no_load = kind != Fault::Kind::LoadDrop;
   visit(Field{.key = "kind", .text = "what goes wrong", .lenient = kOfScenarios, .needed = true}, kind);
-  visit(Field{.key = "agv", .text = "name of the AGV", .lenient = kOfScenarios, .needed = true}, agv);
+  visit(Field{.key = "agv", .text = "name of the AGV or computer", .lenient = kOfScenarios, .needed = true}, agv);
   visit(Field{.key = "at_s",
               .text = "when: since the start of the run, or since the AGV took up the load of `transport`",
               .lenient = kOfScenarios,

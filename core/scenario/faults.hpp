@@ -11,7 +11,8 @@
 
 namespace fleetproof {
 
-// Something that goes wrong with one AGV, at an instant that the scenario fixes. It is drawn or listed by a user.
+// Something that goes wrong with one participant, an AGV or a computer, at an instant that the scenario fixes. It is
+// drawn or listed by a user.
 struct Fault {
   // The numbers are part of the trace digest.
   enum class Kind : std::uint8_t {
@@ -20,10 +21,12 @@ struct Fault {
     LoadDrop = 3,        // the load lies on the floor while the fault lasts; denied without a load, or without room
     Restart = 4,         // the agent loses its memory and is away while the fault lasts; the AGV finishes its action
     Freeze = 5,          // the agent receives no event while the fault lasts, and then all of them
-    PowerFailure = 6,    // breakdown and restart in one: the AGV brakes, and its agent is away while the fault lasts
+    // Breakdown and restart in one: the AGV brakes, and its agent is away while the fault lasts. Of a computer: a
+    // restart.
+    PowerFailure = 6,
   };
   Kind kind = Kind::Breakdown;
-  AgvId agv;
+  EntityId agv;   // or a computer, where the kind strikes computers
   Duration at{};  // since the start of the run, or since the AGV picked the load of `transport`
   std::optional<std::uint32_t> transport;  // the number of a transport of this AGV
   Duration lasts{};
@@ -62,6 +65,9 @@ constexpr bool stops_computer(Fault::Kind kind) {
 constexpr bool concerns_agent_alone(Fault::Kind kind) {
   return kind == Fault::Kind::Restart || kind == Fault::Kind::Freeze;
 }
+
+// Whether a computer may have the fault.
+constexpr bool strikes_computers(Fault::Kind kind) { return stops_computer(kind) || kind == Fault::Kind::Freeze; }
 
 // Why a run does not give what the scenario asks for: a fault that changes nothing, or an obstacle that does not come.
 enum class Denial : std::uint8_t {

@@ -248,13 +248,16 @@ void visit_fields(Radio& radio, Visit&& visit) {
 template <FieldsOf<GivenDelivery> Given, class Visit>
 void visit_fields(Given& delivery, Visit&& visit) {
   auto& [sender, receiver, sent, ordinal, lost, delay, copied, copy_delay] = delivery;
-  visit(
-      Field{.key = "sender", .text = "name of the AGV that sends the message", .lenient = kOfScenarios, .needed = true},
-      sender);
-  visit(
-      Field{
-          .key = "receiver", .text = "name of the AGV to which this applies", .lenient = kOfScenarios, .needed = true},
-      receiver);
+  visit(Field{.key = "sender",
+              .text = "name of the AGV or computer that sends it",
+              .lenient = kOfScenarios,
+              .needed = true},
+        sender);
+  visit(Field{.key = "receiver",
+              .text = "name of the AGV or computer to which this applies",
+              .lenient = kOfScenarios,
+              .needed = true},
+        receiver);
   visit(Field{.key = "sent_s",
               .text = "when it is sent, to the nanosecond",
               .lenient = kOfScenarios,

@@ -11,9 +11,9 @@ std::uint64_t Scenario::seed_of(Stream stream) const {
   return seed;
 }
 
-std::size_t Scenario::body_count() const {
+std::size_t Scenario::entity_count() const {
   const auto drops = std::ranges::count(faults, Fault::Kind::LoadDrop, &Fault::kind);
-  return agvs.size() + obstacles.size() + static_cast<std::size_t>(drops);
+  return first_fallen_load().index() + static_cast<std::size_t>(drops);
 }
 
 }  // namespace fleetproof

@@ -10,6 +10,7 @@
 #include "core/base/random.hpp"
 #include "core/base/sim_time.hpp"
 #include "core/base/strong_id.hpp"
+#include "core/scenario/computers.hpp"
 #include "core/scenario/faults.hpp"
 #include "core/scenario/layout.hpp"
 #include "core/scenario/radio_setup.hpp"
@@ -122,6 +123,8 @@ struct Scenario {
   std::shared_ptr<const LogicalMap> map;  // shared: the runs on one layout read the same curves
   std::vector<VehicleType> vehicle_types{VehicleType{}};
   std::vector<AgvSetup> agvs;
+  std::vector<ComputerSetup> computers;
+  WireSetup wire;
   std::vector<ObstacleSetup> obstacles;
   std::vector<Fault> faults;
   ScannerSetup scanner;
@@ -143,8 +146,23 @@ struct Scenario {
 
   std::uint64_t seed_of(Stream stream) const;  // `stream` is one of kRunStreams
   const VehicleType& type_of(const AgvSetup& agv) const { return vehicle_types[agv.type]; }
-  // The number of bodies: AGVs, then obstacles, then the loads that fall, in the order of their faults.
-  std::size_t body_count() const;
+  // Ids of entities: AGVs, computers, obstacles, then the loads that fall, in the order of their faults. The first two
+  // are the participants: control software runs there.
+  std::size_t participant_count() const { return agvs.size() + computers.size(); }
+  bool is_agv(EntityId id) const { return id.index() < agvs.size(); }
+  bool is_computer(EntityId id) const { return !is_agv(id) && id.index() < participant_count(); }
+  // Whether a wire connects the two.
+  bool are_wired(EntityId a, EntityId b) const { return is_computer(a) && is_computer(b); }
+  EntityId first_computer() const { return EntityId{agvs.size()}; }
+  EntityId first_obstacle() const { return EntityId{participant_count()}; }
+  EntityId first_fallen_load() const { return EntityId{participant_count() + obstacles.size()}; }
+  std::size_t entity_count() const;
+  // Requires, of these: such an id.
+  const ComputerSetup& computer(EntityId id) const { return computers[id.index() - agvs.size()]; }
+  const ObstacleSetup& obstacle(EntityId id) const { return obstacles[id.index() - participant_count()]; }
+  const std::string& name_of(EntityId participant) const {
+    return is_agv(participant) ? agvs[participant.index()].name : computer(participant).name;
+  }
 };
 
 }  // namespace fleetproof

@@ -9,6 +9,7 @@
 namespace fleetproof {
 
 inline constexpr double kFloorEnd_m = 100'000.0;  // coordinates lie within this distance of the origin
+inline constexpr double kLargestClockOffset_s = 1e6, kLargestClockDrift_ppm = 1e5;
 
 // A direction, for visitors; any other Vec2 is a place.
 template <class Vector>
@@ -46,13 +47,13 @@ void visit_fields(Sensing& sensing, Visit&& visit) {
   visit(Field{.key = "clock_offset_s",
               .text = "the AGV's clock is ahead by this much",
               .lenient = kOfScenarios,
-              .high = 1e6},
+              .high = kLargestClockOffset_s},
         clock_offset_s);
   visit(Field{.key = "clock_drift_ppm",
               .text = "and runs too fast by this much",
               .lenient = kOfScenarios,
-              .low = -1e5,
-              .high = 1e5},
+              .low = -kLargestClockDrift_ppm,
+              .high = kLargestClockDrift_ppm},
         clock_drift_ppm);
   visit(Field{.key = "position_error_m",
               .text = "each coordinate of getPosition is wrong by up to this",
@@ -128,6 +129,56 @@ void visit_fields(Agv& agv, Visit&& visit) {
               .left_out = !draws_as.has_value(),
               .is_later = true},
         draws_as);
+}
+
+template <FieldsOf<ComputerSetup> Computer, class Visit>
+void visit_fields(Computer& computer, Visit&& visit) {
+  auto& [name, at_m, clock_offset_s, clock_drift_ppm, agent, agent_config, draws_as] = computer;
+  visit(Field{.key = "name", .text = "name of the computer", .lenient = kIsName, .needed = true}, name);
+  visit(Field{.key = "at_m",
+              .text = "[x, y] of its antenna; left out: it is in range of every AGV",
+              .lenient = kOfScenarios,
+              .low = -kFloorEnd_m,
+              .high = kFloorEnd_m,
+              .left_out = !at_m.has_value()},
+        at_m);
+  visit(Field{.key = "clock_offset_s",
+              .text = "its clock is ahead by this much",
+              .lenient = kOfScenarios,
+              .high = kLargestClockOffset_s},
+        clock_offset_s);
+  visit(Field{.key = "clock_drift_ppm",
+              .text = "and runs too fast by this much",
+              .lenient = kOfScenarios,
+              .low = -kLargestClockDrift_ppm,
+              .high = kLargestClockDrift_ppm},
+        clock_drift_ppm);
+  visit(Field{.key = "agent",
+              .text = "its program; left out: the caller names it",
+              .lenient = kOfScenarios,
+              .left_out = agent.empty()},
+        agent);
+  visit(Field{.key = "agent_config",
+              .text = "a text that this program gets at its start",
+              .lenient = kOfScenarios,
+              .left_out = agent_config.empty()},
+        agent_config);
+  visit(Field{.key = "draws_as",
+              .text = "place among the computers under which what is random about it is drawn; left out: its own",
+              .lenient = kOfScenarios,
+              .high = kMostComputers - 1.0,
+              .left_out = !draws_as.has_value()},
+        draws_as);
+}
+
+template <FieldsOf<WireSetup> Wire, class Visit>
+void visit_fields(Wire& wire, Visit&& visit) {
+  auto& [delay_s] = wire;
+  visit(Field{.key = "delay_s",
+              .text = "time from sending to reception between two computers",
+              .lenient = kOfScenarios,
+              .high = kHour_s},
+        delay_s);
 }
 
 template <FieldsOf<ObstacleSetup> Obstacle, class Visit>
@@ -240,8 +291,9 @@ void visit_fields(Expected& expected, Visit&& visit) {
 
 template <FieldsOf<Scenario> Given, class Visit>
 void visit_fields(Given& scenario, Visit&& visit) {
-  auto& [name, map, vehicle_types, agvs, obstacles, faults, scanner, operator_help, radio, deliveries, agent_clock, law,
-         contact_stops, horizon, stuck_after, seed, stream_seeds, agent, agent_config, expected] = scenario;
+  auto& [name, map, vehicle_types, agvs, computers, wire, obstacles, faults, scanner, operator_help, radio, deliveries,
+         agent_clock, law, contact_stops, horizon, stuck_after, seed, stream_seeds, agent, agent_config, expected] =
+      scenario;
   visit(Field{.key = "name", .text = "name of the scenario", .lenient = kIsName}, name);
   visit(kSeed, seed);
   visit(Field{.key = "stream_seeds",
@@ -273,6 +325,20 @@ void visit_fields(Given& scenario, Visit&& visit) {
   visit(Field{.key = "law", .text = "what the laws ask", .lenient = kIsTable}, law);
   visit(Field{.key = "vehicle_types", .text = "kinds of AGVs", .lenient = kIsTable}, vehicle_types);
   visit(Field{.key = "agvs", .text = "the fleet", .lenient = kOfScenarios, .needed = true}, agvs);
+  visit(Field{.key = "computers",
+              .text = "participants without a body: servers, brokers",
+              .lenient = kOfScenarios,
+              .home = FieldHome::ScenarioOnly,
+              .left_out = computers.empty(),
+              .is_later = true},
+        computers);
+  visit(Field{.key = "wire",
+              .text = "what connects the computers with each other",
+              .lenient = kIsTable,
+              .home = FieldHome::ScenarioOnly,
+              .left_out = wire == WireSetup{},
+              .is_later = true},
+        wire);
   visit(Field{.key = "obstacles", .text = "bodies that stand on the floor", .lenient = kOfScenarios}, obstacles);
   visit(Field{.key = "faults", .text = "what goes wrong, and when", .lenient = kIsTable, .left_out = faults.empty()},
         faults);

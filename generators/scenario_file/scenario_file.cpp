@@ -123,8 +123,11 @@ void read_value(const JsonReader& reader, const Field& field, Value& target) {
 // Ids by name. An error for an unknown name suggests the nearest name.
 class Names {
  public:
-  Names(std::string_view noun, const auto& things) : noun_(noun) {
-    for (std::size_t i = 0; i < things.size(); ++i) ids_.emplace(things[i].name, static_cast<std::uint32_t>(i));
+  Names(std::string_view noun, const auto& things) : noun_(noun) { add(things); }
+  // Of the participants.
+  explicit Names(const Scenario& scenario)
+      : Names(scenario.computers.empty() ? "AGV" : "AGV or computer", scenario.agvs) {
+    add(scenario.computers);
   }
 
   std::uint32_t at(const JsonReader& reader) const {
@@ -138,8 +141,13 @@ class Names {
   }
 
  private:
+  void add(const auto& things) {
+    for (const auto& thing : things) ids_.emplace(thing.name, count_++);
+  }
+
   std::string_view noun_;
   std::map<std::string, std::uint32_t> ids_;
+  std::uint32_t count_ = 0;
 };
 
 RecordedMessage recorded_message(const JsonReader& reader) {
@@ -155,8 +163,8 @@ RecordedMessage recorded_message(const JsonReader& reader) {
   return message;
 }
 
-// Reads a struct by its list of fields. Names of stations, segments, vehicle types and AGVs must be read before they
-// are used: layout and vehicle types come first.
+// Reads a struct by its list of fields. Names of stations, segments, vehicle types and participants must be read before
+// they are used: layout and vehicle types come first, AGVs and computers before what names them.
 class ScenarioReader {
  public:
   // Null: the map is that of the layout in the text.
@@ -171,7 +179,7 @@ class ScenarioReader {
     types_.emplace("vehicle type", scenario.vehicle_types);
     visit_fields(scenario, [&](const Field& field, auto&& target) {
       member(root, field, target);
-      if (field.key == "agvs") agvs_.emplace("AGV", scenario.agvs);
+      if (field.key == "computers") participants_.emplace(scenario);
     });
     return scenario;
   }
@@ -224,7 +232,10 @@ class ScenarioReader {
   }
   void value(const Field&, const JsonReader& reader, StationId& target) { target = StationId{stations_->at(reader)}; }
   void value(const Field&, const JsonReader& reader, SegmentId& target) { target = SegmentId{segments_->at(reader)}; }
-  void value(const Field&, const JsonReader& reader, AgvId& target) { target = AgvId{agvs_->at(reader)}; }
+  void value(const Field& field, const JsonReader& reader, std::optional<Vec2>& target) {
+    value(field, reader, target.emplace());
+  }
+  void value(const Field&, const JsonReader& reader, EntityId& target) { target = EntityId{participants_->at(reader)}; }
   template <class Index>
   void value(const Field&, const JsonReader& reader, const TypeIndex<Index>& target) {
     target.index = types_->at(reader);
@@ -254,7 +265,7 @@ class ScenarioReader {
     if (!messages.empty()) target = std::make_shared<const RadioTrace>(std::move(messages));
   }
 
-  std::optional<Names> stations_, segments_, types_, agvs_;
+  std::optional<Names> stations_, segments_, types_, participants_;
 };
 
 Scenario scenario_of(std::string_view text, std::string_view source, std::shared_ptr<const LogicalMap> map) {

@@ -92,6 +92,7 @@ class ScenarioWriter {
   void write(const std::string& text) { json_.value(text); }
   void write(const std::optional<std::uint32_t>& value) { json_.value(std::uint64_t{value.value_or(0)}); }
   void write(const Vec2& vector) { json_.value(vector); }
+  void write(const std::optional<Vec2>& place_m) { json_.value(place_m.value_or(Vec2::Zero())); }
   template <class Vector>
   void write(const Direction<Vector>& direction) {
     json_.value(direction.vector);
@@ -102,7 +103,7 @@ class ScenarioWriter {
   }
   void write(StationId id) { json_.value(scenario_.map->layout().stations.at(id.index()).name); }
   void write(SegmentId id) { json_.value(scenario_.map->layout().segments.at(id.index()).name); }
-  void write(AgvId id) { json_.value(scenario_.agvs.at(id.index()).name); }
+  void write(EntityId participant) { json_.value(scenario_.name_of(participant)); }
   void write(Purposes purposes) { json_.value(purposes_text(purposes)); }
   void write(const ExemptPair& pair) {
     json_.open_array(Style::Line);

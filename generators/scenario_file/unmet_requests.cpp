@@ -61,15 +61,17 @@ class Requests {
 
   void fault(std::size_t i) {
     const Fault& fault = scenario_.faults[i];
-    const AgvSetup& agv = scenario_.agvs[fault.agv.index()];
     const std::string place = fmt::format("/faults/{}", i);
     const bool counts_from_pick = fault.transport.has_value();
-    const Duration earliest = fault.at + (counts_from_pick ? agv.transports[*fault.transport].release : Duration{});
+    const Duration earliest =
+        fault.at +
+        (counts_from_pick ? scenario_.agvs[fault.agv.index()].transports[*fault.transport].release : Duration{});
     if (is_late(earliest))
-      add(place + "/at_s", fmt::format("the {} of {} comes {}at {:g} s, {}", name_of(fault.kind), in_quotes(agv.name),
+      add(place + "/at_s", fmt::format("the {} of {} comes {}at {:g} s, {}", name_of(fault.kind),
+                                       in_quotes(scenario_.name_of(fault.agv)),
                                        counts_from_pick ? "at the earliest " : "", to_seconds(earliest), after()));
     if (fault.kind == Fault::Kind::LoadDrop)
-      load_drop(place, fault, agv);
+      load_drop(place, fault, scenario_.agvs[fault.agv.index()]);
     else if (describes_load(fault))
       add(place,
           fmt::format("a {} has no load, so length_m, width_m, ahead_m and left_m change nothing; leave them out",

@@ -148,6 +148,8 @@ class BoundsCheck {
       fields(value, place);
     } else if constexpr (std::is_same_v<Value, Vec2>) {
       for (const double coordinate : {value.x(), value.y()}) demand(fault_of(field, coordinate), place);
+    } else if constexpr (std::is_same_v<Value, std::optional<Vec2>>) {
+      check(field, *value, place);
     } else {
       other(value, place);
     }
@@ -198,6 +200,7 @@ class MeaningCheck {
     if (scenario_.agvs.empty()) add(ProblemKind::EmptyFleet, "/agvs", "a scenario needs at least one AGV");
     names("/agvs", scenario_.agvs);
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) agv(i);
+    computers();
     names("/obstacles", scenario_.obstacles);
     for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) {
       if (scenario_.obstacles[i].leaves <= scenario_.obstacles[i].appears)
@@ -240,12 +243,44 @@ class MeaningCheck {
 
   void fault(std::size_t i) {
     const Fault& f = scenario_.faults[i];
-    if (f.agv.index() >= scenario_.agvs.size())
-      return add(ProblemKind::UnknownReference, fmt::format("/faults/{}/agv", i), "there is no such AGV");
+    if (f.agv >= scenario_.first_obstacle())
+      return add(ProblemKind::UnknownReference, fmt::format("/faults/{}/agv", i), "there is no such AGV or computer");
+    if (scenario_.is_computer(f.agv)) return fault_of_computer(i);
     const AgvSetup& agv = scenario_.agvs[f.agv.index()];
     if (!f.transport || *f.transport < agv.transports.size()) return;
     add(ProblemKind::UnknownReference, fmt::format("/faults/{}/transport", i),
         fmt::format("{} has {} transports; they count from 0", in_quotes(agv.name), agv.transports.size()));
+  }
+
+  void fault_of_computer(std::size_t i) {
+    const Fault& f = scenario_.faults[i];
+    const std::string name = in_quotes(scenario_.name_of(f.agv));
+    if (!strikes_computers(f.kind)) {
+      std::vector<std::string> kinds;
+      for (const Fault::Kind kind : kValuesOf<Fault::Kind>) {
+        if (strikes_computers(kind)) kinds.emplace_back(name_of(kind));
+      }
+      add(ProblemKind::UnknownReference, fmt::format("/faults/{}/kind", i),
+          fmt::format("{} is a computer and has no {}; choose {}", name, name_of(f.kind),
+                      name_list(kinds, kMostNames)));
+    }
+    if (f.transport)
+      add(ProblemKind::UnknownReference, fmt::format("/faults/{}/transport", i),
+          name + " is a computer and carries nothing; leave transport out");
+  }
+
+  // Files name AGVs and computers by one name.
+  void computers() {
+    names("/computers", scenario_.computers);
+    if (scenario_.computers.size() > kMostComputers)
+      add(ProblemKind::NumberOutOfRange, "/computers",
+          fmt::format("{} computers are too many; use at most {}", scenario_.computers.size(), kMostComputers));
+    for (std::size_t i = 0; i < scenario_.computers.size(); ++i) {
+      const std::string& name = scenario_.computers[i].name;
+      if (std::ranges::find(scenario_.agvs, name, &AgvSetup::name) != scenario_.agvs.end())
+        add(ProblemKind::BadName, fmt::format("/computers/{}/name", i),
+            fmt::format("an AGV has the name {}; choose another", in_quotes(name)));
+    }
   }
 
   void deliveries() {
@@ -255,31 +290,41 @@ class MeaningCheck {
       const auto bad = [&](std::string_view key, const char* sentence) {
         add(ProblemKind::UnknownReference, fmt::format("/fates/{}{}", i, key), sentence);
       };
-      if (delivery.sender.index() >= scenario_.agvs.size()) bad("/sender", "there is no such AGV");
-      if (delivery.receiver.index() >= scenario_.agvs.size()) bad("/receiver", "there is no such AGV");
-      if (delivery.sender == delivery.receiver) bad("/receiver", "no AGV sends to itself; name another AGV");
+      if (delivery.sender >= scenario_.first_obstacle()) bad("/sender", "there is no such AGV or computer");
+      if (delivery.receiver >= scenario_.first_obstacle()) bad("/receiver", "there is no such AGV or computer");
+      if (delivery.sender == delivery.receiver) bad("/receiver", "nobody sends to itself; name another receiver");
+      if (scenario_.is_computer(delivery.sender) && scenario_.is_computer(delivery.receiver))
+        bad("", "between two computers is a wire: it loses nothing, and all takes wire/delay_s; leave this fate out");
       if (!seen.emplace(delivery.sender, delivery.receiver, delivery.sent, delivery.ordinal).second)
         bad("", "this message has a delivery already; give each message one");
     }
   }
 
   void draw_numbers() {
-    constexpr std::size_t kMostNumbers = 65536;  // two of them are one key of a draw
+    constexpr std::size_t kMostNumbers = DrawNumbers::kLast + 1;
     const DrawNumbers numbers(scenario_);
-    if (scenario_.agvs.size() > kMostNumbers)
+    if (scenario_.participant_count() > kMostNumbers)
       return add(ProblemKind::NumberOutOfRange, "/agvs",
                  fmt::format("{} AGVs are too many: what is random about messages is drawn by numbers, of which there "
                              "are {}; use fewer AGVs",
-                             scenario_.agvs.size(), kMostNumbers));
-    std::map<AgvId, std::size_t> seen;
-    for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
-      const auto [other, is_new] = seen.emplace(numbers.of(AgvId{i}), i);
+                             scenario_.agvs.size(), kMostNumbers - scenario_.computers.size()));
+    std::map<EntityId, std::size_t> seen;
+    for (std::size_t i = 0; i < scenario_.participant_count(); ++i) {
+      const auto [other, is_new] = seen.emplace(numbers.of(EntityId{i}), i);
       if (is_new) continue;
-      const bool own = scenario_.agvs[i].draws_as.has_value();
-      add(ProblemKind::NumberOutOfRange, fmt::format("/agvs/{}/draws_as", own ? i : other->second),
-          fmt::format("{} draws under this number, too; give each AGV its own",
-                      in_quotes(scenario_.agvs[own ? other->second : i].name)));
+      const std::size_t at = has_own_number(i) ? i : other->second;
+      add(ProblemKind::NumberOutOfRange, draws_as_pointer(at),
+          fmt::format("{} draws under this number, too; give each its own",
+                      in_quotes(scenario_.name_of(EntityId{at == i ? other->second : i}))));
     }
+  }
+  bool has_own_number(std::size_t i) const {
+    const bool is_agv = scenario_.is_agv(EntityId{i});
+    return (is_agv ? scenario_.agvs[i].draws_as : scenario_.computer(EntityId{i}).draws_as).has_value();
+  }
+  std::string draws_as_pointer(std::size_t i) const {
+    const std::size_t agvs = scenario_.agvs.size();
+    return i < agvs ? fmt::format("/agvs/{}/draws_as", i) : fmt::format("/computers/{}/draws_as", i - agvs);
   }
 
   // A type that is spelled nearly like one of the fleet: a mistake. Any other may belong to a fleet that is not here.

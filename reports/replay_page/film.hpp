@@ -28,7 +28,7 @@ struct FilmStation {
   std::int64_t x_um = 0, y_um = 0;
 };
 
-enum class BodyKind : std::uint8_t { Agv, Obstacle, Load };
+enum class BodyKind : std::uint8_t { Agv, Obstacle, Load, Computer };
 struct Body {
   std::string name;
   BodyKind kind = BodyKind::Agv;

@@ -139,7 +139,7 @@ test::Scene walk(std::uint32_t fleet, double horizon_s) {
 }
 
 LawResults __attribute__((noinline)) replay_to(Law& law, const Recording& recording) {
-  test::Teller teller(law, recording.scenario.body_count());
+  test::Teller teller(law, recording.scenario.entity_count());
   for (const Announcement& a : recording.all) a.started ? teller.begins(a.piece) : teller.ends(a.piece);
   law.finish(recording.end);
   return law.findings();

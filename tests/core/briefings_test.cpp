@@ -7,12 +7,14 @@
 namespace fleetproof::briefings_test {
 namespace {
 
+FleetSoftware software(const char* config = "") { return FleetSoftware(test::handler_agent(), config); }
+
 TEST(Briefings, HoldMapFleetAndScript) {
   Scenario scenario = test::row_scenario(3, {2, 0});
   scenario.law.safety_distance_m = 0.2;
   scenario.agvs[1].script = {{seconds(1.5), ScriptedCall::Action::Pick, SegmentId{1U}}};
   const ToldPlant plant(scenario);
-  const Briefings briefings(scenario, "config", plant);
+  const Briefings briefings(scenario, software("config"), plant);
   const fp_briefing& first = briefings.of(AgvId{0U});
   EXPECT_EQ(first.self, 0U);
   EXPECT_EQ(first.start_station, 2U);
@@ -40,7 +42,7 @@ TEST(Briefings, TheAgentsShareTheirFactsUnlessTheyMustNot) {
   Scenario scenario = test::row_scenario(3, {2, 0});
   scenario.law.safety_distance_m = 0.2;
   const ToldPlant plant(scenario);
-  const Briefings shared(scenario, "", plant), apart(scenario, "", plant, false);
+  const Briefings shared(scenario, software(), plant), apart(scenario, software(), plant, false);
   const fp_facts& facts = *shared.of(AgvId{0U}).facts;
   EXPECT_EQ(shared.of(AgvId{1U}).facts, &facts);
   EXPECT_NE(apart.of(AgvId{1U}).facts, apart.of(AgvId{0U}).facts);
@@ -60,7 +62,7 @@ TEST(Briefings, TellLimitsAndBlocksOfTheLanes) {
   Scenario scenario = test::row_scenario(3, {0});
   scenario.map = std::make_shared<const LogicalMap>(layout);
   const ToldPlant plant(scenario);
-  const Briefings briefings(scenario, "", plant);
+  const Briefings briefings(scenario, software(), plant);
   const fp_map& map = *briefings.of(AgvId{0U}).map;
   ASSERT_EQ(map.block_count, 2U);
   EXPECT_STREQ(map.blocks[0].name, "dock");
@@ -78,7 +80,7 @@ TEST(Briefings, TellLimitsAndBlocksOfTheLanes) {
 TEST(Briefings, AfterARestartTellWhereTheAgvIs) {
   const Scenario scenario = test::row_scenario(3, {0, 2});
   const ToldPlant plant(scenario);
-  Briefings briefings(scenario, "", plant);
+  Briefings briefings(scenario, software(), plant);
   const Lane *lane = scenario.map->lane(SegmentId{0U}, StationId{0U}),
              *next = scenario.map->lane(SegmentId{1U}, StationId{1U});
   briefings.renew(AgvId{0U}, 3, StationId{0U}, lane, next);
@@ -90,6 +92,33 @@ TEST(Briefings, AfterARestartTellWhereTheAgvIs) {
   EXPECT_EQ(briefings.of(AgvId{0U}).start_station, 1U);
   EXPECT_EQ(briefings.of(AgvId{0U}).start_segment, FP_NONE);
   EXPECT_EQ(briefings.of(AgvId{0U}).next_segment, FP_NONE);
+}
+
+TEST(Briefings, NameParticipantsTypesAndSegments) {
+  Scenario scenario = test::row_scenario(3, {0, 2});
+  scenario.vehicle_types[0].name = "tug";
+  scenario.computers = {{.name = "broker"}, {.name = "master", .at_m = Vec2(3.0, 4.0)}};
+  const fp_agent_type& type = test::handler_agent();
+  const ToldPlant plant(scenario);
+  const Briefings briefings(scenario, {{&type, "vehicle"}, {{&type, "first"}, {&type, "second"}}}, plant);
+  const fp_briefing& agv = briefings.of(AgvId{1U});
+  EXPECT_EQ(agv.role, static_cast<std::uint32_t>(FP_AGV));
+  EXPECT_STREQ(agv.config, "vehicle");
+  EXPECT_STREQ(agv.agv_names[1], "agv-2");
+  ASSERT_EQ(agv.vehicle_type_count, 1U);
+  EXPECT_STREQ(agv.vehicle_type_names[0], "tug");
+  EXPECT_STREQ(agv.segment_names[1], "e1");
+  ASSERT_EQ(agv.computer_count, 2U);
+  EXPECT_STREQ(agv.computers[0].name, "broker");
+  EXPECT_EQ(agv.computers[0].has_antenna, 0U);
+  EXPECT_EQ(agv.computers[1].has_antenna, 1U);
+  EXPECT_EQ(agv.computers[1].y_m, 4.0);
+  const fp_briefing& master = briefings.of(EntityId{3U});
+  EXPECT_EQ(master.self, 3U);
+  EXPECT_EQ(master.fleet_count, 2U);
+  EXPECT_EQ(master.role, static_cast<std::uint32_t>(FP_COMPUTER));
+  EXPECT_EQ(master.start_station, FP_NONE);
+  EXPECT_STREQ(master.config, "second");
 }
 
 }  // namespace

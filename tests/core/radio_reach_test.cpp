@@ -21,7 +21,7 @@ class MovingFleet {
  public:
   // `calm`: most of them stand or turn, and no way is long.
   MovingFleet(double range_m, bool calm)
-      : reach(kAgvs, range_m, {Vec2(0.0, 0.0), Vec2(80.0, 50.0)}), calm_(calm), pieces_(kAgvs) {
+      : reach(kAgvs, kAgvs, range_m, {Vec2(0.0, 0.0), Vec2(80.0, 50.0)}), calm_(calm), pieces_(kAgvs) {
     for (std::uint32_t i = 0; i < kAgvs; ++i) begin(i);
   }
 
@@ -114,7 +114,7 @@ TEST(RadioReach, FindsAllThatAreInRange) {
 
 TEST(RadioReach, IsExactAmongThoseWhoStand) {
   const Curve way = Curve::straight({12.0, 0.0}, {17.0, 0.0});
-  RadioReach reach(4, 10.0, {Vec2(0.0, 0.0), Vec2(80.0, 50.0)});
+  RadioReach reach(4, 4, 10.0, {Vec2(0.0, 0.0), Vec2(80.0, 50.0)});
   const auto rests_at = [&](std::uint32_t agv, double x_m) {
     reach.piece_begins(rest_piece(AgvId{agv}, {}, {{x_m, 0.0}, Vec2::UnitX()}, kStart));
   };

@@ -24,7 +24,7 @@ class SmallWorld {
           if (handler) handler(host, c, b, e);
         }),
         run(scenario, {}, &trace),
-        parts(run, handler_agent(), "") {
+        parts(run, FleetSoftware(handler_agent(), "")) {
     current_handler = &handler_;
   }
   ~SmallWorld() { current_handler = nullptr; }

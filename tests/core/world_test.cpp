@@ -31,7 +31,7 @@ TEST(World, HoldsEveryBodyAndItsPlace) {
   const Scenario scenario = with_obstacle();
   World world(scenario, {});
   world.continue_with(AgvId{0U}, first_drive(scenario));
-  ASSERT_EQ(world.body_count(), 3U);
+  ASSERT_EQ(world.entity_count(), 3U);
   for (std::uint32_t i = 0; i < 3; ++i) EXPECT_TRUE(world.body(EntityId{i}).on_floor);
   EXPECT_TRUE(world.body(EntityId{0U}).is_agv && world.body(EntityId{0U}).piece.manner == Manner::Drive);
   EXPECT_NEAR(world.pose_of(EntityId{0U}, at_seconds(2.0)).position_m.x(), 0.25, 1e-12)

@@ -17,6 +17,19 @@ namespace {
 const std::string kFigure4 = independent::source_file("tests/scenarios/figure4.json");
 const std::string kParked = independent::source_file("tests/scenarios/parked_then_leaves.json");
 
+void add_computers_and_faults(Scenario& s) {
+  s.faults = {{Fault::Kind::Breakdown, AgvId{1U}, Duration{11}, std::nullopt, Duration{12}, {}, 0.0, 0.0},
+              {Fault::Kind::LoadDrop, AgvId{2U}, Duration{13}, 0U, Duration{14}, {1.1, 0.7}, -2.0, 0.4}};
+  s.computers = {{.name = "broker", .clock_offset_s = 0.5, .clock_drift_ppm = -7.0},
+                 {.name = "master", .at_m = Vec2(1.5, -2.0), .agent = "planner", .agent_config = "x=1", .draws_as = 4}};
+  s.wire.delay_s = 0.02;
+  s.faults.push_back({.kind = Fault::Kind::Restart,
+                      .agv = s.first_computer(),
+                      .at = Duration{15},
+                      .transport = {},
+                      .lasts = Duration{16}});
+}
+
 // Every field different from its default.
 Scenario unusual() {
   RejectionCounts counts;
@@ -82,8 +95,7 @@ Scenario unusual() {
                       {Duration{7}, ScriptedCall::Action::Pick, SegmentId{}}};
   s.agvs[1].sensing = {0.5, -40.0, 0.01, 0.3};
   s.obstacles = {{"rack", {0.5, 3.25}, {Vec2(-30.5, 40.25), Vec2::UnitY()}, Duration{9}, Duration{10}}};
-  s.faults = {{Fault::Kind::Breakdown, AgvId{1U}, Duration{11}, std::nullopt, Duration{12}, {}, 0.0, 0.0},
-              {Fault::Kind::LoadDrop, AgvId{2U}, Duration{13}, 0U, Duration{14}, {1.1, 0.7}, -2.0, 0.4}};
+  add_computers_and_faults(s);
   s.scanner = {true, 0.1, 0.2, 3.0, 4.5};
   s.operator_help = {true, 10.0, 20.0, 0.9};
   return s;
@@ -129,6 +141,9 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.radio.sources, s.radio.sources);
   ASSERT_NE(back.radio.trace, nullptr);
   EXPECT_EQ(*back.radio.trace, *s.radio.trace);
+  EXPECT_EQ(back.computers, s.computers);
+  EXPECT_EQ(back.wire, s.wire);
+  EXPECT_EQ(back.faults.back().agv, s.first_computer());
   EXPECT_EQ(back.agent_clock.call_cost_s, s.agent_clock.call_cost_s);
   expect_same(back.law, s.law);
   ASSERT_EQ(back.vehicle_types.size(), 2U);
@@ -156,7 +171,7 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.agvs[1].draws_as, 17U);
   EXPECT_FALSE(back.agvs[0].draws_as);
   EXPECT_EQ(back.expected, s.expected);
-  ASSERT_EQ(back.faults.size(), 2U);
+  ASSERT_EQ(back.faults.size(), 3U);
   EXPECT_EQ(back.faults[0].kind, Fault::Kind::Breakdown);
   EXPECT_EQ(back.faults[1].transport, 0U);
   EXPECT_EQ(back.faults[1].load, s.faults[1].load);

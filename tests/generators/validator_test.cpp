@@ -236,6 +236,50 @@ const Plant kPlants[] = {
      [](Scenario& s) {
        s.deliveries = {{AgvId{0U}, AgvId{1U}, {}, 0, false, std::chrono::hours(2)}};
      }},
+    {"computer_without_name", ProblemKind::BadName, "/computers/0/name",
+     [](Scenario& s) { s.computers = {{.name = ""}}; }},
+    {"two_computers_of_one_name", ProblemKind::BadName, "/computers/1/name",
+     [](Scenario& s) {
+       s.computers = {{.name = "server"}, {.name = "server"}};
+     }},
+    {"computer_called_as_an_agv", ProblemKind::BadName, "/computers/0/name",
+     [](Scenario& s) { s.computers = {{.name = s.agvs[1].name}}; }},
+    {"antenna_far_out", ProblemKind::NumberOutOfRange, "/computers/0/at_m",
+     [](Scenario& s) { s.computers = {{.name = "server", .at_m = Vec2(0.0, 1e6)}}; }},
+    {"wire_delay", ProblemKind::NumberOutOfRange, "/wire/delay_s", [](Scenario& s) { s.wire.delay_s = -1.0; }},
+    {"too_many_computers", ProblemKind::NumberOutOfRange, "/computers",
+     [](Scenario& s) {
+       for (int i = 0; i < 257; ++i) s.computers.push_back({.name = "c" + std::to_string(i)});
+     }},
+    {"breakdown_of_a_computer", ProblemKind::UnknownReference, "/faults/0/kind",
+     [](Scenario& s) {
+       s.computers = {{.name = "server"}};
+       s.faults = {{.kind = Fault::Kind::Breakdown, .agv = s.first_computer(), .transport = {}}};
+     }},
+    {"fault_at_a_pick_of_a_computer", ProblemKind::UnknownReference, "/faults/0/transport",
+     [](Scenario& s) {
+       s.computers = {{.name = "server"}};
+       s.faults = {{.kind = Fault::Kind::Freeze, .agv = s.first_computer(), .transport = 0U}};
+     }},
+    {"fault_of_nobody", ProblemKind::UnknownReference, "/faults/0/agv",
+     [](Scenario& s) {
+       s.computers = {{.name = "server"}};
+       s.faults = {{.kind = Fault::Kind::Freeze, .agv = s.first_obstacle(), .transport = {}}};
+     }},
+    {"delivery_by_wire", ProblemKind::UnknownReference, "/fates/0",
+     [](Scenario& s) {
+       s.computers = {{.name = "broker"}, {.name = "master"}};
+       s.deliveries = {{.sender = s.first_computer(), .receiver = EntityId{s.agvs.size() + 1}}};
+     }},
+    {"computers_with_one_number", ProblemKind::NumberOutOfRange, "/computers/1/draws_as",
+     [](Scenario& s) {
+       s.computers = {{.name = "broker"}, {.name = "master", .draws_as = 0}};
+     }},
+    {"agv_with_the_number_of_a_computer", ProblemKind::NumberOutOfRange, "/agvs/0/draws_as",
+     [](Scenario& s) {
+       s.computers = {{.name = "server"}};
+       s.agvs[0].draws_as = 65535;
+     }},
     {"weak_core", ProblemKind::WeakCore, "/layout",
      [](Scenario& s) {
        s.map = std::make_shared<const LogicalMap>(with_layout(s, [](Layout& l) {

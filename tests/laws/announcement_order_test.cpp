@@ -13,7 +13,7 @@ std::vector<Violation> filed(const Piece& first, const Piece& second) {
   Scenario scenario;
   scenario.agvs.resize(2);
   const auto law = make_exact_law(scenario);
-  test::Teller teller(*law, scenario.body_count());
+  test::Teller teller(*law, scenario.entity_count());
   teller.begins(first);
   teller.begins(second);
   teller.ends(first);

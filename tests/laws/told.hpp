@@ -19,7 +19,7 @@ class Told {
   Told(const Scenario& scenario, std::string_view law)
       : scenario_(scenario),
         law_(find_law(law)->make(scenario)),
-        teller_(*law_, scenario.body_count()),
+        teller_(*law_, scenario.entity_count()),
         kinds_(law_->reads()) {
     for (std::size_t i = 0; i < scenario.agvs.size(); ++i)
       stand(static_cast<std::uint32_t>(i), scenario.map->station(scenario.agvs[i].start).position_m, 0.0);

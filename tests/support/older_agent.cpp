@@ -69,6 +69,13 @@ void look_at_later_members(const Agent& self, uint32_t order) {
   const fp_facts* facts = self.briefing->facts;
   if (facts == nullptr || facts->fleet_count != self.briefing->fleet_count) log(self, "facts", order);
 #endif
+#if FP_ABI_MINOR >= 4
+  if (self.host->cannot_start == nullptr) log(self, "cannot_start", order);
+#endif
+#if FP_ABI_MINOR >= 5
+  if (self.briefing->role != FP_AGV || self.briefing->computer_count != 0) log(self, "role", order);
+  if (self.briefing->agv_names[self.briefing->self][0] == 0) log(self, "name", order);
+#endif
   (void)self, (void)order;
 }
 

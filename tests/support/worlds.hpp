@@ -45,8 +45,8 @@ inline Scenario row_scenario(int stations, std::vector<std::uint32_t> starts, do
   return scenario;
 }
 
-// What a test agent does at an event; it lives in the test, which must outlive the run. One instance per AGV shares the
-// handler.
+// What a test agent does at an event; it lives in the test, which must outlive the run. One instance per participant
+// shares the handler.
 using Handler = std::function<void(const fp_host&, fp_controller*, const fp_briefing&, const fp_event&)>;
 
 // Hands every event to the handler that `current_handler` names while the run lasts. Tests run their simulations on one
@@ -64,7 +64,7 @@ inline const fp_agent_type& handler_agent() {
       sizeof(fp_agent_type),
       FP_ABI_MAJOR,
       FP_ABI_MINOR,
-      FP_DETERMINISTIC,
+      FP_DETERMINISTIC | FP_SERVES_COMPUTERS,
       "handler",
       "does what the test says",
       [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) -> void* {
@@ -78,9 +78,14 @@ inline const fp_agent_type& handler_agent() {
   return type;
 }
 
+// It serves every participant.
+inline FleetSoftware handler_software(const Scenario& scenario) {
+  return {{&handler_agent()}, std::vector<RoleSoftware>(scenario.computers.size(), RoleSoftware{&handler_agent()})};
+}
+
 inline Outcome simulate_with(const Scenario& scenario, const Handler& handler, TraceSink* sink = nullptr) {
   current_handler = &handler;
-  Outcome outcome = simulate(scenario, handler_agent(), {}, sink);
+  Outcome outcome = simulate(scenario, handler_software(scenario), {}, sink);
   current_handler = nullptr;
   return outcome;
 }

@@ -1,4 +1,4 @@
-/* fleetproof/agent.h: the contract between a simulated warehouse and the control software of an AGV.
+/* fleetproof/agent.h: the contract between a simulated warehouse and the control software of its AGVs.
  *
  * The contract is plain C, so that any language can implement it. An agent is a table of functions (fp_agent_type). The
  * engine creates one agent for each AGV and gives it a briefing about the world (fp_briefing). Then it calls the agent
@@ -51,9 +51,9 @@ extern "C" {
 #endif
 
 #define FP_ABI_MAJOR 1u
-#define FP_ABI_MINOR 4u
+#define FP_ABI_MINOR 5u
 
-#define FP_NONE 0xffffffffu /* no station, no segment, no AGV */
+#define FP_NONE 0xffffffffu /* no station, no segment, no AGV, no computer */
 #define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
 #define FP_MESSAGE_BYTES_MAX 1024u
 
@@ -65,7 +65,8 @@ typedef enum fp_result {
                        one-way, or not for this AGV; or the AGV would have to turn where it must not, or to stay with a
                        wrong heading */
   FP_INVALID = -2,  /* a wrong argument: no such segment, station, receiver, order or AGV, a null pointer, a struct that
-                       is too small, a cost that is not from 0 to 3 600 s, or a message that is too long */
+                       is too small, a cost that is not from 0 to 3 600 s, or a message that is too long; or a call
+                       that only an AGV has, from a computer */
   FP_SUSPENDED = -3 /* the agent is suspended (more calls than its limit), or not in an activation: return at once */
 } fp_result;
 
@@ -97,10 +98,22 @@ typedef struct fp_scripted_call {
 
 typedef enum fp_call { FP_CALL_MOVE = 0, FP_CALL_PICK, FP_CALL_DROP, FP_CALL_PARK, FP_CALL_CHARGE } fp_call;
 
+/* Since minor 5. The participants of a run: its AGVs, 0 .. fleet_count-1, and behind them its computers, which have no
+ * body: servers, brokers and the like. The program of a computer has inbox, clock, timers, randomness and restarts as
+ * an agent of an AGV has them. It sends to AGVs by radio and to other computers by wire, which loses nothing. Actions,
+ * perceptions of an AGV, `safe_mode` and `waiting_for` return FP_INVALID there. */
+typedef enum fp_role { FP_AGV = 0, FP_COMPUTER } fp_role;
+
+typedef struct fp_computer {
+  const char* name;
+  uint32_t has_antenna; /* 0: it is in range of every AGV */
+  double x_m, y_m;      /* of its antenna */
+} fp_computer;
+
 /* All pointers stay valid and unchanged for the life of the agent. */
 typedef struct fp_briefing {
   uint32_t struct_size;
-  uint32_t self; /* own AGV id; the fleet's ids are 0 .. fleet_count-1 */
+  uint32_t self; /* own id: of an AGV 0 .. fleet_count-1, of a computer from fleet_count on */
   uint32_t fleet_count;
   uint32_t agv_stride;
   const fp_agv* fleet;
@@ -122,6 +135,15 @@ typedef struct fp_briefing {
   uint32_t start_segment;
   uint32_t next_segment;
   const fp_facts* facts; /* since minor 3 */
+  /* Since minor 5. A computer has no start_station, no script and no segments. */
+  uint32_t role;            /* fp_role */
+  uint32_t computer_count;  /* their ids are fleet_count .. fleet_count+computer_count-1 */
+  uint32_t computer_stride; /* read `computers` by it, as the other arrays */
+  uint32_t vehicle_type_count;
+  const fp_computer* computers;
+  const char* const* agv_names;          /* fleet_count of them; names are for people */
+  const char* const* vehicle_type_names; /* by vehicle_type of fp_agv */
+  const char* const* segment_names;      /* by number of the segment */
 } fp_briefing;
 
 /* ---- events ---------------------------------------------------------------------------------------------- */
@@ -241,6 +263,8 @@ typedef struct fp_host {
 /* The agent promises: same briefing and events, same calls. If a replay differs from the run, it says whether the agent
  * has promised this. */
 #define FP_DETERMINISTIC 1u
+/* Since minor 5. The agent may be the program of a computer: it looks at `role`. Others serve AGVs only. */
+#define FP_SERVES_COMPUTERS 2u
 
 typedef struct fp_agent_type {
   uint32_t struct_size;
