@@ -4,8 +4,7 @@ namespace fleetproof {
 
 AuditCounts::AuditCounts(const CampaignPlan& plan, const AgentPrograms& programs)
     : has_audits_(plan.audit.share > 0.0) {
-  for (const AgentFactor& agent : plan.agents)
-    agents_.push_back({&programs.program(agent.program, "factors.agents"), {}});
+  for (const AgentFactor& agent : plan.agents) agents_.push_back({programs.is_plugin(agent), {}});
 }
 
 void AuditCounts::add(const AuditedRun& finding) {
@@ -15,8 +14,8 @@ void AuditCounts::add(const AuditedRun& finding) {
 }
 
 bool AuditCounts::needs_recordings(std::size_t agent) const {
-  const auto& [program, count] = agents_[agent];
-  if (!has_audits_ || !program->is_plugin()) return false;
+  const auto& [is_plugin, count] = agents_[agent];
+  if (!has_audits_ || !is_plugin) return false;
   return count.audited < kAuditsToPass || count.differing > 0;
 }
 

@@ -24,7 +24,7 @@ class AuditCounts {
 
  private:
   struct Entry {
-    const AgentProgram* program = nullptr;
+    bool is_plugin = false;
     AuditCount count;
   };
   bool has_audits_;

@@ -105,7 +105,7 @@ class CampaignPolicy final : public SessionPolicy {
 
   // What a plug-in failed in would take a worker and its limits again. A claim counts it as failing anyway.
   bool is_sampled(const RunRecord& run) const {
-    return !run.outcome.is_failure() || !programs_.is_plugin(plan_.agent_of_cell(run.run_index).program);
+    return !run.outcome.is_failure() || !programs_.is_plugin(plan_.agent_of_cell(run.run_index));
   }
 
   void count(const RunRecord& run) {
@@ -160,7 +160,7 @@ std::optional<CampaignResult> folded_before(const StoredPlan& plan, const std::s
 
 CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path,
                             const RunOptions& options, const CampaignListener& listener) {
-  for (const AgentFactor& agent : plan.agents) (void)programs.program(agent.program, "factors.agents");
+  for (const AgentFactor& agent : plan.agents) (void)programs.parts_of(agent, "factors.agents");
   const StoredPlan stored = stored_plan(plan, programs);
   if (auto result = folded_before(stored, path, options)) {
     listener.started();

@@ -36,7 +36,7 @@ void StoredSample::simulate_again(Session& session, const CampaignPlan& plan, co
                            [&](std::uint64_t place) { return session.runs()(runs_[place].first); });
   const auto compare = [&](std::uint64_t place, RunRecord run) {
     if (run.was_disturbed || run.otherwise || row_checksum(run) == runs_[place].second) return;
-    if (!programs.is_plugin(plan.agent_of_cell(run.run_index).program))
+    if (!programs.is_plugin(plan.agent_of_cell(run.run_index)))
       throw EngineError(
           fmt::format("{}: run {} is stored otherwise than this program simulates it; somebody has changed "
                       "the file, or a computer is at fault. Begin again with --overwrite",

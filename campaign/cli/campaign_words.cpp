@@ -40,25 +40,47 @@ std::string know_at(const std::string& place, const std::string& path, bool glob
 
 // Pages would speak of software that did not run.
 void require_own_name(const AgentFactor& agent, const AgentPrograms& programs, const std::string& place) {
-  if (agent.name == agent.program) return;
+  if (agent.name == name_of_parts(agent)) return;
   if (std::ranges::find(programs.all(), agent.name, &AgentProgram::name) == programs.all().end()) return;
   throw InputError(place, fmt::format("factors.agents: {} has the name of another agent, {}; give it a name of its own",
-                                      in_quotes(agent.program), in_quotes(agent.name)));
+                                      in_quotes(name_of_parts(agent)), in_quotes(agent.name)));
 }
 
-// An object that is loaded once.
-struct KnownObject {
-  std::string program;
-  bool global_symbols = false;
+// The shared objects that a campaign names, each of which is loaded once: it may stand there under several names.
+class KnownObjects {
+ public:
+  explicit KnownObjects(AgentPrograms& programs) : programs_(programs) {}
+
+  // Gives a part of an agent the name of its program. `path` is empty: it is none of a shared object.
+  void name_program(ProgramPart& part, const std::string& path, const std::string& place) {
+    if (path.empty()) return;
+    Known& object = known_[path];
+    if (object.program.empty()) object = {know_at(place, path, part.global_symbols, programs_), part.global_symbols};
+    if (object.global_symbols != part.global_symbols) {
+      throw InputError(place, fmt::format("factors.agents: {} is loaded once; give all its agents the same symbols",
+                                          in_quotes(path)));
+    }
+    part.program = object.program;
+  }
+
+ private:
+  struct Known {
+    std::string program;
+    bool global_symbols = false;
+  };
+  AgentPrograms& programs_;
+  std::map<std::string, Known> known_;  // by file
 };
 
 // The symbols that the campaign gives to the agent of this object. If its agents differ in them, the object has to say
 // which agent it is, in a process of its own.
 bool wants_global_symbols(const std::string& path, std::span<const AgentFactor> agents) {
-  if (std::ranges::none_of(agents, &AgentFactor::global_symbols)) return false;
-  if (std::ranges::all_of(agents, &AgentFactor::global_symbols)) return true;
-  const auto agent = std::ranges::find(agents, inspect_agent(path, true).name, &AgentFactor::program);
-  return agent != agents.end() && agent->global_symbols;
+  std::vector<const ProgramPart*> parts;
+  for (const AgentFactor& agent : agents) std::ranges::copy(agent.parts(), std::back_inserter(parts));
+  if (std::ranges::none_of(parts, &ProgramPart::global_symbols)) return false;
+  if (std::ranges::all_of(parts, &ProgramPart::global_symbols)) return true;
+  const auto part = std::ranges::find(parts, inspect_agent(path, true).name, &ProgramPart::program);
+  return part != parts.end() && (*part)->global_symbols;
 }
 
 // Rules for types of vehicles that are not in the fleet may be meant for another fleet. They are told first.
@@ -83,17 +105,28 @@ void warn_of_units(CampaignFile& file) {
   }
 }
 
+void require_roles(const AgentFactor& agent, const AgentPrograms& programs, const std::string& where) {
+  for (const ComputerPart& part : agent.computers) {
+    if ((programs.program(part.program, where).flags & FP_SERVES_COMPUTERS) == 0)
+      throw InputError(where, fmt::format("{} does not serve computers, so it cannot be the program of {}; choose "
+                                          "another, or set FP_SERVES_COMPUTERS in its fp_agent_type",
+                                          in_quotes(part.program), in_quotes(part.computer)));
+  }
+}
+
 // A layout of a file may be larger than an agent can tell others about. Families are never so large.
 void require_room_for_agents(const CampaignFile& file, const AgentPrograms& programs) {
   const CampaignPlan& plan = file.plan;
   for (std::size_t i = 0; i < plan.agents.size(); ++i) {
     const std::string where = file.places.of(fmt::format("factors.agents.{}", i));
-    const AgentProgram& program = programs.program(plan.agents[i].program, where + ": factors.agents");
-    for (const LayoutFactor& layout : plan.layouts) {
-      if (layout.map == nullptr) continue;
-      require_room(program, *layout.map, std::ranges::max(plan.fleet_sizes), "layout " + in_quotes(layout.name),
-                   where + ": factors.agents");
+    for (const AgentProgram* program : programs.parts_of(plan.agents[i], where + ": factors.agents")) {
+      for (const LayoutFactor& layout : plan.layouts) {
+        if (layout.map == nullptr) continue;
+        require_room(*program, *layout.map, std::ranges::max(plan.fleet_sizes), "layout " + in_quotes(layout.name),
+                     where + ": factors.agents");
+      }
     }
+    require_roles(plan.agents[i], programs, where + ": factors.agents");
   }
 }
 
@@ -119,21 +152,12 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   std::vector<AgentFactor>& agents = file.plan.agents;
   const auto place_of = [&](std::size_t agent) { return file.places.of(fmt::format("factors.agents.{}", agent)); };
   programs.limit_inspections(file.plan.limits);
-  std::map<std::string, KnownObject> known;  // by file: one object may stand there under several names
+  KnownObjects known(programs);
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    const std::string& path_of_object = file.agent_files[i];
-    if (path_of_object.empty()) continue;
-    const bool global_symbols = agents[i].global_symbols;
-    KnownObject& object = known[path_of_object];
-    if (object.program.empty())
-      object = {know_at(place_of(i), path_of_object, global_symbols, programs), global_symbols};
-    if (object.global_symbols != global_symbols) {
-      throw InputError(place_of(i),
-                       fmt::format("factors.agents: {} is loaded once; give all its agents the same symbols",
-                                   in_quotes(path_of_object)));
-    }
-    agents[i].program = object.program;
-    if (agents[i].name.empty()) agents[i].name = object.program;
+    known.name_program(agents[i], file.agent_files[i].front(), place_of(i));
+    for (std::size_t k = 0; k < agents[i].computers.size(); ++k)
+      known.name_program(agents[i].computers[k], file.agent_files[i][k + 1], place_of(i));
+    if (agents[i].name.empty()) agents[i].name = name_of_parts(agents[i]);
   }
   for (std::size_t i = 0; i < agents.size(); ++i) require_own_name(agents[i], programs, place_of(i));
   check_plan(file.plan, file.places);
@@ -141,7 +165,7 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   warn_of_idle_gates(file);
   warn_of_units(file);
   std::vector<bool> is_plugin;
-  for (const std::string& path_of_object : file.agent_files) is_plugin.push_back(!path_of_object.empty());
+  for (const AgentFactor& agent : agents) is_plugin.push_back(programs.is_plugin(agent));
   require_room_for_agents(file, programs);
   if (file.fresh_seed) file.plan.seed = fresh_seed(file.plan, programs);
   say_where_fleets_are(file.places, [&] { add_default_gates(file.plan, is_plugin); });
@@ -172,15 +196,18 @@ void meet_plugins(const std::string& archive_path, const CampaignRecord& campaig
   for (const std::string& path : named) (programs.*meet)(path, wants_global_symbols(path, agents));
   const auto& plugins = campaign.plugin_agents;
   for (const AgentFactor& agent : agents) {
-    if (std::ranges::find(plugins, agent.name) == plugins.end() || programs.is_plugin(agent.program)) continue;
-    const std::string remembered = remembered_plugin(archive_path, agent.program);
-    if (remembered.empty()) {
-      throw InputError("--plugin",
-                       fmt::format("the agent {} comes from a shared object, and no session log beside {} says where "
-                                   "it is; name its file",
-                                   in_quotes(agent.program), archive_path));
+    if (std::ranges::find(plugins, agent.name) == plugins.end()) continue;
+    for (const ProgramPart* part : agent.parts()) {
+      if (std::ranges::find(programs.all(), part->program, &AgentProgram::name) != programs.all().end()) continue;
+      const std::string remembered = remembered_plugin(archive_path, part->program);
+      if (remembered.empty()) {
+        throw InputError("--plugin",
+                         fmt::format("the agent {} comes from a shared object, and no session log beside {} says where "
+                                     "it is; name its file",
+                                     in_quotes(part->program), archive_path));
+      }
+      (programs.*meet)(remembered, part->global_symbols);
     }
-    (programs.*meet)(remembered, agent.global_symbols);
   }
 }
 
@@ -189,14 +216,15 @@ void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentF
   constexpr std::size_t kToldDigits = 12;
   std::set<std::string> told;
   for (const AgentFactor& factor : agents) {
-    if (!programs.is_plugin(factor.program) || !told.insert(factor.program).second) continue;
-    const AgentProgram& agent = programs.program(factor.program, "--plugin");
-    std::vector<std::string> stored = stored_plugins(campaign.engine, agent.name);
-    if (stored == std::vector{agent.sha256}) continue;
-    for (std::string& digest : stored) digest = digest.substr(0, kToldDigits) + "...";
-    talk("warning: {} is not the one of the campaign (stored {}, now {}...); what follows is about this one\n",
-         agent.file, stored.empty() ? "nothing" : fmt::format("{}", fmt::join(stored, " and ")),
-         agent.sha256.substr(0, kToldDigits));
+    for (const AgentProgram* part : programs.parts_of(factor, "--plugin")) {
+      if (!part->is_plugin() || !told.insert(part->name).second) continue;
+      std::vector<std::string> stored = stored_plugins(campaign.engine, part->name);
+      if (stored == std::vector{part->sha256}) continue;
+      for (std::string& digest : stored) digest = digest.substr(0, kToldDigits) + "...";
+      talk("warning: {} is not the one of the campaign (stored {}, now {}...); what follows is about this one\n",
+           part->file, stored.empty() ? "nothing" : fmt::format("{}", fmt::join(stored, " and ")),
+           part->sha256.substr(0, kToldDigits));
+    }
   }
 }
 
@@ -210,6 +238,23 @@ std::string meet_agent(const std::string& word, std::vector<std::string>& plugin
     if (is_path && path == word) name = met;
   }
   return name;
+}
+
+std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<std::string>& plugins,
+                                         AgentPrograms& programs, MeetPlugin meet) {
+  std::vector<ComputerPart> parts;
+  for (const ComputerSetup& computer : scenario.computers) {
+    if (computer.agent.empty()) continue;
+    ComputerPart& part = parts.emplace_back();
+    part.computer = computer.name;
+    part.config = computer.agent_config;
+    part.program = computer.agent;
+    if (!is_path_of_object(computer.agent)) continue;
+    const auto known = std::ranges::find(programs.all(), absolute_name(computer.agent), &AgentProgram::file);
+    part.program = known != programs.all().end() ? known->name : (programs.*meet)(computer.agent, false);
+    if (std::ranges::find(plugins, computer.agent) == plugins.end()) plugins.push_back(computer.agent);
+  }
+  return parts;
 }
 
 int worker_count(const std::optional<std::uint64_t>& jobs) {

@@ -46,6 +46,9 @@ void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentF
 // all of them are met, with RTLD_GLOBAL if they need `global_symbols`. Throws what `meet` throws.
 std::string meet_agent(const std::string& word, std::vector<std::string>& plugins, AgentPrograms& programs,
                        MeetPlugin meet, bool global_symbols = false);
+// The programs that a scenario file names for its computers, met as meet_agent does. Those without one are left out.
+std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<std::string>& plugins,
+                                         AgentPrograms& programs, MeetPlugin meet);
 
 // The number that --jobs asks for; without it, one worker for each core. Throws InputError.
 int worker_count(const std::optional<std::uint64_t>& jobs);

@@ -59,6 +59,7 @@ CaseSource of_file(const CaseWords& words, AgentPrograms& programs) {
   source.agent.program = meet_agent(named, plugins, programs, &AgentPrograms::know);
   source.agent.config = words.config.empty() ? source.scenario.agent_config : words.config;
   source.agent.laws_left_out = source.scenario.law.leave_out;
+  source.agent.computers = computer_parts(source.scenario, plugins, programs, &AgentPrograms::know);
   if (source.agent.program.empty())
     throw InputError("--agent", "neither the scenario file nor the command line names an agent; name one");
   return source;
@@ -101,12 +102,17 @@ CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
   source.scenario.expected = {};
   const bool names_agent = is_run || words.agent.empty();  // the file, not the command line
   const std::string where = names_agent ? words.source + ": /agent" : "--agent";
-  const AgentProgram& agent = programs.program(source.agent.program, where);
-  require_room(agent, *source.scenario.map, source.scenario.agvs.size(), "the scenario", where);
-  if (agent.is_plugin()) source.plugin = " --plugin " + shell_word(agent.file);
-  source.identity = fmt::format("{:016x} {} {} {}", scenario_digest(source.scenario), agent.name,
-                                agent.is_plugin() ? agent.sha256 : "built in", engine_identity().program_sha256);
-  source.identity += fmt::format(" {:016x}", name_hash(source.agent.config));
+  const AgentFactor agent = factor_of(source.agent);
+  source.identity = fmt::format("{:016x} {}", scenario_digest(source.scenario), engine_identity().program_sha256);
+  for (const AgentProgram* part : programs.parts_of(agent, where)) {
+    require_room(*part, *source.scenario.map, source.scenario.agvs.size(), "the scenario", where);
+    source.identity += fmt::format(" {} {}", part->name, part->is_plugin() ? part->sha256 : "built in");
+  }
+  for (const std::string& file : programs.objects_of(agent)) source.plugin += " --plugin " + shell_word(file);
+  for (const ProgramPart* part : agent.parts()) {
+    const std::string& config = part->config ? *part->config : source.agent.config;
+    source.identity += fmt::format(" {:016x}", name_hash(config));
+  }
   return source;
 }
 

@@ -155,10 +155,14 @@ class RunsToReplay {
 
  private:
   std::string plugin_of(const AgentFactor& agent) const {
+    std::string words;
     for (const KeptFile& plugin : words_.plugins) {
-      if (plugin.what == plugin_title(agent.program) && !plugin.name.empty()) return " --plugin " + plugin.name;
+      const bool is_part = std::ranges::any_of(agent.parts(), [&](const ProgramPart* part) {
+        return plugin.what == plugin_title(part->program) && !plugin.name.empty();
+      });
+      if (is_part) words += " --plugin " + plugin.name;
     }
-    return {};
+    return words;
   }
 
   const CampaignPlan& plan_;
@@ -208,8 +212,10 @@ KeptFile keep_plugin(EvidenceFolder& folder, const ReportInput& input, const std
 std::vector<KeptFile> keep_plugins(EvidenceFolder& folder, const ReportInput& input, const CampaignPlan& plan) {
   std::set<std::string> programs;
   for (const AgentFactor& agent : plan.agents) {
-    if (std::ranges::find(input.campaign.plugin_agents, agent.name) != input.campaign.plugin_agents.end())
-      programs.insert(agent.program);
+    if (std::ranges::find(input.campaign.plugin_agents, agent.name) == input.campaign.plugin_agents.end()) continue;
+    for (const ProgramPart* part : agent.parts()) {
+      if (!stored_plugins(input.campaign.engine, part->program).empty()) programs.insert(part->program);
+    }
   }
   std::vector<KeptFile> kept;
   for (const std::string& program : programs) kept.push_back(keep_plugin(folder, input, program, kept.size() + 1));

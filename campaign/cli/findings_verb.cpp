@@ -189,25 +189,26 @@ class FindingsOfCampaign {
     };
     write_all(record.kept.other_worlds, "world", 2, kept.other_worlds);
     write_all(record.kept.runs, "run", 1, kept.whole.files);
-    write_beside(id + ".md", OutputKind::Explanation, explanation_text(kept, record.explanation, agent.program));
+    write_beside(id + ".md", OutputKind::Explanation, explanation_text(kept, record.explanation, agent));
     return kept;
   }
 
   // " --plugin FILE", from the folder of the findings file, in which the commands are called.
-  std::string plugin_words(const std::string& program) const {
-    const AgentProgram& agent = programs_.program(program, "findings");
-    if (!agent.is_plugin()) return "";
-    const auto folder = std::filesystem::path(absolute_name(file_.path_beside("."))).lexically_normal();
-    const auto file = std::filesystem::path(agent.file).lexically_normal();
-    return " --plugin " + shell_word(file.lexically_proximate(folder).string());
+  std::string plugin_words(const AgentFactor& agent) const {
+    std::string words;
+    for (const std::string& path : programs_.objects_of(agent)) {
+      const auto folder = std::filesystem::path(absolute_name(file_.path_beside("."))).lexically_normal();
+      const auto file = std::filesystem::path(path).lexically_normal();
+      words += " --plugin " + shell_word(file.lexically_proximate(folder).string());
+    }
+    return words;
   }
 
-  std::string explanation_text(const KnownIssue& kept, const Explanation& explanation,
-                               const std::string& program) const {
+  std::string explanation_text(const KnownIssue& kept, const Explanation& explanation, const AgentFactor& agent) const {
     std::string text = fmt::format("# {}: {}\n\n", kept.id, printable(kept.mechanism));
     for (const std::string& sentence : sentences_of(explanation)) text += fmt::format("- {}\n", printable(sentence));
     return text + fmt::format("\n`fleetproof explain {}{} --max-trials {} --runs DIR` writes the runs in brackets.\n",
-                              kept.world, plugin_words(program), trials());
+                              kept.world, plugin_words(agent), trials());
   }
 
   FurtherFailures worlds_of(const Finding& finding) const {

@@ -81,8 +81,8 @@ Resimulate isolated_simulation(const CampaignPlan& plan, const AgentPrograms& pr
   };
 }
 
-void tell_other_software(const ArchiveReader& archive, const AgentProgram& agent) {
-  const std::string difference = software_difference(archive.campaign().engine, agent);
+void tell_other_software(const ArchiveReader& archive, const AgentFactor& agent, const AgentPrograms& programs) {
+  const std::string difference = software_difference(archive.campaign().engine, programs.parts_of(agent, "replay"));
   if (!difference.empty()) put("  note: {}\n", difference);
 }
 
@@ -186,7 +186,7 @@ int replay_run(const ReplayVerbWords& words) {
     print_text(result, cell, scenario);
     tell_printed(printed);
     if (result.verdict == ReplayVerdict::Reproduced && !result.from_recording)
-      tell_other_software(archive, programs.program(agent.program, "replay"));
+      tell_other_software(archive, agent, programs);
   }
   switch (result.verdict) {
     case ReplayVerdict::Reproduced:

@@ -217,11 +217,9 @@ std::string expectation_text(const ExpectedOutcome& expected, const ExpectedOutc
 }
 
 // What a saved case does now: the failure for which it was saved, if it still has that one, although another may lead.
-ExpectedOutcome found_now(const SimulateWords& words, const Scenario& scenario, const fp_agent_type& agent,
-                          const RunWatch& watch) {
+ExpectedOutcome found_now(const Scenario& scenario, const FleetSoftware& software, const RunWatch& watch) {
   const auto found_for = [&](FailureChoice choice, Outcome& outcome) {
-    const CaseRun run =
-        run_case(scenario, agent, words.config, scenario.law.leave_out, Deliveries::Ignored, watch, choice);
+    const CaseRun run = run_case(scenario, software, scenario.law.leave_out, Deliveries::Ignored, watch, choice);
     outcome = run.outcome;
     return expectation_of(run);
   };
@@ -239,10 +237,10 @@ ExpectedOutcome found_now(const SimulateWords& words, const Scenario& scenario, 
 // The run is simulated once before its trace is printed, so that lines about the safety distance stand where they
 // belong. In a debugger, a plug-in runs once.
 std::vector<Violation> violations_before(const SimulateWords& words, const Scenario& scenario,
-                                         const fp_agent_type& agent, const RunWatch& watch) {
+                                         const FleetSoftware& software, const RunWatch& watch) {
   if (!words.observed.trace.wanted() || words.in_process) return {};
   const Observers observers = observers_of(words.law, scenario);
-  return simulate(scenario, agent, observers.laws, nullptr, words.config.c_str(), watch).violations;
+  return simulate(scenario, software, observers.laws, nullptr, watch).violations;
 }
 
 // A plug-in runs in a worker process first: where it crashes or hangs there, it is not called here.
@@ -250,8 +248,10 @@ std::vector<KnownEnd> ends_of_plugin(SimulateWords words, const Scenario& scenar
   if (words.in_process) return {};
   AgentPrograms known;
   words.agent = meet_agent(words.agent, words.plugins, known, &AgentPrograms::know, words.global_symbols);
-  known.program(words.agent, words.agent_place);
-  return known_ends(scenario, {words.agent, words.config, scenario.law.leave_out}, known);
+  CaseAgent agent{words.agent, words.config, scenario.law.leave_out};
+  agent.computers = computer_parts(scenario, words.plugins, known, &AgentPrograms::know);
+  (void)known.parts_of(factor_of(agent), words.agent_place);
+  return known_ends(scenario, agent, known);
 }
 
 std::uint32_t draw_number(std::uint64_t number, const char* option) {
@@ -307,20 +307,21 @@ int simulate_scenario(SimulateWords words) {
   RunWatch watch;
   watch.known_ends = ends;
   watch.abandon = &limit.over();
-  const fp_agent_type& agent = programs.find(words.agent, words.agent_place);
-  const AgentProgram& program = programs.program(words.agent, words.agent_place);
-  require_room(program, *scenario.map, scenario.agvs.size(), "the scenario", words.agent_place);
-  watch.foreign = program.handles.get();
+  AgentFactor agent(words.agent);
+  agent.computers = computer_parts(scenario, words.plugins, programs, &AgentPrograms::load);
+  for (const AgentProgram* part : programs.parts_of(agent, words.agent_place))
+    require_room(*part, *scenario.map, scenario.agvs.size(), "the scenario", words.agent_place);
+  const FleetSoftware software = programs.software(agent, words.config, scenario);
+  watch.foreign = programs.handles_of(agent);
   const Observers observers = observers_of(words.law, scenario);
   std::optional<RunObservers> observed;
   if (words.observed.wanted())
-    observed.emplace(words.observed, scenario, violations_before(words, scenario, agent, watch), page_words(words));
+    observed.emplace(words.observed, scenario, violations_before(words, scenario, software, watch), page_words(words));
   if (words.observed.trace.wanted()) progress.reset();  // the trace itself shows how far it is
-  const Outcome outcome =
-      simulate(scenario, agent, observers.laws, observed ? &*observed : nullptr, words.config.c_str(), watch);
+  const Outcome outcome = simulate(scenario, software, observers.laws, observed ? &*observed : nullptr, watch);
   if (observed) observed->finish(outcome);
   const bool is_saved_case = scenario.expected != ExpectedOutcome{};
-  const ExpectedOutcome found = is_saved_case ? found_now(words, scenario, agent, watch) : ExpectedOutcome{};
+  const ExpectedOutcome found = is_saved_case ? found_now(scenario, software, watch) : ExpectedOutcome{};
   progress.reset();
   if (words.json) {
     print_json(scenario, outcome, words, observers, found);

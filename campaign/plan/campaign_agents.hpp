@@ -12,11 +12,16 @@ namespace fleetproof {
 // Whether a word where an agent is named is the path of a shared object.
 bool is_path_of_object(std::string_view word);
 
+// The paths of the shared objects of an agent, beside the campaign file, in the order of its parts: on board first.
+// Empty: a reference agent.
+using AgentFiles = std::vector<std::string>;
+
 // Reads factors.agents: "hull-lock", "my.so", { file = "my.so", name = "candidate", config = "patience=3" }, or
-// { agent = "hull-lock", ... }, with role = "candidate" or "reference". `files` gets the path of the shared object of
-// each agent, beside the campaign file; empty for a reference agent. An agent of a shared object has no program yet:
-// the object has to be asked. Throws InputError.
+// { agent = "hull-lock", ... }, with role = "candidate" or "reference". Central fleet software names a part for the
+// vehicles and one for each computer: { vehicle = "follower", computer = "zone-server" }, or computers = { broker =
+// ..., master = ... }; each part is a word or a table as above. A part of a shared object has no program yet: the
+// object has to be asked. The only computer of a campaign needs no name here. Throws InputError.
 void read_agents(TomlTable& factors, std::string_view key, const std::string& campaign_path,
-                 std::vector<AgentFactor>& agents, std::vector<std::string>& files);
+                 std::vector<AgentFactor>& agents, std::vector<AgentFiles>& files);
 
 }  // namespace fleetproof

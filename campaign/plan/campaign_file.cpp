@@ -17,6 +17,27 @@
 namespace fleetproof {
 namespace {
 
+constexpr const char* kOnlyComputer = "server";
+
+// An agent that names no computer has a program for the only one. A campaign that lists none has those that its agents
+// name.
+void name_computers(CampaignPlan& plan) {
+  const bool are_listed = !plan.computers.empty();
+  for (AgentFactor& agent : plan.agents) {
+    for (ComputerPart& part : agent.computers) {
+      if (part.computer.empty()) part.computer = plan.computers.size() == 1 ? plan.computers[0].name : kOnlyComputer;
+      const bool is_known =
+          std::ranges::find(plan.computers, part.computer, &ComputerSetup::name) != plan.computers.end();
+      if (!is_known && !are_listed) plan.computers.push_back({.name = part.computer});
+    }
+  }
+}
+
+// A region speaks of loss and delay. A gate that names them itself is not cut by a region that nobody wrote.
+bool names_radio(const CellFilter& filter) {
+  return filter.factors[Factor::Loss].has_value() || filter.factors[Factor::Delay].has_value();
+}
+
 // Reads a plan by its list of fields. Bounds are checked here, at the place of the value. check_plan() checks the rules
 // between fields.
 class CampaignReader {
@@ -29,6 +50,7 @@ class CampaignReader {
     root.finish();
     refuse_unheard(purposes_);
     std::ranges::sort(file_.plan.held_streams);
+    name_computers(file_.plan);
   }
 
  private:
@@ -92,6 +114,20 @@ class CampaignReader {
     }
   }
 
+  void member(TomlTable& root, const Field& field, std::vector<ComputerSetup>& computers) {
+    for (TomlTable& table : root.tables(field.key)) {
+      fields(table, computers.emplace_back());
+      table.finish();
+    }
+  }
+  void member(TomlTable& table, const Field& field, std::optional<Vec2>& place_m) {
+    const auto numbers = table.array(field.key);
+    if (!numbers) return;
+    if (numbers->size() != 2) throw InputError(table.place(field.key), "a place is [x, y] in metres");
+    place_m.emplace();
+    for (const Eigen::Index i : {0, 1}) take_given(field, (*numbers)[static_cast<std::size_t>(i)], (*place_m)[i]);
+  }
+
   void member(TomlTable& root, const Field& field, std::vector<GateRecord>& gates) {
     for (TomlTable& table : root.tables(field.key)) {
       GateRecord& gate = gates.emplace_back();
@@ -105,11 +141,6 @@ class CampaignReader {
       table.finish();
     }
   }
-  // A region speaks of loss and delay. A gate that names them itself is not cut by a region that nobody wrote.
-  static bool names_radio(const CellFilter& filter) {
-    return filter.factors[Factor::Loss].has_value() || filter.factors[Factor::Delay].has_value();
-  }
-
   template <OptionalPlain Maybe>
   void member(TomlTable& table, const Field& field, Maybe& target) {
     const auto given = table.given(field.key);

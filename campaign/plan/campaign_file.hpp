@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "campaign/plan/campaign_agents.hpp"
 #include "campaign/plan/plan.hpp"
 #include "campaign/plan/plan_places.hpp"
 
@@ -12,9 +13,9 @@ namespace fleetproof {
 // A campaign file: its plan, and what does not belong into the plan.
 struct CampaignFile {
   CampaignPlan plan;
-  std::vector<std::string> agent_files;  // by agent of the plan: the path of its shared object; empty: it has none
-  std::vector<std::string> warnings;     // what the campaign cannot do, or does otherwise than its author may expect
-  std::vector<std::string> notes;        // what the readers of its layouts left out, guessed or changed
+  std::vector<AgentFiles> agent_files;  // by agent of the plan
+  std::vector<std::string> warnings;    // what the campaign cannot do, or does otherwise than its author may expect
+  std::vector<std::string> notes;       // what the readers of its layouts left out, guessed or changed
   PlanPlaces places;
   bool fresh_seed = false;  // seed = "fresh": the seed follows from release and plan (campaign/run/release.hpp)
 };

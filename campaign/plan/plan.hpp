@@ -53,18 +53,39 @@ constexpr const char* name_of(AgentRole role) {
   return kNoWord;
 }
 
-// An agent of the campaign. One program may stand there several times, with other parameters and names.
-struct AgentFactor {
-  std::string name;                   // what cells, gates and reports call it; each name stands once
+// A program of control software where it runs: on board of the AGVs, or on one computer.
+struct ProgramPart {
   std::string program;                // the name that the control software gives itself
   std::optional<std::string> config;  // its own parameters; none: those of the campaign
   bool global_symbols = false;        // its shared object is loaded with RTLD_GLOBAL
+
+  friend bool operator==(const ProgramPart&, const ProgramPart&) = default;
+};
+struct ComputerPart : ProgramPart {
+  std::string computer;  // the name of the computer
+
+  friend bool operator==(const ComputerPart&, const ComputerPart&) = default;
+};
+
+// An agent of the campaign: a program on board of the AGVs, and, of central fleet software, one on each computer that
+// it needs. One program may stand there several times, with other parameters and names.
+struct AgentFactor : ProgramPart {
+  std::string name;  // what cells, gates and reports call it; each name stands once
   AgentRole role = AgentRole::ByOrigin;
+  std::vector<ComputerPart> computers;
 
   AgentFactor() = default;
-  AgentFactor(const char* program_name) : name(program_name), program(program_name) {}         // implicit: a word
-  AgentFactor(const std::string& program_name) : name(program_name), program(program_name) {}  // implicit: a word
-  bool is_word() const { return name == program && !config && !global_symbols && role == AgentRole::ByOrigin; }
+  AgentFactor(const std::string& program_name) : name(program_name) { program = program_name; }  // implicit: a word
+  AgentFactor(const char* program_name) : AgentFactor(std::string(program_name)) {}              // implicit: a word
+  bool is_word() const {
+    return name == program && !config && !global_symbols && role == AgentRole::ByOrigin && computers.empty();
+  }
+  // On board first.
+  std::vector<const ProgramPart*> parts() const {
+    std::vector<const ProgramPart*> all{this};
+    for (const ComputerPart& part : computers) all.push_back(&part);
+    return all;
+  }
   friend bool operator==(const AgentFactor&, const AgentFactor&) = default;
 };
 
@@ -121,6 +142,8 @@ struct CampaignPlan {
   Placement placement = Placement::Random;
   std::shared_ptr<const OrderList> orders;  // instead of drawn transports; null: none
   std::vector<VehicleShare> vehicles{VehicleShare{}};
+  std::vector<ComputerSetup> computers;  // a world has those that its agent has programs for
+  WireSetup wire;
   FaultRates faults;
   ScannerSetup scanner;
   OperatorSetup operator_help;
@@ -139,7 +162,7 @@ struct CampaignPlan {
   std::vector<GateRecord> gates;
   bool default_gates = true;  // a claim without gates gets those of default_gates.hpp
 
-  const std::string& config_of(const AgentFactor& agent) const { return agent.config ? *agent.config : agent_config; }
+  const std::string& config_of(const ProgramPart& part) const { return part.config ? *part.config : agent_config; }
   // Of a cell, or of a run.
   const AgentFactor& agent_of_cell(std::uint64_t cell) const { return agents[agent_of_run(cell, agents.size())]; }
   std::vector<std::string> agent_names() const;

@@ -261,6 +261,33 @@ void check_vehicles(const CampaignPlan& plan, const PlanPlaces& places) {
   }
 }
 
+void check_computers(const CampaignPlan& plan, const PlanPlaces& places) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < plan.computers.size(); ++i) {
+    const std::string& name = plan.computers[i].name;
+    const char* fault = fault_of_name(name);
+    demand(fault == nullptr, places, fmt::format("computers.{}.name", i).c_str(),
+           fmt::format("computers.name: {} is refused: {}", in_quotes(name), fault == nullptr ? "" : fault));
+    names.push_back(name);
+  }
+  demand(!has_duplicates(names), places, "computers", "two computers have one name; give each its own");
+  demand(names.size() <= kMostComputers, places, "computers",
+         fmt::format("{} computers are too many; use at most {}", names.size(), kMostComputers));
+  for (std::size_t i = 0; i < plan.agents.size(); ++i) {
+    std::vector<std::string> own;
+    for (const ComputerPart& part : plan.agents[i].computers) {
+      demand(std::ranges::find(names, part.computer) != names.end(), places,
+             fmt::format("factors.agents.{}", i).c_str(),
+             fmt::format("factors.agents: {} has a program for {}, which is no computer of this campaign{}",
+                         in_quotes(plan.agents[i].name), in_quotes(part.computer),
+                         name_hint(part.computer, std::vector<std::string_view>(names.begin(), names.end()))));
+      own.push_back(part.computer);
+    }
+    demand(!has_duplicates(own), places, fmt::format("factors.agents.{}", i).c_str(),
+           fmt::format("factors.agents: {} has two programs for one computer", in_quotes(plan.agents[i].name)));
+  }
+}
+
 void check_laws_and_coverage(const CampaignPlan& plan, const PlanPlaces& places) {
   for (const std::string& name : plan.laws_left_out) {
     const std::string why_not = why_not_left_out(name);
@@ -302,6 +329,7 @@ void check_plan(const CampaignPlan& plan, const PlanPlaces& places) {
   PlanBounds(places).fields("", plan);
   check_names(plan, places);
   check_vehicles(plan, places);
+  check_computers(plan, places);
   check_factors(plan, places);
   check_sampling(plan, places);
   check_held(plan, places);

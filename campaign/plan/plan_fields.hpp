@@ -178,13 +178,28 @@ void visit_fields(Audit& audit, Visit&& visit) {
         share);
 }
 
+template <class Plan, class Visit>
+void visit_participants(Plan& plan, Visit&& visit) {
+  visit(Field{.key = "vehicle", .text = "the fleet; several [[vehicle]] mix it", .lenient = kIsTable}, plan.vehicles);
+  visit(Field{.key = "computers",
+              .text = "servers, brokers and the like, for agents that have programs for them; several [[computers]]",
+              .lenient = kIsTable,
+              .left_out = plan.computers.empty()},
+        plan.computers);
+  visit(Field{.key = "wire",
+              .text = "what connects the computers with each other",
+              .lenient = kIsTable,
+              .left_out = plan.wire == WireSetup{}},
+        plan.wire);
+}
+
 template <FieldsOf<CampaignPlan> Plan, class Visit>
 void visit_fields(Plan& plan, Visit&& visit) {
   [[maybe_unused]] auto& [name, kind, seed, replicates, horizon_s, stuck_after_s, agents, agent_config, factors,
                           sampling, layouts, fleet_sizes, held_streams, held_replicate, demand, placement, orders,
-                          vehicles, faults, scanner, operator_help, radio, sources, constant_delay_share, agent_clock,
-                          law, laws_left_out, required_probes, contact_stops, limits, audit, keep, gates,
-                          default_gates] = plan;
+                          vehicles, computers, wire, faults, scanner, operator_help, radio, sources,
+                          constant_delay_share, agent_clock, law, laws_left_out, required_probes, contact_stops, limits,
+                          audit, keep, gates, default_gates] = plan;
   visit(Field{.key = "name", .text = "name of the campaign; left out: that of the file", .lenient = kIsName}, name);
   visit(Field{.key = "kind",
               .text = "claim: rates and bounds; search: counts only",
@@ -220,7 +235,7 @@ void visit_fields(Plan& plan, Visit&& visit) {
                       .lenient = Lenient::up(Weight::Load)},
                 plan.orders);
         }});
-  visit(Field{.key = "vehicle", .text = "the fleet; several [[vehicle]] mix it", .lenient = kIsTable}, vehicles);
+  visit_participants(plan, visit);
   visit(Field{.key = "faults", .text = "how often things go wrong", .lenient = kIsTable}, faults);
   visit(Field{.key = "scanner", .text = "the laser scanners; the table switches them on", .lenient = kIsTable},
         scanner);

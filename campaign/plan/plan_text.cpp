@@ -42,17 +42,31 @@ Json agent_json(const AgentFactor& agent) {
   if (agent.config) json["config"] = *agent.config;
   if (agent.global_symbols) json["symbols"] = "global";
   if (agent.role != AgentRole::ByOrigin) json["role"] = name_of(agent.role);
+  for (const ComputerPart& part : agent.computers) {
+    Json& of_computer = json["computers"][part.computer] = {{"program", part.program}};
+    if (part.config) of_computer["config"] = *part.config;
+    if (part.global_symbols) of_computer["symbols"] = "global";
+  }
   return json;
+}
+
+void read_part(const Json& json, ProgramPart& part) {
+  part.program = json.at("program");
+  if (json.contains("config")) part.config = json.at("config").get<std::string>();
+  part.global_symbols = json.value("symbols", "local") == "global";
 }
 
 AgentFactor agent_from(const Json& json) {
   if (json.is_string()) return json.get<std::string>();
   AgentFactor agent;
   agent.name = json.at("name");
-  agent.program = json.at("program");
-  if (json.contains("config")) agent.config = json.at("config").get<std::string>();
-  agent.global_symbols = json.value("symbols", "local") == "global";
+  read_part(json, agent);
   if (json.contains("role")) agent.role = value_of<AgentRole>(json.at("role").get<std::string>()).value();
+  if (!json.contains("computers")) return agent;
+  for (const auto& [computer, part] : json.at("computers").items()) {
+    read_part(part, agent.computers.emplace_back());
+    agent.computers.back().computer = computer;
+  }
   return agent;
 }
 
@@ -91,7 +105,8 @@ class PlanWriter {
   static bool is_left_out(const Field& field) {
     return field.left_out &&
            (field.key == kKeep.key || field.key == kCentreAhead.key || field.key == kReverseSpeed.key ||
-            field.key == kClocksAgree.key || field.key == kConstantDelayShare.key);
+            field.key == kClocksAgree.key || field.key == kConstantDelayShare.key || field.key == "computers" ||
+            field.key == "wire" || field.key == "at_m");
   }
   template <class Value>
   static bool is_absent(const Value&) {
@@ -129,6 +144,7 @@ class PlanWriter {
   Json json(const FactorSpan& span) const {
     return span.is_drawn() ? Json{{"from", span.from}, {"to", span.to}} : Json(span.from);
   }
+  Json json(const std::optional<Vec2>& place_m) const { return {place_m->x(), place_m->y()}; }
   Json json(const AgentFactor& agent) const { return agent_json(agent); }
   Json json(const LayoutFactor& layout) const { return layout_json(layout); }
   Json json(const ExemptPair& pair) const { return Json::array({pair.one, pair.other}); }
@@ -220,6 +236,9 @@ class PlanReader {
       value(field, json.at("from"), target.from);
       value(field, json.at("to"), target.to);
     }
+  }
+  void value(const Field&, const Json& json, std::optional<Vec2>& target) const {
+    target.emplace(json.at(0).get<double>(), json.at(1).get<double>());
   }
   void value(const Field&, const Json& json, AgentFactor& target) const { target = agent_from(json); }
   void value(const Field&, const Json& json, LayoutFactor& target) const { target = layout_from(json); }

@@ -70,6 +70,18 @@ Scenario ScenarioSource::world(std::uint64_t run_index, RejectionCounts& rejecte
   return generate_world(spec, world_seed(plan_.seed, replicate, factors), rejected);
 }
 
+// Those for which the agent has programs. Each draws under its place in the plan, whatever other agents need.
+void ScenarioSource::add_computers(Scenario& scenario, const AgentFactor& agent) const {
+  if (agent.computers.empty()) return;
+  scenario.wire = plan_.wire;
+  for (std::uint32_t i = 0; i < plan_.computers.size(); ++i) {
+    const std::string& name = plan_.computers[i].name;
+    if (std::ranges::find(agent.computers, name, &ComputerPart::computer) == agent.computers.end()) continue;
+    ComputerSetup& computer = scenario.computers.emplace_back(plan_.computers[i]);
+    if (i + 1 != scenario.computers.size()) computer.draws_as = i;
+  }
+}
+
 Scenario ScenarioSource::in_world(const Scenario& world, std::uint64_t run_index) const {
   Scenario scenario = world;
   // without characters that a scenario file refuses
@@ -78,6 +90,7 @@ Scenario ScenarioSource::in_world(const Scenario& world, std::uint64_t run_index
   scenario.radio.sources = draw_radio_sources(plan_.sources, scenario.map->layout(), scenario.seed_of(Stream::Radio));
   if (draws_constant_delay(plan_.constant_delay_share, scenario.seed_of(Stream::Radio)))
     scenario.radio.delay_model = RadioSetup::DelayModel::Constant;
+  add_computers(scenario, plan_.agent_of_cell(run_index));
   scenario.agent_clock = plan_.agent_clock;
   scenario.scanner = plan_.scanner;
   scenario.operator_help = plan_.operator_help;

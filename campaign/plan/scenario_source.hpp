@@ -31,6 +31,8 @@ class ScenarioSource {
   Scenario in_world(const Scenario& world, std::uint64_t run_index) const;
 
  private:
+  void add_computers(Scenario& scenario, const AgentFactor& agent) const;
+
   const CampaignPlan& plan_;
   std::vector<CellRecord> cells_;
   UnitSample sample_;

@@ -64,6 +64,15 @@ void require_room(const AgentProgram& program, const LogicalMap& map, std::size_
   }
 }
 
+std::string name_of_parts(const AgentFactor& agent) {
+  std::vector<std::string> names;
+  for (const ComputerPart& part : agent.computers) {
+    if (std::ranges::find(names, part.program) == names.end()) names.push_back(part.program);
+  }
+  if (std::ranges::find(names, agent.program) == names.end()) names.push_back(agent.program);
+  return fmt::format("{}", fmt::join(names, "+"));
+}
+
 AgentPrograms::AgentPrograms() {
   for (std::uint32_t i = 0; const fp_agent_type* agent = fp_reference_agent(i); ++i) {
     programs_.push_back(program_of(*agent));
@@ -141,9 +150,61 @@ const fp_agent_type& AgentPrograms::find(std::string_view name, std::string_view
   return *found.type;
 }
 
-bool AgentPrograms::is_plugin(std::string_view name) const {
-  const auto found = std::ranges::find(programs_, name, &AgentProgram::name);
-  return found != programs_.end() && found->is_plugin();
+bool AgentPrograms::is_plugin(const AgentFactor& agent) const {
+  return std::ranges::any_of(agent.parts(), [&](const ProgramPart* part) {
+    const auto found = std::ranges::find(programs_, part->program, &AgentProgram::name);
+    return found != programs_.end() && found->is_plugin();
+  });
+}
+
+std::vector<const AgentProgram*> AgentPrograms::parts_of(const AgentFactor& agent, std::string_view where) const {
+  std::vector<const AgentProgram*> programs;
+  for (const ProgramPart* part : agent.parts()) programs.push_back(&program(part->program, where));
+  return programs;
+}
+
+std::vector<std::string> AgentPrograms::objects_of(const AgentFactor& agent) const {
+  std::vector<std::string> files;
+  for (const AgentProgram* part : parts_of(agent, "agent")) {
+    if (part->is_plugin() && std::ranges::find(files, part->file) == files.end()) files.push_back(part->file);
+  }
+  return files;
+}
+
+bool AgentPrograms::is_deterministic(const AgentFactor& agent) const {
+  return std::ranges::all_of(parts_of(agent, "agent"),
+                             [](const AgentProgram* part) { return (part->flags & FP_DETERMINISTIC) != 0; });
+}
+
+ForeignHandles* AgentPrograms::handles_of(const AgentFactor& agent) const {
+  for (const AgentProgram* part : parts_of(agent, "agent")) {
+    if (part->handles != nullptr) return part->handles.get();
+  }
+  return nullptr;
+}
+
+bool AgentPrograms::changed_processor(const AgentFactor& agent) const {
+  return std::ranges::any_of(parts_of(agent, "agent"), [](const AgentProgram* part) {
+    return part->handles != nullptr && part->handles->changed_processor();
+  });
+}
+
+FleetSoftware AgentPrograms::software(const AgentFactor& agent, const std::string& config,
+                                      const Scenario& scenario) const {
+  const auto role = [&](const ProgramPart& part) {
+    return RoleSoftware{&find(part.program, "agent"), (part.config ? *part.config : config).c_str()};
+  };
+  std::vector<RoleSoftware> computers;
+  for (const ComputerSetup& computer : scenario.computers) {
+    const auto part = std::ranges::find(agent.computers, computer.name, &ComputerPart::computer);
+    if (part == agent.computers.end())
+      throw InputError(agent.name.empty() ? agent.program : agent.name,
+                       fmt::format("has no program for the computer {}; name one", in_quotes(computer.name)));
+    computers.push_back(role(*part));
+  }
+  FleetSoftware software(role(agent), std::move(computers));
+  check_roles(scenario, software);
+  return software;
 }
 
 std::vector<std::string> AgentPrograms::plugin_identities() const {

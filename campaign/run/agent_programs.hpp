@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "campaign/plan/plan.hpp"
+#include "core/engine/fleet_software.hpp"
 #include "core/engine/foreign_calls.hpp"
 #include "core/scenario/layout.hpp"
 #include "core/sdk/fleetproof/agent.h"
@@ -32,6 +33,9 @@ struct AgentProgram {
 // errors say it: "layout \"hall\"".
 void require_room(const AgentProgram& program, const LogicalMap& map, std::size_t agvs, std::string_view place,
                   const std::string& where);
+
+// The name of an agent that has none of its own: its programs, those on computers first.
+std::string name_of_parts(const AgentFactor& agent);
 
 // The reference agents, and the shared objects that a campaign names. The object owns the loaded shared objects.
 class AgentPrograms {
@@ -58,7 +62,22 @@ class AgentPrograms {
   // The same. Requires: the agent is loaded into this process.
   const fp_agent_type& find(std::string_view name, std::string_view where) const;
   const std::deque<AgentProgram>& all() const { return programs_; }
-  bool is_plugin(std::string_view name) const;
+  // Whether a part of it comes from a shared object. Parts may be missing among the programs.
+  bool is_plugin(const AgentFactor& agent) const;
+  // The programs of its parts, on board first. Throws InputError if one is not known.
+  std::vector<const AgentProgram*> parts_of(const AgentFactor& agent, std::string_view where) const;
+  // The files of the shared objects of its parts, each once.
+  std::vector<std::string> objects_of(const AgentFactor& agent) const;
+  // Whether each part promises that it is deterministic.
+  bool is_deterministic(const AgentFactor& agent) const;
+  // Of a shared object among its parts; null: there is none.
+  ForeignHandles* handles_of(const AgentFactor& agent) const;
+  // Whether an object of its parts was loaded with another state of the processor than the engine's.
+  bool changed_processor(const AgentFactor& agent) const;
+  // For the computers of this scenario. `config`: of parts that have none. Requires: its parts are loaded into this
+  // process; agent and config outlive the result. Throws InputError if a computer has no part, or one that cannot serve
+  // it.
+  FleetSoftware software(const AgentFactor& agent, const std::string& config, const Scenario& scenario) const;
   // "NAME sha256 HEX" of every plug-in: part of the engine's identity in the archive.
   std::vector<std::string> plugin_identities() const;
 

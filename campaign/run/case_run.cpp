@@ -137,14 +137,13 @@ class CaseSink final : public TraceSink {
 
 }  // namespace
 
-CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std::string& agent_config,
-                 const std::vector<std::string>& laws_left_out, Deliveries deliveries, const RunWatch& watch,
-                 FailureChoice choice) {
+CaseRun run_case(const Scenario& scenario, const FleetSoftware& software, const std::vector<std::string>& laws_left_out,
+                 Deliveries deliveries, const RunWatch& watch, FailureChoice choice) {
   CaseRun run;
   run.choice = choice;
   CaseSink sink(scenario, deliveries);
   const auto laws = make_default_laws(scenario, laws_left_out);
-  run.outcome = simulate(scenario, agent, laws, &sink, agent_config.c_str(), watch);
+  run.outcome = simulate(scenario, software, laws, &sink, watch);
   if (deliveries == Deliveries::Kept) {
     run.deliveries = sink.deliveries.deliveries();
     run.itinerary = sink.itinerary.take();

@@ -7,10 +7,10 @@
 #include "campaign/run/case_notes.hpp"
 #include "campaign/run/itinerary.hpp"
 #include "campaign/run/message_deliveries.hpp"
+#include "core/engine/fleet_software.hpp"
 #include "core/engine/run_watch.hpp"
 #include "core/outcome/run_failures.hpp"
 #include "core/scenario/scenario.hpp"
-#include "core/sdk/fleetproof/agent.h"
 
 namespace fleetproof {
 
@@ -38,9 +38,8 @@ struct CaseRun {
 enum class Deliveries : bool { Ignored, Kept };
 
 // Under the default laws without those in `laws_left_out`.
-CaseRun run_case(const Scenario& scenario, const fp_agent_type& agent, const std::string& agent_config,
-                 const std::vector<std::string>& laws_left_out, Deliveries deliveries = Deliveries::Ignored,
-                 const RunWatch& watch = {}, FailureChoice choice = {});
+CaseRun run_case(const Scenario& scenario, const FleetSoftware& software, const std::vector<std::string>& laws_left_out,
+                 Deliveries deliveries = Deliveries::Ignored, const RunWatch& watch = {}, FailureChoice choice = {});
 
 // How a run failed: two runs fail in the same way if their kinds are equal.
 struct FailureKind {

@@ -21,15 +21,17 @@ constexpr std::uint64_t kLargestSeed = 0x7fff'ffff'ffff'ffff;  // as a campaign 
 
 std::string release_digest(const CampaignPlan& plan, const AgentPrograms& programs) {
   std::vector<bool> is_plugin;
-  for (const AgentFactor& agent : plan.agents) is_plugin.push_back(programs.is_plugin(agent.program));
+  for (const AgentFactor& agent : plan.agents) is_plugin.push_back(programs.is_plugin(agent));
   const std::vector<std::string> judged = agents_under_test(plan, is_plugin);
   std::string bytes;
   for (const AgentFactor& agent : plan.agents) {
     if (std::ranges::find(judged, agent.name) == judged.end()) continue;
-    const AgentProgram& program = programs.program(agent.program, "factors.agents");
     add(bytes, agent.name);
-    add(bytes, program.is_plugin() ? program.sha256 : engine_identity().program_sha256);
-    add(bytes, plan.config_of(agent));
+    for (const ProgramPart* part : agent.parts()) {
+      const AgentProgram& program = programs.program(part->program, "factors.agents");
+      add(bytes, program.is_plugin() ? program.sha256 : engine_identity().program_sha256);
+      add(bytes, plan.config_of(*part));
+    }
   }
   return sha256_hex(bytes);
 }

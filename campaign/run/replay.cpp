@@ -109,12 +109,13 @@ std::vector<std::string> stored_plugins(const EngineIdentity& stored, const std:
   return digests;
 }
 
-std::string software_difference(const EngineIdentity& stored, const AgentProgram& agent) {
-  if (agent.is_plugin()) {
-    const auto then = stored_plugins(stored, agent.name);
-    if (then != std::vector{agent.sha256})
-      return fmt::format("the software differs (plug-in {}: sha256 {} then, {} now)", agent.name,
-                         then.empty() ? "unknown" : fmt::format("{}", fmt::join(then, " and ")), agent.sha256);
+std::string software_difference(const EngineIdentity& stored, const std::vector<const AgentProgram*>& parts) {
+  for (const AgentProgram* part : parts) {
+    if (!part->is_plugin()) continue;
+    const auto then = stored_plugins(stored, part->name);
+    if (then != std::vector{part->sha256})
+      return fmt::format("the software differs (plug-in {}: sha256 {} then, {} now)", part->name,
+                         then.empty() ? "unknown" : fmt::format("{}", fmt::join(then, " and ")), part->sha256);
   }
   const EngineIdentity now = engine_identity();
   std::vector<std::string> then{stored.program_sha256};
@@ -157,19 +158,18 @@ AuditCount audits_of(const ArchiveReader& archive, const CampaignPlan& plan, con
   return count;
 }
 
-bool is_trusted(const AgentProgram& agent, const AuditCount& audits) {
-  if (!agent.is_plugin()) return true;
-  return (agent.flags & FP_DETERMINISTIC) != 0 && audits.audited >= kAuditsToPass && audits.differing == 0;
+bool is_trusted(bool is_plugin, bool is_deterministic, const AuditCount& audits) {
+  if (!is_plugin) return true;
+  return is_deterministic && audits.audited >= kAuditsToPass && audits.differing == 0;
 }
 
 namespace {
 
-std::string why_not_trusted(const AgentProgram& agent, const AuditCount& audits) {
+std::string why_not_trusted(bool is_deterministic, const AuditCount& audits) {
   if (audits.differing > 0)
     return fmt::format("{} of {} audited runs of this agent came out differently, too", audits.differing,
                        audits.audited);
-  if ((agent.flags & FP_DETERMINISTIC) == 0)
-    return "the agent does not declare that it is deterministic (FP_DETERMINISTIC)";
+  if (!is_deterministic) return "the agent does not declare that it is deterministic (FP_DETERMINISTIC)";
   return fmt::format("{} runs of this agent were audited, which is too few", audits.audited);
 }
 
@@ -239,15 +239,16 @@ ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std:
   ReplayResult result = compare_with_file(archive, plan, run_index, simulate);
   if (result.verdict == ReplayVerdict::Reproduced) return of_intact_plan(std::move(result), archive.campaign());
   const AgentFactor& factor = plan.agent_of_cell(run_index);
-  const AgentProgram& agent = programs.program(factor.program, "replay");
-  if (const auto difference = software_difference(archive.campaign().engine, agent); !difference.empty()) {
+  if (const auto difference = software_difference(archive.campaign().engine, programs.parts_of(factor, "replay"));
+      !difference.empty()) {
     result.verdict = ReplayVerdict::SoftwareDiffers;
     result.explanation = difference + "; " + result.explanation;
   } else if (result.verdict == ReplayVerdict::Diverged) {
     const AuditCount audits = audits_of(archive, plan, factor);
-    if (!is_trusted(agent, audits)) {
+    const bool is_deterministic = programs.is_deterministic(factor);
+    if (!is_trusted(programs.is_plugin(factor), is_deterministic, audits)) {
       result.verdict = ReplayVerdict::NotDeterministic;
-      result.explanation += "; " + why_not_trusted(agent, audits);
+      result.explanation += "; " + why_not_trusted(is_deterministic, audits);
     }
   }
   return of_intact_plan(std::move(result), archive.campaign());

@@ -49,7 +49,7 @@ AuditCount audits_of(const ArchiveReader& archive, const CampaignPlan& plan, con
 
 // Whether another outcome of the same run is the fault of the engine. A reference agent always does the same; a plug-in
 // does if it promises so (FP_DETERMINISTIC) and its audits bear that out.
-bool is_trusted(const AgentProgram& agent, const AuditCount& audits);
+bool is_trusted(bool is_plugin, bool is_deterministic, const AuditCount& audits);
 
 // The SHA-256 digests that the archive stores of the shared object with this agent. There are several if sessions with
 // different builds wrote to it. Empty: the archive does not know the agent as a plug-in.
@@ -57,7 +57,7 @@ std::vector<std::string> stored_plugins(const EngineIdentity& stored, const std:
 
 // How the software that made a run differs from the software at hand: "the software differs (...)"; empty: it is the
 // same. Where several engines wrote to the archive, nobody knows which of them made the run.
-std::string software_difference(const EngineIdentity& stored, const AgentProgram& agent);
+std::string software_difference(const EngineIdentity& stored, const std::vector<const AgentProgram*>& parts);
 
 // What differs between the stored record of a run and its recomputed record.
 ReplayResult compare_runs(RunRecord stored, RunRecord recomputed);

@@ -13,12 +13,19 @@ RunOne::RunOne(const CampaignPlan& plan, const AgentPrograms& programs)
     : plan_(plan), scenarios_(plan), programs_(programs), handles_(plan.agents.size()) {}
 
 // An agent that calls too late is an agent of its own factor, whatever else its software runs as.
-ForeignHandles* RunOne::handles_of(std::uint64_t cell, const AgentProgram& program) const {
-  if (program.handles == nullptr) return nullptr;
+ForeignHandles* RunOne::handles_of(const AgentFactor& agent) const {
+  if (!programs_.is_plugin(agent)) return nullptr;
   const std::lock_guard lock(mutex_);
-  auto& handles = handles_[agent_of_run(cell, plan_.agents.size())];
-  if (handles == nullptr) handles = std::make_unique<ForeignHandles>(program.handles->changed_processor());
+  auto& handles = handles_[static_cast<std::size_t>(&agent - plan_.agents.data())];
+  if (handles == nullptr) handles = std::make_unique<ForeignHandles>(programs_.changed_processor(agent));
   return handles.get();
+}
+
+// A tape plays for every agent: any type will do.
+FleetSoftware RunOne::software_of(const AgentFactor& agent, const Scenario& scenario, bool is_played) const {
+  if (!is_played) return programs_.software(agent, plan_.agent_config, scenario);
+  const RoleSoftware any{programs_.all().front().type};
+  return {any, std::vector<RoleSoftware>(scenario.computers.size(), any)};
 }
 
 RunRecord RunOne::empty_record(std::uint64_t run_index) const {
@@ -48,17 +55,14 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const Run
   }
   const Scenario scenario = scenarios_.in_world(world->scenario, run_index);
   const AgentFactor& factor = plan_.agent_of_cell(record.cell);
-  // A tape plays for every agent: any type will do.
-  const bool played = !watch.play.empty();
-  const AgentProgram& program = played ? programs_.all().front() : programs_.program(factor.program, "factors.agents");
-  ensure(program.type != nullptr, "a run is simulated in a process that has loaded its agent");
+  const bool is_played = !watch.play.empty();
   auto laws = make_default_laws(scenario, plan_.laws_left_out);
   if (also) laws.push_back(std::move(also));
   record.scenario_digest = scenario_digest(scenario);
   RunWatch in_plant = watch;
   in_plant.plant = &world->plant;
-  in_plant.foreign = handles_of(record.cell, program);
-  record.outcome = simulate(scenario, *program.type, laws, sink, plan_.config_of(factor).c_str(), in_plant);
+  in_plant.foreign = is_played ? nullptr : handles_of(factor);
+  record.outcome = simulate(scenario, software_of(factor, scenario, is_played), laws, sink, in_plant);
   return record;
 }
 

@@ -115,7 +115,7 @@ void require_same_plan(const std::string& where, const CampaignRecord& stored, c
 
 ShardResult run_shard(const CampaignPlan& plan, const AgentPrograms& programs, const ShardFolder& folder, Shard shard,
                       const RunOptions& options, const ShardListener& listener) {
-  for (const AgentFactor& agent : plan.agents) (void)programs.program(agent.program, "factors.agents");
+  for (const AgentFactor& agent : plan.agents) (void)programs.parts_of(agent, "factors.agents");
   // What cannot be built is said before anything is written.
   for (const std::string& sentence : build_first_worlds(plan)) listener.campaign.warned(sentence);
   folder.make();
@@ -126,7 +126,7 @@ ShardResult run_shard(const CampaignPlan& plan, const AgentPrograms& programs, c
   Session session(plan, programs, options, listener.campaign);
   // Which failed runs may be simulated again is known when all shards are put together.
   for (std::size_t agent = 0; agent < plan.agents.size(); ++agent)
-    session.runs().record(agent, plan.audit.share > 0.0 && programs.is_plugin(plan.agents[agent].program));
+    session.runs().record(agent, plan.audit.share > 0.0 && programs.is_plugin(plan.agents[agent]));
   ShardPolicy policy(session, plan, ours, folder, shard);
   listener.campaign.started();
   listener.planned(policy.owned(), policy.published());

@@ -1,5 +1,6 @@
 #include "campaign/shrink/case_host.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 namespace fleetproof {
@@ -7,12 +8,12 @@ namespace fleetproof {
 struct CaseHost::Shared {
   Shared(const CaseAgent& agent, const AgentPrograms& its_programs, int its_workers)
       : programs(its_programs), workers(its_workers) {
-    AgentFactor& factor = plan.agents.emplace_back();
-    factor.name = factor.program = programs.program(agent.program, "agent").name;
+    plan.agents.push_back(factor_of(agent));
+    (void)programs.parts_of(plan.agents.front(), "agent");  // they are known
     plan.agent_config = agent.config;
     plan.laws_left_out = agent.laws_left_out;
     plan.limits = agent.limits;
-    if (!programs.is_plugin(agent.program)) return;
+    if (!programs.is_plugin(plan.agents.front())) return;
     Hosting hosting;
     hosting.workers = workers;
     isolated = std::make_unique<IsolatedRuns>(plan, programs, hosting);
@@ -26,13 +27,29 @@ struct CaseHost::Shared {
 };
 
 CaseAgent case_agent(const CampaignPlan& plan, const AgentFactor& agent) {
-  return {agent.program, plan.config_of(agent), plan.laws_left_out, plan.limits};
+  CaseAgent of_case{agent.program, plan.config_of(agent), plan.laws_left_out, plan.limits, agent.computers};
+  for (ComputerPart& part : of_case.computers) part.config = plan.config_of(part);
+  return of_case;
+}
+
+AgentFactor factor_of(const CaseAgent& agent) {
+  AgentFactor factor;
+  factor.program = agent.program;
+  factor.computers = agent.computers;
+  factor.name = name_of_parts(factor);
+  return factor;
 }
 
 Scenario played_by(const CaseAgent& agent, Scenario scenario) {
   scenario.agent = agent.program;
   scenario.agent_config = agent.config;
   scenario.law.leave_out = agent.laws_left_out;
+  for (ComputerSetup& computer : scenario.computers) {
+    const auto part = std::ranges::find(agent.computers, computer.name, &ComputerPart::computer);
+    if (part == agent.computers.end()) continue;
+    computer.agent = part->program;
+    computer.agent_config = part->config.value_or("");
+  }
   return scenario;
 }
 
@@ -76,8 +93,9 @@ CaseRun CaseHost::simulate(const Scenario& scenario, const CaseWishes& wishes) c
     } else {
       RunWatch watch;
       watch.abandon = mine.abandon;
-      run = run_case(scenario, shared_->programs.find(shared_->plan.agents.front().program, "agent"),
-                     shared_->plan.agent_config, shared_->plan.laws_left_out, mine.deliveries, watch, choice_);
+      const CampaignPlan& plan = shared_->plan;
+      run = run_case(scenario, shared_->programs.software(plan.agents.front(), plan.agent_config, scenario),
+                     plan.laws_left_out, mine.deliveries, watch, choice_);
     }
     ++shared_->simulated;
     return run;

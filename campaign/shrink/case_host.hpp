@@ -18,12 +18,15 @@ namespace fleetproof {
 
 // The control software that plays cases, and how it is judged.
 struct CaseAgent {
-  std::string program, config;
+  std::string program, config;  // on board
   std::vector<std::string> laws_left_out{};
   LimitSetup limits{};
+  std::vector<ComputerPart> computers{};
   friend bool operator==(const CaseAgent&, const CaseAgent&) = default;
 };
 CaseAgent case_agent(const CampaignPlan& plan, const AgentFactor& agent);
+// As an agent of a campaign.
+AgentFactor factor_of(const CaseAgent& agent);
 // The scenario for a file, with what else decides its outcome: agent, configuration, and the laws that are left out.
 Scenario played_by(const CaseAgent& agent, Scenario scenario);
 

@@ -152,7 +152,7 @@ class Worker {
     if (before_unlimited_) own_bytes_ += std::max(mapped_bytes(), *before_unlimited_) - *before_unlimited_;
     disturb(order);
     // Reference agents have no limit in a campaign either: there they run in the main process.
-    const bool limited = programs_.is_plugin(plan_.agent_of_cell(order.run_index).program);
+    const bool limited = programs_.is_plugin(plan_.agent_of_cell(order.run_index));
     before_unlimited_ = limited ? std::nullopt : std::optional(mapped_bytes());
     limit_memory(limited ? plan_.limits.memory_mb : 0, own_bytes_);
   }
@@ -189,11 +189,10 @@ class Worker {
       answer.run.outcome = std::move(record.outcome);
     } else {
       const AgentFactor& agent = plan_.agents.front();
-      const AgentProgram& program = programs_.program(agent.program, "agent");
-      watch.foreign = program.handles.get();
-      answer.run =
-          run_case(cases_.read(order.scenario), programs_.find(agent.program, "agent"), plan_.config_of(agent),
-                   plan_.laws_left_out, order.deliveries ? Deliveries::Kept : Deliveries::Ignored, watch, order.choice);
+      watch.foreign = programs_.handles_of(agent);
+      const Scenario scenario = cases_.read(order.scenario);
+      answer.run = run_case(scenario, programs_.software(agent, plan_.agent_config, scenario), plan_.laws_left_out,
+                            order.deliveries ? Deliveries::Kept : Deliveries::Ignored, watch, order.choice);
     }
     left_behind_->run_ended();
     log_.label(order.run_index);

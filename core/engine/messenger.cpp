@@ -31,7 +31,7 @@ Messenger::Messenger(RunContext& run, AgentHostPort agents)
       draws_decide_(radio_.is_plain() && !contended_ && !run.writer.has_sink()),
       losses_decide_(draws_decide_ && radio_.only_loses()),
       others_(run.agvs.size() - 1),
-      wire_delay_(seconds(run.scenario.wire.delay_s)),
+      wire_delay_(seconds(run.scenario.wire.takes_s)),
       agv_states_(run.scenario.participant_count()),
       draws_(run.scenario.participant_count() + 3) {}
 

@@ -28,7 +28,7 @@ inline constexpr std::uint32_t kMostComputers = 256;
 
 // What connects the computers with each other: it loses nothing.
 struct WireSetup {
-  double delay_s = 0.001;
+  double takes_s = 0.001;  // from sending to reception
 
   friend bool operator==(const WireSetup&, const WireSetup&) = default;
 };

@@ -137,7 +137,7 @@ void visit_fields(Computer& computer, Visit&& visit) {
   visit(Field{.key = "name", .text = "name of the computer", .lenient = kIsName, .needed = true}, name);
   visit(Field{.key = "at_m",
               .text = "[x, y] of its antenna; left out: it is in range of every AGV",
-              .lenient = kOfScenarios,
+              .lenient = Lenient::none("a plant has its own"),
               .low = -kFloorEnd_m,
               .high = kFloorEnd_m,
               .left_out = !at_m.has_value()},
@@ -145,40 +145,45 @@ void visit_fields(Computer& computer, Visit&& visit) {
   visit(Field{.key = "clock_offset_s",
               .text = "its clock is ahead by this much",
               .lenient = kOfScenarios,
-              .high = kLargestClockOffset_s},
+              .high = kLargestClockOffset_s,
+              .home = FieldHome::ScenarioOnly},
         clock_offset_s);
   visit(Field{.key = "clock_drift_ppm",
               .text = "and runs too fast by this much",
               .lenient = kOfScenarios,
               .low = -kLargestClockDrift_ppm,
-              .high = kLargestClockDrift_ppm},
+              .high = kLargestClockDrift_ppm,
+              .home = FieldHome::ScenarioOnly},
         clock_drift_ppm);
   visit(Field{.key = "agent",
               .text = "its program; left out: the caller names it",
               .lenient = kOfScenarios,
+              .home = FieldHome::ScenarioOnly,
               .left_out = agent.empty()},
         agent);
   visit(Field{.key = "agent_config",
               .text = "a text that this program gets at its start",
               .lenient = kOfScenarios,
+              .home = FieldHome::ScenarioOnly,
               .left_out = agent_config.empty()},
         agent_config);
   visit(Field{.key = "draws_as",
               .text = "place among the computers under which what is random about it is drawn; left out: its own",
               .lenient = kOfScenarios,
               .high = kMostComputers - 1.0,
+              .home = FieldHome::ScenarioOnly,
               .left_out = !draws_as.has_value()},
         draws_as);
 }
 
 template <FieldsOf<WireSetup> Wire, class Visit>
 void visit_fields(Wire& wire, Visit&& visit) {
-  auto& [delay_s] = wire;
-  visit(Field{.key = "delay_s",
+  auto& [takes_s] = wire;
+  visit(Field{.key = "takes_s",
               .text = "time from sending to reception between two computers",
-              .lenient = kOfScenarios,
+              .lenient = Lenient::down(Weight::Load),
               .high = kHour_s},
-        delay_s);
+        takes_s);
 }
 
 template <FieldsOf<ObstacleSetup> Obstacle, class Visit>
@@ -328,14 +333,12 @@ void visit_fields(Given& scenario, Visit&& visit) {
   visit(Field{.key = "computers",
               .text = "participants without a body: servers, brokers",
               .lenient = kOfScenarios,
-              .home = FieldHome::ScenarioOnly,
               .left_out = computers.empty(),
               .is_later = true},
         computers);
   visit(Field{.key = "wire",
               .text = "what connects the computers with each other",
               .lenient = kIsTable,
-              .home = FieldHome::ScenarioOnly,
               .left_out = wire == WireSetup{},
               .is_later = true},
         wire);

@@ -294,7 +294,7 @@ class MeaningCheck {
       if (delivery.receiver >= scenario_.first_obstacle()) bad("/receiver", "there is no such AGV or computer");
       if (delivery.sender == delivery.receiver) bad("/receiver", "nobody sends to itself; name another receiver");
       if (scenario_.is_computer(delivery.sender) && scenario_.is_computer(delivery.receiver))
-        bad("", "between two computers is a wire: it loses nothing, and all takes wire/delay_s; leave this fate out");
+        bad("", "between two computers is a wire: it loses nothing, and all takes wire/takes_s; leave this fate out");
       if (!seen.emplace(delivery.sender, delivery.receiver, delivery.sent, delivery.ordinal).second)
         bad("", "this message has a delivery already; give each message one");
     }

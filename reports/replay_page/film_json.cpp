@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <iterator>
 #include <map>
@@ -114,10 +115,10 @@ void add_floor(Members& members, const Film& film) {
   members.rows("stations", film.stations, [](const FilmStation& s) {
     return fmt::format("{{\"name\":{},\"x_um\":{},\"y_um\":{}}}", in_json(s.name), s.x_um, s.y_um);
   });
-  constexpr const char* kKinds[] = {"AGV", "obstacle", "load"};
+  constexpr std::array kKinds{"AGV", "obstacle", "load", "computer"};  // of BodyKind
   members.rows("bodies", film.bodies, [&](const Body& body) {
     return fmt::format("{{\"name\":{},\"kind\":\"{}\"}}", in_json(body.name),
-                       kKinds[static_cast<std::size_t>(body.kind)]);
+                       kKinds.at(static_cast<std::size_t>(body.kind)));
   });
   members.rows("outlines_um", film.outlines,
                [](const Outline& o) { return row(o.length_um, o.width_um, o.centre_ahead_um); });

@@ -7,15 +7,12 @@ namespace fleetproof::trusted_agents_test {
 namespace {
 
 TEST(ReplaySuspects, TheEngineOnlyIfTheAgentPromisesAndTheAuditsBearItOut) {
-  AgentProgram agent;
-  EXPECT_TRUE(is_trusted(agent, {})) << "a reference agent";
-  agent.file = "own.so";
-  EXPECT_FALSE(is_trusted(agent, {20, 0})) << "promises nothing";
-  agent.flags = FP_DETERMINISTIC;
-  EXPECT_TRUE(is_trusted(agent, {20, 0}));
-  EXPECT_FALSE(is_trusted(agent, {19, 0})) << "too few audits";
-  EXPECT_FALSE(is_trusted(agent, {30, 1}));
-  EXPECT_FALSE(is_trusted(agent, {0, 0})) << "no audit";
+  EXPECT_TRUE(is_trusted(false, false, {})) << "a reference agent";
+  EXPECT_FALSE(is_trusted(true, false, {20, 0})) << "promises nothing";
+  EXPECT_TRUE(is_trusted(true, true, {20, 0}));
+  EXPECT_FALSE(is_trusted(true, true, {19, 0})) << "too few audits";
+  EXPECT_FALSE(is_trusted(true, true, {30, 1}));
+  EXPECT_FALSE(is_trusted(true, true, {0, 0})) << "no audit";
 }
 
 }  // namespace

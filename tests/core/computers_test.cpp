@@ -57,7 +57,7 @@ TEST(Computers, AWireBetweenThemLosesNothingAndHasADelayOfItsOwn) {
   Scenario scenario = with_computers({0, 3}, 3);
   scenario.radio.loss = 1.0;
   scenario.radio.delay_s = 2.0;
-  scenario.wire.delay_s = 0.25;
+  scenario.wire.takes_s = 0.25;
   const Heard by_wire{{{3, 2, 'w'}, 250'000'000}, {{4, 2, 'w'}, 250'000'000}};
   EXPECT_EQ(heard(scenario, 2, {{'w', FP_NONE}}), by_wire) << "the AGVs hear nothing";
   EXPECT_EQ(heard(scenario, 2, {{'w', 3}, {'w', 4}, {'w', 0}}), by_wire);
@@ -66,7 +66,7 @@ TEST(Computers, AWireBetweenThemLosesNothingAndHasADelayOfItsOwn) {
 
 TEST(Computers, AWireNeedsNoAir) {
   Scenario scenario = with_computers({0, 3}, 2);
-  scenario.wire.delay_s = 0.25;
+  scenario.wire.takes_s = 0.25;
   scenario.radio.contention.interference = true;
   scenario.radio.air_time_s = 1.0;
   EXPECT_EQ(heard(scenario, 2, {{'w', 3}}), (Heard{{{3, 2, 'w'}, 250'000'000}}));

@@ -22,7 +22,7 @@ void add_computers_and_faults(Scenario& s) {
               {Fault::Kind::LoadDrop, AgvId{2U}, Duration{13}, 0U, Duration{14}, {1.1, 0.7}, -2.0, 0.4}};
   s.computers = {{.name = "broker", .clock_offset_s = 0.5, .clock_drift_ppm = -7.0},
                  {.name = "master", .at_m = Vec2(1.5, -2.0), .agent = "planner", .agent_config = "x=1", .draws_as = 4}};
-  s.wire.delay_s = 0.02;
+  s.wire.takes_s = 0.02;
   s.faults.push_back({.kind = Fault::Kind::Restart,
                       .agv = s.first_computer(),
                       .at = Duration{15},

@@ -246,7 +246,7 @@ const Plant kPlants[] = {
      [](Scenario& s) { s.computers = {{.name = s.agvs[1].name}}; }},
     {"antenna_far_out", ProblemKind::NumberOutOfRange, "/computers/0/at_m",
      [](Scenario& s) { s.computers = {{.name = "server", .at_m = Vec2(0.0, 1e6)}}; }},
-    {"wire_delay", ProblemKind::NumberOutOfRange, "/wire/delay_s", [](Scenario& s) { s.wire.delay_s = -1.0; }},
+    {"wire_delay", ProblemKind::NumberOutOfRange, "/wire/takes_s", [](Scenario& s) { s.wire.takes_s = -1.0; }},
     {"too_many_computers", ProblemKind::NumberOutOfRange, "/computers",
      [](Scenario& s) {
        for (int i = 0; i < 257; ++i) s.computers.push_back({.name = "c" + std::to_string(i)});

@@ -1,0 +1,150 @@
+// Fleets with a server, from the campaign file to the smallest case.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof::central_fleets_test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+// The object of which each test agent has one, by its name.
+std::string object(const std::string& name) {
+  std::string path = FLEETPROOF_TALKING_AGENT;
+  return path.replace(path.find("talking_agent"), std::string_view("talking_agent").size(), name);
+}
+const std::string kCentral = object("central_agent");
+
+class CentralFleet : public test::ProgramTest {
+ protected:
+  // A campaign of these agents at the worst case; more lines go before [factors].
+  void campaign(const std::string& agents, const std::string& more = "", int replicates = 12) const {
+    write("c.toml", "kind = \"search\"\nseed = 5\nreplicates = " + std::to_string(replicates) +
+                        "\nhorizon_s = 60\n[factors]\nagents = [" + agents +
+                        "]\nlayouts = [\"random-planar\"]\nfleet_sizes = [5]\nloss = [0.4]\ndelay_s = [2]\n" + more);
+  }
+  static std::string central(const std::string& config = "", const std::string& more = "") {
+    return "{ vehicle = \"" + kCentral + "\", computer = { file = \"" + kCentral + "\", config = \"" + config + "\" }" +
+           more + " }";
+  }
+  std::vector<std::string> rows(const std::string& db, const std::string& agent) const {
+    const test::Finished found =
+        shell("\"$FLEETPROOF\" report " + db + " --evidence " + db + ".d >&2; cat " + db + ".d/runs.csv");
+    std::vector<std::string> rows;
+    std::istringstream lines(found.out);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find("," + agent + ",") != std::string::npos) rows.push_back(line.substr(line.find(',')));
+    }
+    return rows;
+  }
+};
+
+TEST_F(CentralFleet, RunsTheSameWithAnyNumberOfWorkers) {
+  campaign(central("late"));
+  for (const char* jobs : {"1", "2", "7"}) {
+    const test::Finished finished = run("run c.toml --db " + std::string(jobs) + ".db --jobs " + jobs);
+    EXPECT_EQ(finished.exit_code, 4) << "a search claims nothing" << finished.err;
+    EXPECT_THAT(finished.err, HasSubstr("first failure of central: contact in run "));
+  }
+  EXPECT_EQ(read(path("1.db")), read(path("2.db")));
+  EXPECT_EQ(read(path("1.db")), read(path("7.db")));
+  EXPECT_THAT(run("verify 1.db --sample 100%").out, HasSubstr("0 differ"));
+}
+
+TEST_F(CentralFleet, IsReplayedShrunkExplainedAndFound) {
+  campaign(central("late"));
+  const std::string told = run("run c.toml --db c.db").err, words = "first failure of central: contact in run ";
+  ASSERT_THAT(told, HasSubstr(words));
+  const std::string failing = std::to_string(std::stoi(told.substr(told.find(words) + words.size())));
+  EXPECT_THAT(run("replay c.db " + failing + " --html r.html").out, HasSubstr("REPRODUCED"));
+  EXPECT_THAT(read(path("r.html")), HasSubstr(R"({"name":"server","kind":"computer"})"));
+  EXPECT_THAT(run("replay c.db " + failing + " --trace").err, HasSubstr("from server"));
+  EXPECT_EQ(run("shrink c.db " + failing + " -o small.json --max-time 30").exit_code, 0);
+  const test::Finished again = run("simulate small.json --plugin " + kCentral);
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_THAT(again.out, HasSubstr("as expected: contact"));
+  EXPECT_THAT(run("explain c.db " + failing + " --max-time 20").out, HasSubstr("AGV"));
+  EXPECT_THAT(run("findings c.db --max-time 20").out, HasSubstr("of central"));
+}
+
+TEST_F(CentralFleet, StandsStillIfItsServerIsDeaf) {
+  campaign(central("deaf", ", name = \"deaf\""), "", 3);
+  EXPECT_EQ(run("run c.toml --db c.db").exit_code, 4);
+  EXPECT_EQ(rows("c.db", "deaf").size(), 3U);
+  EXPECT_THAT(run("replay c.db 0").out, HasSubstr("transports 0 of"));
+}
+
+// An agent that runs on board alone has the same worlds and the same radio beside a central one.
+TEST_F(CentralFleet, ChangesNothingForOthers) {
+  campaign("\"reckless\"");
+  run("run c.toml --db alone.db");
+  campaign("\"reckless\", " + central("late"));
+  run("run c.toml --db beside.db");
+  const auto alone = rows("alone.db", "reckless");
+  EXPECT_EQ(alone.size(), 12U);
+  std::vector<std::string> beside = rows("beside.db", "reckless");
+  ASSERT_EQ(beside.size(), alone.size());
+  // The name of a scenario counts all runs of the campaign, so that its digest differs.
+  const auto without_digest = [](const std::string& row) {
+    const std::size_t from = row.find("reckless"), digest = row.find(",violation");
+    return row.substr(from, digest - from - std::string_view("0123456789abcdef,").size());
+  };
+  for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_EQ(without_digest(beside[i]), without_digest(alone[i]));
+}
+
+TEST_F(CentralFleet, MayHaveSeveralComputers) {
+  const std::string both = "{ vehicle = \"" + kCentral + "\", computers = { north = \"" + kCentral +
+                           "\", south = { file = \"" + kCentral + "\", config = \"deaf\" } } }";
+  campaign(both,
+           "[wire]\ntakes_s = 0.01\n[[computers]]\nname = \"north\"\nat_m = [5, 5]\n[[computers]]\nname = \"south\"\n",
+           3);
+  EXPECT_EQ(run("run c.toml --db c.db").exit_code, 4);
+  const test::Finished trace = run("replay c.db 0 --trace");
+  EXPECT_THAT(trace.err, HasSubstr("to north"));
+  EXPECT_THAT(trace.err, HasSubstr("to south"));
+  EXPECT_THAT(trace.err, HasSubstr("from north"));
+  EXPECT_THAT(trace.err, Not(HasSubstr("from south")));
+}
+
+TEST_F(CentralFleet, RefusesWhatCannotBe) {
+  const auto refusal = [&](const std::string& agents, const std::string& more = "") {
+    campaign(agents, more);
+    const test::Finished checked = run("check c.toml");
+    EXPECT_EQ(checked.exit_code, 2) << agents;
+    return checked.err;
+  };
+  EXPECT_THAT(refusal(R"({ vehicle = "reckless", computer = "hull-lock" })"),
+              HasSubstr("\"hull-lock\" does not serve computers"));
+  EXPECT_THAT(refusal(R"({ vehicle = "reckless" })"), HasSubstr("either computer = "));
+  EXPECT_THAT(refusal(R"({ computer = "reckless" })"), HasSubstr("vehicle = "));
+  EXPECT_THAT(refusal("{ vehicle = \"reckless\", computers = { masted = \"" + kCentral + "\" } }",
+                      "[[computers]]\nname = \"master\"\n"),
+              HasSubstr("did you mean \"master\"?"));
+  EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"\"\n"), HasSubstr("computers.name"));
+  EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"a\"\nat_m = [1]\n"), HasSubstr("[x, y]"));
+  EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"a\"\n[[computers]]\nname = \"a\"\n"),
+              HasSubstr("two computers have one name"));
+}
+
+TEST_F(CentralFleet, OfAScenarioFileNamesTheProgramsOfItsComputers) {
+  campaign(central("late"));
+  run("run c.toml --db c.db");
+  run("replay c.db 0 --scenario s.json");
+  EXPECT_THAT(read(path("s.json")), HasSubstr(R"("agent": "central", "agent_config": "late")"));
+  const test::Finished without = run("simulate s.json");
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_THAT(without.err, HasSubstr("agent \"central\" is not known"));
+  const test::Finished with = run("simulate s.json --plugin " + kCentral);
+  EXPECT_TRUE(test::has_verdict(with));
+  const auto digest = [](const std::string& text) { return text.substr(text.find("trace digest"), 29); };
+  EXPECT_EQ(digest(with.out), digest(run("replay c.db 0").out));
+  EXPECT_THAT(run("simulate s.json --agent reckless --plugin " + kCentral).out, Not(HasSubstr(digest(with.out))))
+      << "another program on board";
+}
+
+}  // namespace
+}  // namespace fleetproof::central_fleets_test
