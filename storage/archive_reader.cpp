@@ -423,6 +423,21 @@ std::uint64_t ArchiveReader::recording_count(const std::string& agent) const {
   });
 }
 
+std::vector<std::uint64_t> ArchiveReader::recorded_clean_runs() const {
+  if (impl_->schema < kFirstChunked) return {};
+  return impl_->guarded([&] {
+    std::vector<std::uint64_t> found;
+    Query rows(*impl_->db,
+               fmt::format("SELECT x.run_index FROM recordings x JOIN runs r ON r.run_index = x.run_index WHERE "
+                           "r.outcome_class = '{}' ORDER BY x.run_index",
+                           name_of(OutcomeClass::Clean)));
+    while (rows.step()) found.push_back(run_of(rows));
+    return found;
+  });
+}
+
+std::optional<std::uint64_t> ArchiveReader::seal() const { return impl_->published ? impl_->seal : std::nullopt; }
+
 void ArchiveReader::for_each_run(const VisitRun& visit, const VisitFolded& visit_folded) const {
   impl_->guarded([&] { impl_->read_all(visit, visit_folded); });
 }

@@ -58,6 +58,11 @@ class ArchiveReader {
   // What the agents of a run did. Throws EngineError if it is damaged.
   std::optional<std::string> recording(std::uint64_t run_index) const;
   std::uint64_t recording_count(const std::string& agent) const;
+  // The runs of which the file has a recording, as only failed runs have one, although their rows say that nothing
+  // failed.
+  std::vector<std::uint64_t> recorded_clean_runs() const;
+  // The digest over everything in a published file; absent in a live one.
+  std::optional<std::uint64_t> seal() const;
   // One digest over plan, cells, gates and all runs. Two files have the same digest if they have the same content.
   std::uint64_t content_digest() const;
   // The same without the identity of the engine. Files of two builds with one schema and equal results have it alike.

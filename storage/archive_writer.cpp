@@ -138,6 +138,7 @@ void ArchiveWriter::Impl::go_on(StoredPlan plan, const Resumption& resumption) {
         "a gate of it counts AGV-hours as earlier versions did, in microseconds, so this campaign cannot go on; give "
         "another name with --db, or --overwrite to begin again");
   resumption.check(stored->campaign(), plan.campaign);
+  resumption.visit_recorded_clean(stored->recorded_clean_runs());
   stored->for_each_audit(resumption.visit_audit);
   stored->for_each_run(resumption.visit);
   if (stored->schema() < kSchemaVersion) {

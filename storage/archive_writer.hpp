@@ -27,6 +27,8 @@ struct Resumption {
   std::function<void(const AuditRecord& audit, bool same)> visit_audit = [](const AuditRecord&, bool) {};
   // Sees every stored run after that, in order of run index. Its checksum was right.
   std::function<void(const RunRecord& run)> visit = [](const RunRecord&) {};
+  // Sees what ArchiveReader::recorded_clean_runs says of the file, before all of them.
+  std::function<void(const std::vector<std::uint64_t>&)> visit_recorded_clean = [](const auto&) {};
 };
 
 // The live file of a running campaign: NAME.partial beside NAME, with a write-ahead log. One connection writes and

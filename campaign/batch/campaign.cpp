@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <unordered_map>
 #include <unordered_set>
 
 #include "campaign/batch/audit_counts.hpp"
@@ -40,8 +41,15 @@ class CampaignPolicy final : public SessionPolicy {
       session_.runs().record(agent, audit_counts_.needs_recordings(agent));
   }
 
-  // Before any other run: rows that are not those of this campaign would count in what is published.
-  void simulate_some_again(const std::string& path) const { sample_.simulate_again(session_, plan_, programs_, path); }
+  // Before any other run: rows that are not those of this campaign would count in what is published. Nothing if the
+  // file held none.
+  std::optional<TakenOver> simulate_some_again(const std::string& path) const {
+    const std::uint64_t held = session_.progress().done;
+    if (held == 0) return std::nullopt;
+    TakenOver taken = sample_.simulate_again(session_, plan_, programs_, path);
+    taken.runs = held;
+    return taken;
+  }
 
   TaskRange runs_to_do() const {
     return {.begin = ledger_.prefix_length(),
@@ -92,20 +100,43 @@ class CampaignPolicy final : public SessionPolicy {
             [this](const AuditRecord& audit, bool same) {
               ++session_.progress().audited;
               count({audit, same});
-              audited_before_.insert(audit.run_index);
+              audited_before_.emplace(audit.run_index, same);
             },
             [this](const RunRecord& run) {
               session_.count(run);
               count(run);
-              // Another engine's run may well differ.
-              if (!stored_runs_are_ours_ || audited_before_.contains(run.run_index)) return;
-              if (!session_.audits().offer(run) && is_sampled(run)) sample_.add(run);
+              if (stored_runs_are_ours_) take_over(run);  // another engine's run may well differ
+            },
+            [this](const std::vector<std::uint64_t>& runs) {
+              recorded_clean_ = {runs.begin(), runs.end()};
             }};
+  }
+
+  // What else the file has of a run speaks for its row, or against it.
+  void take_over(const RunRecord& run) {
+    const auto audit = audited_before_.find(run.run_index);
+    const bool was_audited = audit != audited_before_.end();
+    if (!was_audited && session_.audits().offer(run)) return;  // it is simulated again anyway
+    if (was_audited && !audit->second) return;                 // it counts as different already
+    if (!is_sampled(run)) return;
+    if (was_audited || recorded_clean_.contains(run.run_index) || contradicts_itself(run.outcome)) {
+      sample_.add_named(run);
+    } else {
+      sample_.add(run);
+    }
   }
 
   // What a plug-in failed in would take a worker and its limits again. A claim counts it as failing anyway.
   bool is_sampled(const RunRecord& run) const {
     return !run.outcome.is_failure() || !programs_.is_plugin(plan_.agent_of_cell(run.run_index));
+  }
+
+  // Somebody may have taken the failure out of a row, and not what belongs to it.
+  bool contradicts_itself(const Outcome& outcome) const {
+    if (outcome.is_failure()) return false;
+    const bool too_close = outcome.min_clearance_um &&
+                           static_cast<double>(*outcome.min_clearance_um + 1) < plan_.law.safety_distance_m * 1e6;
+    return outcome.counters.contacts > 0 || !outcome.violations.empty() || !outcome.message.empty() || too_close;
   }
 
   void count(const RunRecord& run) {
@@ -171,7 +202,7 @@ CampaignResult run_campaign(const CampaignPlan& plan, const AgentPrograms& progr
   Session session(plan, programs, options, listener);
   CampaignPolicy policy(session, plan, programs, stored, path);
   listener.started();
-  policy.simulate_some_again(path);
+  if (const auto taken = policy.simulate_some_again(path)) listener.took_over(*taken);
   CampaignResult result = session.run(policy, policy.runs_to_do());
   policy.publish(result, plan.keep);
   return result;

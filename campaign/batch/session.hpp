@@ -13,6 +13,7 @@
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/workers/run_host.hpp"
+#include "reports/evidence/taken_over.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -71,6 +72,7 @@ struct CampaignListener {
   std::function<bool()> wants_status = [] { return false; };
   std::function<void(const Progress&, const std::vector<RunUnderWay>&)> status = [](const auto&, const auto&) {};
   std::function<void(const std::string&)> warned = [](const std::string&) {};  // before the file is opened
+  std::function<void(const TakenOver&)> took_over = [](const TakenOver&) {};  // of a file that goes on, after `started`
 };
 
 // What differs between a session of a campaign and one of a shard: where runs and audits go, and what ends it.

@@ -11,12 +11,14 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include "campaign/run/engine_identity.hpp"
 #include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
 #include "core/base/regular_file.hpp"
+#include "storage/archive_reader.hpp"
 #include "storage/line_log.hpp"
 
 namespace fleetproof {
@@ -85,7 +87,8 @@ std::string file_in(std::string_view line, const std::string& agent) {
 
 }  // namespace
 
-SessionLog::SessionLog(const std::string& archive_path) : path_(session_log_path(archive_path)) {
+SessionLog::SessionLog(const std::string& archive_path)
+    : archive_path_(archive_path), path_(session_log_path(archive_path)) {
   read_log(path_, kLogBeginning,
            "this is no session log of fleetproof, and nothing is appended to it; give the results file another "
            "name, or move this file away");
@@ -131,6 +134,12 @@ void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs,
   append_lines(path_, line_of(line));
 }
 
+void SessionLog::took_over(const TakenOver& taken) const {
+  append_lines(
+      path_,
+      line_of({{"runs_taken_over", taken.runs}, {"simulated_again", taken.simulated_again}, {"drawn", taken.drawn}}));
+}
+
 void SessionLog::end(const CampaignResult& result, int signal_number, const std::optional<ShardChunks>& chunks) const {
   Json line = {{"ended_utc", utc_now()},
                {"pid", ::getpid()},
@@ -147,6 +156,7 @@ void SessionLog::end(const CampaignResult& result, int signal_number, const std:
     line["chunks_published"] = chunks->published;
   } else {
     line["runs_stored"] = result.stored;
+    line["seal"] = fmt::format("{:016x}", ArchiveReader(archive_path_).seal().value_or(0));
   }
   std::string lines = line_of(line);
   for (const WorkerLoss& loss : result.losses) lines += line_of(json_of(loss));
@@ -195,6 +205,39 @@ std::string remembered_release(const std::string& archive_path) { return last_te
 bool remembers_fresh_seed(const std::string& archive_path) { return last_text(archive_path, "seed") == kFresh; }
 
 std::string remembered_overrides(const std::string& archive_path) { return last_text(archive_path, "overrides"); }
+
+std::optional<TakenOver> remembered_taken_over(const std::string& archive_path) {
+  std::optional<TakenOver> taken;
+  std::string attempt;
+  for_each_log_line(session_log_path(archive_path), [&](std::string_view line) {
+    const Json json = read_json(line);
+    if (!json.is_object()) return;
+    const auto number = [&](const char* key) {
+      const auto found = json.find(key);
+      return found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+    };
+    if (json.contains("attempt") && std::exchange(attempt, json_text(json["attempt"])) != json_text(json["attempt"]))
+      taken.reset();
+    if (json.contains("runs_taken_over"))
+      taken = {number("runs_taken_over"), number("simulated_again"), number("drawn")};
+  });
+  return taken;
+}
+
+RememberedSeal remembered_seal(const std::string& archive_path) {
+  RememberedSeal seal;
+  for_each_log_line(session_log_path(archive_path), [&](std::string_view line) {
+    const Json json = read_json(line);
+    if (!json.is_object()) return;
+    if (json.contains("started_utc")) seal = {};
+    if (!json.contains("ended_utc")) return;
+    const auto found = json.find("seal");
+    seal = {true, std::nullopt};
+    if (found != json.end() && found->is_string())
+      seal.value = std::strtoull(found->get<std::string>().c_str(), nullptr, 16);
+  });
+  return seal;
+}
 
 std::uint64_t remembered_disturbed(const std::string& archive_path) {
   std::uint64_t sum = 0;

@@ -35,11 +35,14 @@ class SessionLog {
   explicit SessionLog(const std::string& archive_path);
   // Both throw MachineError if the log cannot be written.
   void begin(const RunOptions& options, const AgentPrograms& programs, const SessionFacts& facts) const;
-  // A shard stores no runs in a results file; it says what it published.
+  // As soon as it is known; a session that is killed later has said it.
+  void took_over(const TakenOver& taken) const;
+  // A shard stores no runs in a results file; it says what it published. Other sessions name the seal of the file that
+  // they leave.
   void end(const CampaignResult& result, int signal_number, const std::optional<ShardChunks>& chunks = {}) const;
 
  private:
-  std::string path_;
+  std::string archive_path_, path_;
 };
 
 // The file of the plug-in with this agent, as the last session remembers it; empty: no session does.
@@ -55,7 +58,7 @@ RememberedFile remembered_campaign_file(const std::string& archive_path);
 std::string remembered_ledger(const std::string& archive_path);
 // The attempt of the last session that names one; empty: none does.
 std::string remembered_attempt(const std::string& archive_path);
-// For each session that wrote to the ledger of the last one: the ledger line of its attempt.
+// For each session that wrote to the ledger of the last one: the ledger line of its attempt. The last one is the last.
 std::vector<LogLine> remembered_ledger_lines(const std::string& archive_path);
 // The shard of the last session, as "3/8"; empty: it was none.
 std::string remembered_shard(const std::string& archive_path);
@@ -64,6 +67,14 @@ std::string remembered_release(const std::string& archive_path);
 bool remembers_fresh_seed(const std::string& archive_path);
 // The options with which the last session changed the plan of the campaign file, as typed. Empty: there were none.
 std::string remembered_overrides(const std::string& archive_path);
+// What the last session of this attempt that took runs over says of it; nothing if none did.
+std::optional<TakenOver> remembered_taken_over(const std::string& archive_path);
+// What the log says of the file beside it: the seal that its last session left there, or that it says none.
+struct RememberedSeal {
+  bool has_end = false;                // the last session noted its end
+  std::optional<std::uint64_t> value;  // absent: an older program wrote the log, or somebody changed it
+};
+RememberedSeal remembered_seal(const std::string& archive_path);
 // How many runs lost a worker that another program may have killed, and then passed in a second worker. All sessions.
 std::uint64_t remembered_disturbed(const std::string& archive_path);
 

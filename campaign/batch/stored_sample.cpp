@@ -12,8 +12,9 @@
 namespace fleetproof {
 namespace {
 
-// If a fifth of all rows was exchanged, a sample of this size holds none of them once in two hundred times.
-constexpr std::size_t kSample = 24;
+// If one row in a hundred was exchanged, a sample of this size holds none of them in one of twenty cases.
+constexpr std::size_t kDrawn = 300;
+constexpr std::size_t kNamed = 100;
 constexpr std::chrono::seconds kLongest{2};
 
 }  // namespace
@@ -23,19 +24,30 @@ void StoredSample::add(const RunRecord& run) {
   Draws draws(key_ ^ checksum);
   key_ = draws.next();
   const std::uint64_t place =
-      runs_.size() < kSample ? runs_.size() : draws.below(static_cast<std::uint32_t>(seen_ + 1));
+      drawn_.size() < kDrawn ? drawn_.size() : draws.below(static_cast<std::uint32_t>(seen_ + 1));
   ++seen_;
-  if (place == runs_.size()) runs_.emplace_back();
-  if (place < runs_.size()) runs_[place] = {run.run_index, checksum};
+  if (place == drawn_.size()) drawn_.emplace_back();
+  if (place < drawn_.size()) drawn_[place] = {run.run_index, checksum};
 }
 
-void StoredSample::simulate_again(Session& session, const CampaignPlan& plan, const AgentPrograms& programs,
-                                  const std::string& path) const {
+void StoredSample::add_named(const RunRecord& run) {
+  if (named_.size() >= kNamed) return add(run);
+  named_.emplace_back(run.run_index, row_checksum(run));
+}
+
+TakenOver StoredSample::simulate_again(Session& session, const CampaignPlan& plan, const AgentPrograms& programs,
+                                       const std::string& path) const {
   const auto begin = std::chrono::steady_clock::now();
-  TaskPool<RunRecord> pool({.workers = session.options().workers, .end = runs_.size()},
-                           [&](std::uint64_t place) { return session.runs()(runs_[place].first); });
+  std::vector<Stored> runs = named_;
+  runs.insert(runs.end(), drawn_.begin(), drawn_.end());
+  TaskPool<RunRecord> pool({.workers = session.options().workers, .end = runs.size()},
+                           [&](std::uint64_t place) { return session.runs()(runs[place].first); });
+  TakenOver taken;
   const auto compare = [&](std::uint64_t place, RunRecord run) {
-    if (run.was_disturbed || run.otherwise || row_checksum(run) == runs_[place].second) return;
+    if (run.was_disturbed || run.otherwise) return;
+    ++taken.simulated_again;
+    taken.drawn += place < named_.size() ? 0 : 1;
+    if (row_checksum(run) == runs[place].second) return;
     if (!programs.is_plugin(plan.agent_of_cell(run.run_index)))
       throw EngineError(
           fmt::format("{}: run {} is stored otherwise than this program simulates it; somebody has changed "
@@ -47,6 +59,7 @@ void StoredSample::simulate_again(Session& session, const CampaignPlan& plan, co
   pool.take_all(compare, [&] {
     if (must_stop(session.options()) || std::chrono::steady_clock::now() - begin > kLongest) pool.stop();
   });
+  return taken;
 }
 
 }  // namespace fleetproof

@@ -106,6 +106,21 @@ AttemptHistory history_in(const std::string& ledger, const std::string& path, co
   return history;
 }
 
+// Whether the session log is that of the results file. The ledger knows the plan of the attempt that it names; the seal
+// that its last session left is that of the file.
+void add_log_of_file(AttemptHistory& history, const ReportInput& input, const std::vector<LogLine>& begins) {
+  if (!begins.empty() && !history.ledger.empty()) {
+    const AttemptLedger ledger(history.ledger);
+    const auto named = std::ranges::find(ledger.attempts(), begins.back(), &Attempt::line);
+    history.log_is_foreign = named != ledger.attempts().end() && named->worlds != attempt_of(input.campaign).worlds;
+  }
+  if (!input.seal) return;
+  const RememberedSeal left = remembered_seal(input.archive_path);
+  history.log_has_no_end = !left.has_end;
+  history.log_names_no_file = left.has_end && !left.value;
+  history.log_is_foreign = history.log_is_foreign || (left.value && left.value != input.seal);
+}
+
 }  // namespace
 
 void add_history(ReportInput& input, const std::string& ledger) {
@@ -123,6 +138,8 @@ void add_history(ReportInput& input, const std::string& ledger) {
   input.sensitivity = sensitivity_beside(archive, input.campaign);
   input.findings = findings_beside(archive, input.campaign.plan_hash, input.stored_runs);
   if (!has_log) return;
+  add_log_of_file(input.attempts, input, begins);
+  input.attempts.taken_over = remembered_taken_over(archive);
   input.attempts.was_merged = !remembered_shard(archive).empty();
   input.attempts.looks = looks_at(archive);
   input.attempts.overrides = remembered_overrides(archive);

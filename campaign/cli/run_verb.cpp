@@ -216,6 +216,7 @@ int run(RunWords words) {
                      .campaign_file = absolute_name(words.campaign)});
       tell();
     };
+    listener.took_over = [&](const TakenOver& taken) { session.took_over(taken); };
     listener.wants_status = [] { return status_wanted.exchange(false); };
     say_where_fleets_are(file.places,
                          [&] { result = run_campaign(file.plan, programs, words.archive, options, listener); });

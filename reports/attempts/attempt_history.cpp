@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reports/evidence/rounding.hpp"
 #include "reports/page/wording.hpp"
 
 namespace fleetproof {
@@ -109,7 +110,40 @@ std::string software_sentence(const AttemptHistory& history, double risk) {
       percent(std::min(1.0, risk * static_cast<double>(tries))));
 }
 
-std::string trouble_sentences(const AttemptHistory& history) {
+// Nothing if all of them were simulated again.
+std::string taken_over_sentence(const TakenOver& taken) {
+  if (taken.simulated_again >= taken.runs) return "";
+  constexpr double kConfidence = 0.95;
+  std::string text = fmt::format(
+      " {} stored by an earlier session; the last one simulated {} of them again, {} drawn at random",
+      taken.runs == 1 ? "1 run was" : fmt::format("{} runs were", taken.runs), taken.simulated_again, taken.drawn);
+  if (taken.drawn == 0) return text + ": whether somebody had exchanged rows is not known.";
+  return text + fmt::format(": if more than {} % of the rows had been exchanged, that would have shown with {}.",
+                            rounded_up(100.0 * most_exchanged(taken, kConfidence)), percent(kConfidence));
+}
+
+// What the session log says of itself and of the file beside it.
+std::string session_log_sentences(const AttemptHistory& history) {
+  std::string text;
+  if (history.names_no_ledger)
+    text += " The session log names no line of a ledger: it was changed, or an older program wrote it.";
+  if (history.log_is_foreign)
+    text +=
+        " The session log is that of another results file, or somebody changed this file after its last session: "
+        "what the log says of sessions and disturbed runs may be of other runs.";
+  if (history.log_names_no_file)
+    text +=
+        " The session log does not say which file its last session left: it was changed, or an older program wrote "
+        "it.";
+  if (history.log_has_no_end)
+    text += " The last session noted no end: it is under way, it was killed, or somebody changed the session log.";
+  if (history.taken_over) text += taken_over_sentence(*history.taken_over);
+  return text;
+}
+
+}  // namespace
+
+std::string attempt_troubles(const AttemptHistory& history) {
   std::string text;
   if (!history.session_log_trouble.empty())
     text += fmt::format(
@@ -118,8 +152,7 @@ std::string trouble_sentences(const AttemptHistory& history) {
         printable(history.session_log_trouble, 400));
   else if (!history.has_session_log)
     text += " There is no session log beside the results file: who made it, when, and by which ledger is not known.";
-  if (history.has_session_log && history.names_no_ledger)
-    text += " The session log names no line of a ledger: it was changed, or an older program wrote it.";
+  if (history.has_session_log) text += session_log_sentences(history);
   if (history.was_merged) text += " Shards write into no ledger: what was run in shards, and not merged, is not known.";
   if (history.disturbed_runs > 0)
     text += fmt::format(
@@ -138,15 +171,13 @@ std::string trouble_sentences(const AttemptHistory& history) {
   return text;
 }
 
-}  // namespace
-
 std::string attempts_sentence(const AttemptHistory& history, double risk) {
   if (!history.ledger_trouble.empty())
     return fmt::format("Earlier attempts unknown: the ledger cannot be read ({}).",
                        printable(history.ledger_trouble, 400)) +
-           trouble_sentences(history);
+           attempt_troubles(history);
   if (history.ledger.empty() || !history.own)
-    return "Earlier attempts unknown: no ledger of attempts tells of this campaign." + trouble_sentences(history);
+    return "Earlier attempts unknown: no ledger of attempts tells of this campaign." + attempt_troubles(history);
   std::string text = others_sentence(history, risk) + software_sentence(history, risk);
   if (!history.same_worlds.empty()) {
     text += fmt::format(
@@ -159,7 +190,7 @@ std::string attempts_sentence(const AttemptHistory& history, double risk) {
                   "worlds, and how many were tried no other ledger tells."
                 : " A person chose the seed: whether these worlds were seen before in a search, no ledger tells.";
   }
-  return text + trouble_sentences(history);
+  return text + attempt_troubles(history);
 }
 
 }  // namespace fleetproof

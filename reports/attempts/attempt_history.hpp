@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reports/attempts/attempt_ledger.hpp"
+#include "reports/evidence/taken_over.hpp"
 
 namespace fleetproof {
 
@@ -31,11 +32,18 @@ struct AttemptHistory {
   bool was_merged = false;            // from shards, which write into no ledger
   bool ledger_lost_line = false;  // the ledger has not the line that the session log names: it is gone or another one
   std::optional<std::uint64_t> looks{};  // at the results; absent: not known
-  std::uint64_t disturbed_runs = 0;      // whose first worker was killed or waited too long, and whose second was not
-  std::string overrides{};               // options of a session that changed the plan, as typed
+  bool log_is_foreign = false;     // the session log is that of another results file, or the file was changed since
+  bool log_names_no_file = false;  // it does not say which file its last session left
+  bool log_has_no_end = false;     // of the last session, although the file is published
+  std::optional<TakenOver> taken_over{};  // by the last session that went on
+  std::uint64_t disturbed_runs = 0;       // whose first worker was killed or waited too long, and whose second was not
+  std::string overrides{};                // options of a session that changed the plan, as typed
 };
 
 AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord& campaign);
+
+// What the ledger and the session log leave in doubt, in sentences; empty: nothing.
+std::string attempt_troubles(const AttemptHistory& history);
 
 // One sentence for the head of a page. `risk`: of one attempt, that it demonstrates a limit that is not met; with
 // several attempts it adds up (union bound). Never says that an attempt was the first.

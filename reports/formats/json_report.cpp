@@ -363,6 +363,14 @@ Json attempt_json(const Attempt& attempt) {
           {"overwritten", attempt.replaced}};
 }
 
+Json taken_over_json(const std::optional<TakenOver>& taken) {
+  if (!taken) return nullptr;
+  return {{"runs", taken->runs},
+          {"simulated_again", taken->simulated_again},
+          {"drawn", taken->drawn},
+          {"most_exchanged", most_exchanged(*taken, 0.95)}};
+}
+
 Json attempts_json(const ReportInput& input) {
   const AttemptHistory& history = input.attempts;
   const auto list = [](const std::vector<Attempt>& attempts) {
@@ -375,6 +383,9 @@ Json attempts_json(const ReportInput& input) {
           {"others", list(history.others)},
           {"same_worlds", list(history.same_worlds)},
           {"looks", maybe(history.looks)},
+          {"session_log_is_foreign", history.log_is_foreign},
+          {"disturbed_runs", history.disturbed_runs},
+          {"taken_over", taken_over_json(history.taken_over)},
           {"overrides", history.overrides}};
 }
 

@@ -37,6 +37,7 @@ ReportInput read_report_input(const ArchiveReader& archive, std::string archive_
   archive.for_each_run(count, folded);
   for (const std::string& agent : archive.campaign().plugin_agents)
     input.evidence.know_recordings(agent, archive.recording_count(agent));
+  input.seal = archive.seal();
   input.gates = input.evidence.judge_all();
   return input;
 }

@@ -26,6 +26,7 @@ struct ReportInput {
   FailureGroups failures;                      // of the runs before the first gap
   std::vector<GateResult> gates;               // in the order of evidence.gates()
   std::uint64_t stored_runs = 0;               // in the file; evidence.runs() of them are before the first gap
+  std::optional<std::uint64_t> seal{};         // of the file; absent in a live one
   std::vector<BaselineComparison> baseline{};  // empty: the report compares with nothing
   // A caller adds these: the exit code of the program, which knows its codes, what files beside the archive tell, and
   // what the plan waives.

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -31,6 +34,48 @@ TEST(SessionLog, RemembersTheLinesOfTheLastLedger) {
                        R"({"ledger":"/old",)" + line + "\n" + R"({"ledger":5,)" + line + "\n" + R"({"ledger":"/new",)" +
                            line + "\n" + R"({"ledger":"/new","ledger_line":"7","ledger_hash":1})" + "\nno JSON\n");
   EXPECT_EQ(remembered_ledger_lines(folder / "a.db"), (std::vector<LogLine>{{7, 255}}));
+}
+
+TEST(SessionLog, RemembersWhatTheLastSessionOfItsAttemptTookOver) {
+  const samples::TemporaryFolder folder;
+  const auto taken = [&](const std::string& lines) {
+    samples::write_bytes(folder / "a.sessions.jsonl", lines);
+    return remembered_taken_over(folder / "a.db");
+  };
+  const std::string begin = R"({"started_utc":"x","attempt":"1"})"
+                            "\n",
+                    other = R"({"started_utc":"x","attempt":"2"})"
+                            "\n",
+                    first = R"({"runs_taken_over":30,"simulated_again":20,"drawn":10})"
+                            "\n",
+                    second = R"({"runs_taken_over":50,"simulated_again":"20","drawn":-1})"
+                             "\n";
+  EXPECT_EQ(taken(begin), std::nullopt);
+  EXPECT_EQ(taken(begin + first), (TakenOver{30, 20, 10}));
+  EXPECT_EQ(taken(begin + first + begin), (TakenOver{30, 20, 10})) << "there was nothing left to do";
+  EXPECT_EQ(taken(begin + first + begin + second), (TakenOver{50, 0, 0})) << "what is no number is none";
+  EXPECT_EQ(taken(begin + first + other), std::nullopt) << "the file was overwritten";
+  EXPECT_EQ(taken("no JSON\n[1]\n"), std::nullopt);
+}
+
+TEST(SessionLog, RemembersTheSealThatTheLastSessionLeft) {
+  const samples::TemporaryFolder folder;
+  const auto left = [&](const std::string& lines) {
+    samples::write_bytes(folder / "a.sessions.jsonl", lines);
+    const RememberedSeal seal = remembered_seal(folder / "a.db");
+    return std::pair(seal.has_end, seal.value);
+  };
+  using Left = std::pair<bool, std::optional<std::uint64_t>>;
+  const std::string begin = R"({"started_utc":"x"})"
+                            "\n",
+                    end = R"({"ended_utc":"x","seal":"00000000000000ff"})"
+                          "\n",
+                    older = R"({"ended_utc":"x"})"
+                            "\n";
+  EXPECT_EQ(left(begin), Left(false, std::nullopt));
+  EXPECT_EQ(left(begin + end), Left(true, 255U));
+  EXPECT_EQ(left(begin + end + begin), Left(false, std::nullopt)) << "the last session noted none";
+  EXPECT_EQ(left(begin + end + begin + older), Left(true, std::nullopt));
 }
 
 class RememberedPlugin : public testing::Test {

@@ -249,6 +249,32 @@ TEST_F(Attempts, HaveALineThatASessionLogCanName) {
   EXPECT_THAT(attempts_sentence(history, 0.05), HasSubstr("There is no session log beside the results file"));
 }
 
+TEST_F(Attempts, SayWhichShareOfTakenOverRowsMayBeExchanged) {
+  const auto troubles = [](const TakenOver& taken) {
+    AttemptHistory history;
+    history.taken_over = taken;
+    return attempt_troubles(history);
+  };
+  EXPECT_EQ(troubles({2000, 340, 300}),
+            " 2000 runs were stored by an earlier session; the last one simulated 340 of them again, 300 drawn at "
+            "random: if more than 0.994 % of the rows had been exchanged, that would have shown with 95 %.")
+      << "1 - 0.05^(1/300)";
+  EXPECT_THAT(troubles({2000, 7, 0}),
+              HasSubstr("7 of them again, 0 drawn at random: whether somebody had exchanged rows"));
+  EXPECT_EQ(troubles({300, 300, 280}), "") << "all of them";
+}
+
+TEST_F(Attempts, NameASessionLogThatDoesNotFitTheFile) {
+  AttemptHistory history;
+  EXPECT_EQ(attempt_troubles(history), "");
+  history.log_is_foreign = history.log_names_no_file = history.log_has_no_end = true;
+  for (const char* said :
+       {"The session log is that of another results file", "does not say which file", "noted no end"})
+    EXPECT_THAT(attempts_sentence(history, 0.05), HasSubstr(said));
+  history.has_session_log = false;
+  EXPECT_THAT(attempts_sentence(history, 0.05), Not(HasSubstr("another results file")));
+}
+
 TEST_F(Attempts, InOtherWorldsCountOnceHoweverOftenTheyAreRepeated) {
   tried(1, "");
   tried(1, "violated");

@@ -313,6 +313,44 @@ TEST_F(LedgerTricks, ASessionLogThatNamesNoLedgerIsTold) {
   EXPECT_THAT(head(), HasSubstr("The session log names no line of a ledger"));
 }
 
+// The log of a campaign that nobody disturbed, beside the file of one in which workers were lost.
+TEST_F(LedgerTricks, TheSessionLogOfAnotherFileIsTold) {
+  try_as("one", "", 2);
+  const std::string foreign = read(path("c.sessions.jsonl"));
+  std::filesystem::remove(path("c.sessions.jsonl"));
+  try_as("one");
+  EXPECT_THAT(head(), testing::Not(HasSubstr("The session log is that of another")));
+  const std::string own = read(path("c.sessions.jsonl"));
+  const auto said = HasSubstr("The session log is that of another results file, or somebody changed this file");
+  write("c.sessions.jsonl", foreign);
+  EXPECT_THAT(head(), said);
+  // Whoever writes the seal of this file into it is told by the ledger.
+  const std::regex seal(R"x("seal":"[0-9a-f]{16}")x");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(own, found, seal));
+  write("c.sessions.jsonl", std::regex_replace(foreign, seal, found.str()));
+  EXPECT_THAT(head(), said);
+  write("c.sessions.jsonl", own);
+  EXPECT_THAT(head(), testing::Not(said));
+  // Another file of the same plan.
+  std::filesystem::rename(path("c.db"), path("kept.db"));
+  EXPECT_EQ(run("run c.toml --db c.db --replicates 20").exit_code, 0);
+  write("c.sessions.jsonl", own);
+  EXPECT_THAT(head(), said);
+}
+
+TEST_F(LedgerTricks, ASessionLogWithoutAnEndOrASealIsTold) {
+  try_as("one");
+  const std::string log = read(path("c.sessions.jsonl"));
+  write("c.sessions.jsonl", log.substr(0, log.find('\n') + 1));
+  EXPECT_THAT(head(), HasSubstr("The last session noted no end"));
+  write("c.sessions.jsonl", std::regex_replace(log, std::regex(R"x(,"seal":"[0-9a-f]{16}")x"), ""));
+  EXPECT_THAT(head(), HasSubstr("The session log does not say which file its last session left"));
+  write("c.sessions.jsonl", log);
+  EXPECT_THAT(head(), testing::Not(HasSubstr("The session log does not")));
+  EXPECT_THAT(head(), testing::Not(HasSubstr("noted no end")));
+}
+
 TEST_F(LedgerTricks, ShardsAreToldToWriteIntoNoLedger) {
   try_as("one");
   ASSERT_EQ(run("run c.toml --shard 1/1 --out s").exit_code, 0);
