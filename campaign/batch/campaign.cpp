@@ -32,6 +32,7 @@ class CampaignPolicy final : public SessionPolicy {
       : session_(session),
         plan_(plan),
         programs_(programs),
+        stored_(stored),
         audit_counts_(plan, programs),
         verdict_(stored),
         archive_(path, stored, session.options().overwrite ? Existing::Replace : Existing::Resume, resumption(path)) {
@@ -86,7 +87,7 @@ class CampaignPolicy final : public SessionPolicy {
   void publish(CampaignResult& result, Keep keep) {
     result.stored = stop_length().value_or(ledger_.prefix_length());
     const bool goes_on = !result.complete() || result.progress.audits_open > 0 || !result.audit_failure.empty();
-    archive_.publish(result.stored, keep == Keep::Failing && !goes_on ? MayFold(is_quiet) : MayFold());
+    archive_.publish(result.stored, keep == Keep::Failing && !goes_on ? quiet_runs_of(stored_) : MayFold());
   }
 
  private:
@@ -162,9 +163,11 @@ class CampaignPolicy final : public SessionPolicy {
   Session& session_;
   const CampaignPlan& plan_;
   const AgentPrograms& programs_;
+  const StoredPlan& stored_;
   RunLedger ledger_;
   bool stored_runs_are_ours_ = true;
-  std::unordered_set<std::uint64_t> audited_before_;  // in an earlier session
+  std::unordered_map<std::uint64_t, bool> audited_before_;  // in an earlier session: whether it came out the same
+  std::unordered_set<std::uint64_t> recorded_clean_;
   StoredSample sample_;
   AuditCounts audit_counts_;
   VerdictWatch verdict_;

@@ -201,7 +201,7 @@ std::uint64_t merge_chunks(const PublishedChunks& chunks, const std::string& pat
     const std::uint64_t stored = stop.value_or(chunks.grid().runs());
     const bool folds = plan.campaign.keep == Keep::Failing && stored == chunks.grid().runs();
     if (!is_there) options.publishes();
-    archive.publish(stored, folds ? MayFold(is_quiet) : MayFold());
+    archive.publish(stored, folds ? quiet_runs_of(plan) : MayFold());
     if (is_there) {
       require_same_file(path, target);
       options.publishes();

@@ -1,6 +1,7 @@
 #include "reports/evidence/tally.hpp"
 
 #include "core/outcome/work_and_progress.hpp"
+#include "reports/evidence/quiet_run.hpp"
 
 namespace fleetproof {
 
@@ -20,6 +21,7 @@ Tally Tally::of(const RunRecord& run, RunResult violation) {
   one.hang_runs = outcome.hang;
   one.indeterminate_runs = outcome.indeterminate;
   one.engine_error_runs = outcome.engine_error;
+  one.silent_runs = !run.folded && is_silent(outcome);
   one.transports_done = outcome.counters.transports_done;
   one.agv_us = fleetproof::agv_us(outcome.simulated_ns, outcome.agv_count);
   one.longest_ns = outcome.simulated_ns;
@@ -33,7 +35,7 @@ void Tally::add(const Tally& other) {
   for (const auto count : {&Tally::runs, &Tally::violating_runs, &Tally::contact_runs, &Tally::hazardous_contact_runs,
                            &Tally::stuck_runs, &Tally::crash_runs, &Tally::hang_runs, &Tally::indeterminate_runs,
                            &Tally::engine_error_runs, &Tally::unknown_runs, &Tally::repeats, &Tally::passing_repeats,
-                           &Tally::unmeasured_runs, &Tally::transports_done, &Tally::agv_us}) {
+                           &Tally::unmeasured_runs, &Tally::silent_runs, &Tally::transports_done, &Tally::agv_us}) {
     this->*count += other.*count;
   }
   longest_ns = std::max(longest_ns, other.longest_ns);

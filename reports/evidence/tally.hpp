@@ -20,6 +20,7 @@ struct Tally {
   std::uint64_t unknown_runs = 0;     // runs in which that end point is unknown
   std::uint64_t repeats = 0;          // runs with a trace that an earlier run of their cell had
   std::uint64_t passing_repeats = 0;  // those of them that passed that end point
+  std::uint64_t silent_runs = 0;      // of two or more AGVs, none of which sent a message
   std::uint64_t transports_done = 0;
   std::uint64_t agv_us = 0;           // AGVs x simulated time
   std::uint64_t longest_ns = 0;       // of one run

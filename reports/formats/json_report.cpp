@@ -149,6 +149,13 @@ Json missing_json(const std::vector<MissingProbe>& missing) {
 
 Json coverage_json(const ReportInput& input) {
   Json json{{"required", input.campaign.required_probes}, {"runs_per_probe", kRunsPerProbe}, {"agents", Json::array()}};
+  const auto silent = [&](const std::string& agent) -> Json {
+    if (!is_under_test(input.evidence.plan(), agent)) return nullptr;  // a folded file does not know it
+    std::uint64_t runs = 0;
+    for (const CellRecord& cell : input.evidence.cells())
+      runs += cell.agent == agent ? input.evidence.tally(cell.index).silent_runs : 0;
+    return runs;
+  };
   for (const auto& agent : input.evidence.agent_coverage()) {
     auto met = Json::array();
     for (const bool world : {true, false}) {
@@ -161,6 +168,7 @@ Json coverage_json(const ReportInput& input) {
     }
     json["agents"].push_back({{"agent", agent.agent},
                               {"runs", agent.coverage.runs()},
+                              {"silent_runs", silent(agent.agent)},
                               {"met", met},
                               {"missing_probes", missing_json(agent.missing)}});
   }

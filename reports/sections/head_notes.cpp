@@ -3,9 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
 
+#include "reports/evidence/rounding.hpp"
+#include "reports/evidence/zero_failure.hpp"
 #include "reports/page/wording.hpp"
+#include "reports/sections/audit_section.hpp"
+#include "reports/sections/condition_table.hpp"
 #include "reports/sections/coverage_section.hpp"
+#include "reports/sections/sample_sentence.hpp"
 #include "reports/sensitivity/sensitivity_section.hpp"
 
 namespace fleetproof {
@@ -26,6 +34,15 @@ bool has_whole_gate_on(const Evidence& evidence, const std::string& agent, EndPo
 }
 
 }  // namespace
+
+std::vector<Headline> head_beside_verdict(const ReportInput& input) {
+  std::vector<Headline> head = reservations(input);
+  for (auto part : {lenient_headlines(input.waived), audit_headlines(input), weak_headlines(input)})
+    std::ranges::move(part, std::back_inserter(head));
+  std::string troubles = input.evidence.counts_only() ? "" : attempt_troubles(input.attempts);
+  if (!troubles.empty()) head.push_back({"sessions", troubles.substr(1), {}});
+  return head;
+}
 
 std::vector<Remark> stall_notes(const ReportInput& input) {
   std::vector<Remark> notes;
@@ -73,6 +90,43 @@ std::vector<Remark> meeting_notes(const ReportInput& input) {
     notes.emplace_back().text = fmt::format(
         "{} only followed other AGVs: {} had drives of two AGVs that came head-on, crossed or merged.",
         printable(agent, 40), *others == 0 ? "no run" : fmt::format("fewer than one in {} runs", kRunsPerProbe));
+  }
+  return notes;
+}
+
+std::vector<Remark> silence_notes(const ReportInput& input) {
+  constexpr std::uint64_t kNoticed = 10;                                  // one run in so many
+  std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> counts;  // by agent: silent runs, all of two or more
+  for (const CellRecord& cell : input.evidence.cells()) {
+    if (cell.fleet_size < 2 || !is_under_test(input.evidence.plan(), cell.agent)) continue;
+    auto& [silent, all] = counts[cell.agent];
+    silent += input.evidence.tally(cell.index).silent_runs;
+    all += input.evidence.tally(cell.index).runs;
+  }
+  std::vector<Remark> notes;
+  for (const auto& [agent, count] : counts) {
+    const auto [silent, all] = count;
+    if (silent == 0 || silent * kNoticed < all) continue;
+    notes.emplace_back().text = fmt::format(
+        "The AGVs of {} sent no message in {} of {} runs with two or more of them: nothing that the radio loses or "
+        "delays could matter there, and what they agreed on, if anything, they did not agree on by radio.",
+        printable(agent, 40), silent, all);
+  }
+  return notes;
+}
+
+std::vector<Remark> repeat_notes(const ReportInput& input) {
+  std::vector<Remark> notes;
+  for (const AgentAudit& audit : input.evidence.audits().agents()) {
+    // A reference agent always does the same: a difference would be an error of the engine.
+    if (!audit.is_plugin || !is_under_test(input.evidence.plan(), audit.agent)) continue;
+    if (audit.audited == 0 || audit.differing > 0) continue;
+    const double confidence = bound_rule(input.evidence, audit.agent).confidence;
+    notes.emplace_back().text = fmt::format(
+        "With {} confidence, at most {} % of the runs of {} would come out otherwise if they were simulated once more: "
+        "{} and none did.",
+        percent(confidence), rounded_up(100.0 * zero_failure_bound(audit.audited, confidence)),
+        printable(audit.agent, 40), audit.audited == 1 ? "1 was," : fmt::format("{} were,", audit.audited));
   }
   return notes;
 }

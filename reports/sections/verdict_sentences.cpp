@@ -93,6 +93,7 @@ Headline claim(const ReportInput& input) {
   std::ranges::move(stall_notes(input), std::back_inserter(headline.details));
   std::ranges::move(crash_notes(input), std::back_inserter(headline.details));
   std::ranges::move(meeting_notes(input), std::back_inserter(headline.details));
+  std::ranges::move(silence_notes(input), std::back_inserter(headline.details));
   for (std::size_t i = 0; i < std::min(kGatesTold, speaking.size()); ++i) {
     const GateResult& result = input.gates[speaking[i]];
     std::string text = i == 0 ? "" : subject(input, speaking[i]) + ". ";
@@ -116,6 +117,7 @@ Headline claim(const ReportInput& input) {
   headline.details.emplace_back().text =
       "A world (replicate) is one draw of all that is random. It is run in every cell (test condition).";
   std::ranges::move(soundness_notes(input), std::back_inserter(headline.details));
+  std::ranges::move(repeat_notes(input), std::back_inserter(headline.details));
   std::ranges::move(foreign_code_notes(input), std::back_inserter(headline.details));
   std::ranges::move(sensitivity_notes(input), std::back_inserter(headline.details));
   if (const std::string attempts = attempts_headline(input.attempts, input.evidence); !attempts.empty())

@@ -215,6 +215,22 @@ def soundness(archive, found):
     return (row["n"], row["errors"], row["differing"]) == (int(found[1]), 0, 0)
 
 
+def silence(archive, found):
+    """"The AGVs of A sent no message in 3 of 9 runs with two or more of them: ..."."""
+    row = archive.one("SELECT count(*) AS n, coalesce(sum(agv_count > 1 AND messages_sent = 0), 0) AS silent FROM runs JOIN "
+                      "cells USING (cell) WHERE agent = ? AND fleet_size > 1 AND replicate < ?", found[1], archive.replicates)
+    return (row["silent"], row["n"]) == (int(found[2]), int(found[3]))
+
+
+def repeats_alike(archive, found):
+    """"With 95 % confidence, at most 9.22 % of the runs of A would come out otherwise ...: 31 were, and none did."."""
+    audited = archive.one("SELECT count(*) AS n FROM audits JOIN runs USING (run_index) JOIN cells USING (cell) WHERE agent = ? "
+                          "AND run_index < ?", found[3], archive.runs)["n"]
+    confidence = next((gate["confidence"] for gate in archive.gates if gate["agent"] == found[3]), 0.95)
+    share = 1.0 - round(1.0 - confidence, 12) ** (1.0 / audited)
+    return (found[1], found[2], int(found[4])) == (w.percent(confidence), w.up(100.0 * share), audited)
+
+
 def confidences(archive, found):
     """"upper = one-sided upper bound, at 95 % for A, 99 % for B."."""
     said = [f"{w.percent(next((gate['confidence'] for gate in archive.gates if gate['agent'] == agent), 0.95))} for {agent}"
@@ -324,6 +340,9 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
     (r"^In ([0-9]+) of ([0-9]+) runs of (.+) no two AGVs met\.$", met_nobody),
     (r"^.+ only followed other AGVs: fewer than one in 20000 runs had ", constant),
     (r"^No run ended in an error of the simulator\. ([0-9]+) runs? w(?:as|ere) simulated once more", soundness),
+    (r"^The AGVs of (.+) sent no message in ([0-9]+) of ([0-9]+) runs with two or more of them: ", silence),
+    (r"^With ([0-9.]+ %) confidence, at most ([0-9.e+-]+) % of the runs of (.+) would come out otherwise if they were simulated "
+     r"once more: ([0-9]+) w(?:as|ere), and none did\.$", repeats_alike),
     (r"^Plan digest ([0-9a-f]{16}) was fixed before run 0, at ", plan_time),
     (r"^When plan digest ([0-9a-f]{16}) was fixed is not known", plan_time),
     (r"^Seed ([0-9]+) (was chosen by a person|follows from)", seed),

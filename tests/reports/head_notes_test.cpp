@@ -97,6 +97,37 @@ TEST(HeadNotes, SayThatTheSimulatorWasChecked) {
   EXPECT_THAT(soundness_notes(with({first, second, samples::audit_of(5, false)})), IsEmpty()) << "a headline says more";
 }
 
+TEST(HeadNotes, NameFleetsThatSendNoMessages) {
+  const auto silent = [](std::uint64_t below, std::uint32_t agvs = 5) {
+    return texts(silence_notes(stalling(EndPoint::Violation, [&](RunRecord& run) {
+      if (run.replicate < below) run.outcome.counters.messages_sent = 0;
+      run.outcome.agv_count = agvs;
+    })));
+  };
+  EXPECT_THAT(silent(20), HasSubstr("The AGVs of ours sent no message in 40 of 40 runs with two or more of them"));
+  EXPECT_THAT(silent(2), HasSubstr("in 4 of 40 runs"));
+  EXPECT_THAT(silent(2), Not(HasSubstr("theirs")));
+  EXPECT_EQ(silent(1), "") << "fewer than one in ten";
+  EXPECT_EQ(silent(20, 1), "") << "one AGV has nobody to talk to";
+}
+
+TEST(HeadNotes, SayHowManyRunsMayComeOutOtherwise) {
+  const auto of = [](const std::vector<AuditedRun>& audits, const std::string& plugin = "ours") {
+    CampaignRecord campaign = samples::campaign_of("claim", 20);
+    campaign.plugin_agents = {plugin};
+    return texts(repeat_notes(samples::report_of(campaign, samples::grid({"ours", "theirs"}, {0.4, 0.8}, {1.0}),
+                                                 {samples::gate_of("ours", GateKind::Rate, Region::Contract, 0.1)}, {},
+                                                 0, 0, audits)));
+  };
+  EXPECT_EQ(of({}), "");
+  EXPECT_EQ(of({samples::audit_of(0, true), samples::audit_of(1, true), samples::audit_of(2, true)}),
+            "With 95 % confidence, at most 77.7 % of the runs of ours would come out otherwise if they were simulated "
+            "once more: 2 were, and none did.\n")
+      << "1 - 0.05^(1/2); the third is theirs";
+  EXPECT_EQ(of({samples::audit_of(0, true), samples::audit_of(1, false)}), "") << "a headline says more";
+  EXPECT_EQ(of({samples::audit_of(0, true)}, "theirs"), "") << "reference agents always do the same";
+}
+
 TEST(HeadNotes, SayThatNobodyTriedPlantedFaults) {
   auto input = stalling(EndPoint::Violation, {});
   EXPECT_THAT(texts(sensitivity_notes(input)), HasSubstr("planted faults these worlds detect was not measured"));

@@ -12,6 +12,7 @@ RunRecord quiet_run() {
   run.outcome.agv_count = 2;
   run.outcome.simulated_ns = 60'000'000'000;
   run.outcome.counters.transports_done = 3;
+  run.outcome.counters.messages_sent = 4;
   run.outcome.min_clearance_um = 120'000;
   return run;
 }
@@ -42,6 +43,23 @@ TEST(QuietRuns, MayHaveFaultsButNoAccusation) {
     run.outcome.incidents = {incident_of(info.kind)};
     EXPECT_EQ(is_quiet(run), info.kind == IncidentKind::FaultInjected) << info.name;
   }
+}
+
+// The head counts those of software under test.
+TEST(QuietRuns, WithoutAMessageAreFoldedOnlyIfNobodyCountsThem) {
+  StoredPlan plan;
+  plan.campaign.agents_under_test = {"ours"};
+  plan.cells = {{0, "ours", "ring", 2, {}}, {1, "theirs", "ring", 2, {}}};
+  const MayFold may_fold = quiet_runs_of(plan);
+  RunRecord run = quiet_run();
+  EXPECT_TRUE(may_fold(run));
+  run.outcome.counters.messages_sent = 0;
+  EXPECT_FALSE(may_fold(run));
+  run.cell = 1;
+  EXPECT_TRUE(may_fold(run)) << "a reference agent";
+  run.cell = 0;
+  run.outcome.agv_count = 1;
+  EXPECT_TRUE(may_fold(run)) << "one AGV has nobody to talk to";
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ inline RunRecord clean_run(std::uint64_t run_index, std::size_t cells) {
   run.outcome.simulated_ns = 600'000'000'000;
   run.outcome.agv_count = 5;
   run.outcome.counters.transports_done = 10;
+  run.outcome.counters.messages_sent = 40;
   file_probes(run.outcome, {{ProbeSource::World, "crossing", 4},
                             {ProbeSource::World, "head-on", 2},
                             {ProbeSource::Agent, "negotiation", 30}});

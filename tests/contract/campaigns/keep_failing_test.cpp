@@ -34,8 +34,11 @@ class KeepFailing : public test::ShardedCampaign {
 };
 
 TEST_F(KeepFailing, GivesTheSamePagesFromALittleFile) {
-  write_campaign("c.toml", 300);
-  write_campaign("f.toml", 300, "\"hull-lock\", \"reckless\"", "keep = \"failing\"\n");
+  // "reckless" sends no message: if it were under test, such runs would keep their rows.
+  const std::string agents =
+      "{ agent = \"hull-lock\", role = \"candidate\" }, { agent = \"reckless\", role = \"reference\" }";
+  write_campaign("c.toml", 300, agents);
+  write_campaign("f.toml", 300, agents, "keep = \"failing\"\n");
   const auto all = run("run c.toml --db all.db"), failing = run("run f.toml --db failing.db --jobs 3");
   EXPECT_EQ(all.exit_code, failing.exit_code) << failing.err;
   for (const char* format : {"text", "json", "markdown", "junit", "summary", "html"})

@@ -435,6 +435,34 @@ INSTANTIATE_TEST_SUITE_P(
               "90 worlds of each, drawn from other seeds"}),
     [](const auto& trick) { return std::string(trick.param.name); });
 
+// Software that only looks at its own AGV, or that agrees through memory, loses nothing by a bad radio.
+TEST_F(VerdictTricks, AgvsThatSendNoMessageAreNamed) {
+  const auto head_of = [&](const std::string& agent, const std::string& keep) {
+    const std::string words = fmt::format("{{ agent = \"{}\", name = \"ours\", role = \"candidate\" }}", agent);
+    write("c.toml", fmt::format(fmt::runtime(kPlain), words, 0.01, "ours", 0.9, "violation"));
+    (void)run("run c.toml --db c.db --overwrite --keep " + keep);
+    return std::regex_replace(run("report c.db --exit-zero").out, std::regex("\\s+"), " ");
+  };
+  const auto said = HasSubstr("The AGVs of ours sent no message in 60 of 60 runs with two or more of them");
+  for (const char* keep : {"all", "failing"}) {
+    EXPECT_THAT(head_of("scripted", keep), said) << keep;
+    const json report = json::parse(run("report c.db --format json --exit-zero").out);
+    EXPECT_EQ(report.at("coverage").at("agents").at(0).at("silent_runs"), 60) << keep;
+  }
+  EXPECT_THAT(head_of("hull-lock", "all"), testing::Not(HasSubstr("sent no message")));
+}
+
+// Fifty runs that came out the same say less than a thousand.
+TEST_F(VerdictTricks, AuditsWithoutADifferenceAreABoundAndNoProof) {
+  write("c.toml", fmt::format(fmt::runtime(kPlain), test::unsteady("steady"), 1.0, "steady", 0.8, "violation"));
+  const auto finished = run("run c.toml --db c.db");
+  EXPECT_THAT(
+      std::regex_replace(finished.out, std::regex("\\s+"), " "),
+      HasSubstr("With 95 % confidence, at most 4.88 % of the runs of steady would come out otherwise if they were "
+                "simulated once more: 60 were, and none did."))
+      << "1 - 0.05^(1/60)";
+}
+
 // A ring of one-way segments: nobody comes towards or across anybody.
 TEST_F(VerdictTricks, APlantOnWhichAgvsOnlyFollowEachOtherIsNamed) {
   std::string ring = "id,x,y,purposes\n";
