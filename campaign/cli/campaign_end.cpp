@@ -6,6 +6,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/waived.hpp"
 #include "core/base/error.hpp"
+#include "reports/sections/head_notes.hpp"
 #include "reports/sections/report_input.hpp"
 
 namespace fleetproof::cli {
@@ -33,6 +34,13 @@ int exit_code_of(const ReportInput& input, bool exit_zero) {
 }
 
 void add_exit_code(ReportInput& input) { input.exit_code = code_of(conclusion_of(input)); }
+
+std::vector<Headline> head_of_release(const ArchiveReader& archive, const std::string& path) {
+  ReportInput input = read_report_input(archive, path);
+  input.waived = lenient_conditions(input.campaign.plan_json);
+  add_history(input, "");
+  return head_beside_verdict(input);
+}
 
 int tell_verdict(const std::string& archive, AttemptLog& attempt, const EndWords& words) {
   ReportInput input = read_report_input(ArchiveReader(archive), archive);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "campaign/cli/attempt_log.hpp"
 #include "reports/sections/report_input.hpp"
@@ -15,6 +16,9 @@ struct EndWords {
 int exit_code_of(const ReportInput& input, bool exit_zero);
 // Adds the one of the conclusion, for the formats that repeat it.
 void add_exit_code(ReportInput& input);
+
+// What stands at the head of the report on a results file beside the verdict: for comparisons with it.
+std::vector<Headline> head_of_release(const ArchiveReader& archive, const std::string& path);
 
 // What `run` and `merge` do when the results file is written: the ledger gets the end of the attempt, standard output
 // the verdict, CI its summary. Returns the exit code of the verdict.

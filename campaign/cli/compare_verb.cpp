@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "campaign/cli/campaign_end.hpp"
 #include "campaign/cli/progress.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
@@ -63,8 +64,10 @@ int compare_releases(const CompareWords& words) {
   const std::string new_agent = agent_of(new_archive, words.new_archive, words.new_agent, "--agent", "");
   const std::string old_agent = agent_of(old_archive, words.old_archive, words.old_agent, "--old-agent", new_agent);
   auto progress = reading_progress("compare", old_archive.run_count() + new_archive.run_count());
-  const ReleaseRuns old_release = read_release(old_archive, words.old_archive, old_agent),
-                    new_release = read_release(new_archive, words.new_archive, new_agent);
+  ReleaseRuns old_release = read_release(old_archive, words.old_archive, old_agent),
+              new_release = read_release(new_archive, words.new_archive, new_agent);
+  old_release.head = head_of_release(old_archive, words.old_archive);
+  new_release.head = head_of_release(new_archive, words.new_archive);
   Comparison comparison = compare(old_release, new_release, rule);
   progress.reset();
   comparison.waived = lenient_conditions(new_release.campaign.plan_json);

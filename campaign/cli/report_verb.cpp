@@ -18,6 +18,7 @@
 #include "core/base/json_text.hpp"
 #include "reports/attempts/looks.hpp"
 #include "reports/campaign_page/html_report.hpp"
+#include "reports/sections/head_notes.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -52,7 +53,8 @@ void print_digest(const ArchiveReader& archive, bool json) {
 void add_baseline(ReportInput& input, const ArchiveReader& archive, const ReportWords& words) {
   if (words.baseline.empty()) return;
   const ArchiveReader baseline(words.baseline);
-  input.baseline = compare_with_baseline(archive, words.archive, baseline, words.baseline);
+  input.baseline = compare_with_baseline({archive, words.archive, head_beside_verdict(input)},
+                                         {baseline, words.baseline, head_of_release(baseline, words.baseline)});
 }
 
 int told_to_ci(const ReportInput& input, const ReportWords& words) {
@@ -79,8 +81,8 @@ int html_report(const ArchiveReader& archive, const ReportWords& words) {
   progress.reset();
   add_exit_code(input.report);
   input.report.waived = lenient_conditions(input.report.campaign.plan_json);
-  add_baseline(input.report, archive, words);
   show_history(input.report, words);
+  add_baseline(input.report, archive, words);
   if (!words.no_film) input.strips = film_strips(archive, words.archive, input.report.failures);
   if (!words.html.empty()) write_whole({words.html, "--html", OutputKind::Report}, render_html(input));
   if (!words.evidence.empty()) write_evidence_set(words.evidence, archive, input);
@@ -103,8 +105,8 @@ int report(const ReportWords& words) {
   progress.reset();
   add_exit_code(input);
   input.waived = lenient_conditions(input.campaign.plan_json);
-  add_baseline(input, archive, words);
   show_history(input, words);
+  add_baseline(input, archive, words);
   const std::string text = render(input, words.json ? "json" : words.format);
   if (words.out.empty()) {
     put_text(text);

@@ -70,17 +70,20 @@ void add_comparison(Section& section, const std::string& archive_path, const Bas
 
 }  // namespace
 
-std::vector<BaselineComparison> compare_with_baseline(const ArchiveReader& archive, const std::string& archive_path,
-                                                      const ArchiveReader& baseline, const std::string& baseline_path) {
+std::vector<BaselineComparison> compare_with_baseline(const ReleaseFile& now, const ReleaseFile& baseline) {
+  const auto read = [](const ReleaseFile& file, const std::string& agent) {
+    ReleaseRuns release = read_release(file.archive, file.path, agent);
+    release.head = file.head;
+    return release;
+  };
   std::vector<BaselineComparison> list;
-  for (const std::string& agent : agents_to_compare(archive)) {
+  for (const std::string& agent : agents_to_compare(now.archive)) {
     BaselineComparison& one = list.emplace_back();
     one.agent = agent;
-    one.baseline_path = baseline_path;
-    if (const auto partner = partner_of(agent, baseline)) {
-      one.comparison = compare(read_release(baseline, baseline_path, *partner),
-                               read_release(archive, archive_path, agent), one.rule);
-    }
+    one.baseline_path = baseline.path;
+    one.baseline_head = baseline.head;
+    if (const auto partner = partner_of(agent, baseline.archive))
+      one.comparison = compare(read(baseline, *partner), read(now, agent), one.rule);
   }
   return list;
 }
@@ -99,6 +102,8 @@ Section comparison_section(const std::vector<BaselineComparison>& baseline, cons
                       printable(each.agent, 40), printable(each.baseline_path, 200));
     }
   }
+  for (const Headline& line : baseline.front().baseline_head)
+    section.remarks.emplace_back().text = fmt::format("The baseline | {}: {}", line.word, line.text);
   section.remarks.emplace_back().text = fmt::format(
       "before, now = worlds that failed, + those of which it is not known. only before, only now = worlds in which one "
       "release failed and the other did not. growth = interval of the growth of the share ({} confidence on either "

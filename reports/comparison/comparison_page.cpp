@@ -59,6 +59,22 @@ std::string release_text(const ReleaseRuns& release) {
                      count_text(release.replicates.size(), "world"));
 }
 
+// What stands at the heads of both reports, once if it is the same.
+std::string heads_text(const ReleaseRuns& old_release, const ReleaseRuns& new_release) {
+  const auto has = [](const ReleaseRuns& release, const Headline& wanted) {
+    return std::ranges::any_of(
+        release.head, [&](const Headline& line) { return line.word == wanted.word && line.text == wanted.text; });
+  };
+  std::string text;
+  for (const Headline& line : old_release.head)
+    text +=
+        fmt::format("{} | {}: {}\n", has(new_release, line) ? "both releases" : "old release", line.word, line.text);
+  for (const Headline& line : new_release.head) {
+    if (!has(old_release, line)) text += fmt::format("new release | {}: {}\n", line.word, line.text);
+  }
+  return text;
+}
+
 Json json_of(const EndPointChange& change) {
   return {{"end_point", name_of(change.end_point)},
           {"change", name_of(change.change)},
@@ -74,13 +90,18 @@ Json json_of(const EndPointChange& change) {
 }
 
 Json json_of(const ReleaseRuns& release) {
+  auto head = Json::array();
+  for (const Headline& line : release.head) head.push_back({{"word", line.word}, {"text", line.text}});
   return {{"archive", release.path},
           {"agent", release.agent},
           {"replicates", release.replicates.size()},
           {"audited", release.audited},
           {"differing", release.differing},
           {"plan_hash", hex_text(release.campaign.plan_hash)},
-          {"libraries", release.campaign.engine.libraries}};
+          {"libraries", release.campaign.engine.libraries},
+          {"required_probes", release.campaign.required_probes},
+          {"audit_share", release.campaign.audit_share},
+          {"head", head}};
 }
 
 }  // namespace
@@ -99,8 +120,7 @@ std::string comparison_text(const Comparison& comparison, const ReleaseRuns& old
   std::string text = fmt::format("fleetproof comparison\n  old: {}\n  new: {}\n", release_text(old_release),
                                  release_text(new_release));
   text += worlds_text(comparison) + "\n";
-  for (const Headline& waived : lenient_headlines(comparison.waived))
-    text += fmt::format("{}: {}\n", waived.word, waived.text);
+  text += heads_text(old_release, new_release);
   for (const std::string& doubt : comparison.doubts)
     text += fmt::format("doubt: {}: neither is said to be as good as the other\n", doubt);
   text += fmt::format("worlds that failed, old -> new; margin {}; not adjusted for the number of end points:\n",

@@ -11,6 +11,7 @@
 #include "reports/evidence/confidence.hpp"
 #include "reports/evidence/exposure.hpp"
 #include "reports/evidence/paired_sequence.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {
@@ -71,6 +72,35 @@ void doubt(std::vector<std::string>& doubts, const char* which, const ReleaseRun
   if (release.has_unplaced_repeats)
     doubts.push_back(fmt::format(
         "the file of the {} release does not say which of its runs repeat others; run it with this version", which));
+}
+
+// What is asked of a campaign beside its worlds, as its plan says it.
+bool has_default_gates(const ReleaseRuns& release) {
+  const SortedJson plan = read_sorted_json(release.campaign.plan_json);
+  return !plan.is_object() || !plan.contains("default_gates") || plan["default_gates"] != false;
+}
+
+bool is_weak(const ReleaseRuns& release) {
+  return std::ranges::find(release.head, "weak", &Headline::word) != release.head.end();
+}
+
+// Where less was asked of one release than of the other, what it did not fail in proves less.
+void doubt_laxer(std::vector<std::string>& doubts, const char* which, const ReleaseRuns& release,
+                 const ReleaseRuns& other) {
+  std::vector<std::string> probes;
+  std::ranges::copy_if(other.campaign.required_probes, std::back_inserter(probes), [&](const std::string& probe) {
+    return std::ranges::find(release.campaign.required_probes, probe) == release.campaign.required_probes.end();
+  });
+  if (!probes.empty())
+    doubts.push_back(fmt::format("the {} release did not have to meet {}, and the other did", which,
+                                 printable(joined(probes), 200)));
+  if (release.campaign.audit_share < other.campaign.audit_share)
+    doubts.push_back(fmt::format("{} of the runs of the {} release were to be audited, and {} of the other's",
+                                 percent(release.campaign.audit_share), which, percent(other.campaign.audit_share)));
+  if (!has_default_gates(release) && has_default_gates(other))
+    doubts.push_back(fmt::format("the {} release leaves the default gates out, and the other does not", which));
+  if (is_weak(release) && !is_weak(other))
+    doubts.push_back(fmt::format("the evidence of the {} release is weak, and that of the other is not", which));
 }
 
 // ---- worlds
@@ -267,6 +297,8 @@ Comparison compare(const ReleaseRuns& old_release, const ReleaseRuns& new_releas
   comparison.other_conditions = other_conditions(old_release, new_release);
   doubt(comparison.doubts, "old", old_release);
   doubt(comparison.doubts, "new", new_release);
+  doubt_laxer(comparison.doubts, "old", old_release, new_release);
+  doubt_laxer(comparison.doubts, "new", new_release, old_release);
   comparison.same_worlds =
       comparison.other_conditions.empty() && old_release.campaign.seed == new_release.campaign.seed;
   comparison.worlds = std::min(old_release.replicates.size(), new_release.replicates.size());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/outcome/run_result.hpp"
+#include "reports/page/page.hpp"
 #include "storage/archive_reader.hpp"
 
 namespace fleetproof {
@@ -34,6 +35,8 @@ struct ReleaseRuns {
   std::vector<std::vector<ComparedRun>> replicates;  // [replicate][cell of this agent]
   std::uint64_t audited = 0, differing = 0;          // of its runs
   bool has_unplaced_repeats = false;                 // some runs repeat others, and the file does not say which
+  // What stands at the head of its report beside the verdict. A caller adds it.
+  std::vector<Headline> head{};
 };
 
 // The agents that an archive can compare: those whose gates decide; all agents if no gate does.

@@ -113,6 +113,33 @@ TEST(Comparison, UnderOtherConditionsNothingCanBeTold) {
   EXPECT_EQ(compare(base, newer, {}).other_conditions, std::vector<std::string>{"the version of fleetproof"});
 }
 
+// Where less was asked of one release, what it did not fail in proves less.
+TEST(Comparison, ALaxerReleaseLeavesADoubt) {
+  auto base = release("a", 200, never);
+  base.campaign.audit_share = 0.01;
+  EXPECT_TRUE(compare(base, base, {}).doubts.empty());
+  const auto laxer = [&](const std::function<void(ReleaseRuns&)>& change, const std::string& doubt) {
+    auto other = base;
+    change(other);
+    for (const bool is_new : {true, false}) {
+      const Comparison found = is_new ? compare(base, other, {}) : compare(other, base, {});
+      EXPECT_EQ(found.doubts.size(), 1U);
+      EXPECT_NE(found.doubts.at(0).find(doubt), std::string::npos) << found.doubts.at(0);
+      EXPECT_NE(found.doubts.at(0).find(is_new ? "the new release" : "the old release"), std::string::npos);
+      EXPECT_FALSE(found.any(Change::NotWorse)) << doubt;
+    }
+  };
+  laxer([](ReleaseRuns& runs) { runs.campaign.required_probes = {"encounter"}; }, "did not have to meet negotiation?");
+  laxer([](ReleaseRuns& runs) { runs.campaign.audit_share = 0.0; }, "were to be audited");
+  laxer([](ReleaseRuns& runs) { runs.campaign.plan_json = R"({"default_gates": false})"; },
+        "leaves the default gates out");
+  laxer([](ReleaseRuns& runs) { runs.head = {{"weak", "few met", {}}}; }, "the evidence of the");
+  auto failing = release("b", 200, in_first(100));
+  failing.campaign.required_probes.clear();
+  failing.campaign.audit_share = base.campaign.audit_share;
+  EXPECT_EQ(violation_change(base, failing), Change::Worse) << "a doubt is no excuse";
+}
+
 ReleaseRuns unknown_in(ReleaseRuns runs, std::uint64_t worlds) {
   for (std::uint64_t world = 0; world < worlds; ++world) runs.replicates[world][0].results[0] = RunResult::Unknown;
   return runs;

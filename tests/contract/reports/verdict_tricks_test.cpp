@@ -179,6 +179,17 @@ TEST_F(VerdictTricks, WorkersThatAreKilledNowAndThenAreNamed) {
   EXPECT_THAT(page, HasSubstr("this software ends its process now and then"));
 }
 
+TEST_F(VerdictTricks, WorkersThatWereLostStandInComparisons) {
+  write("c.toml", fmt::format(fmt::runtime(kPlain), test::unsteady("worn-kill"), 0.01, "worn-kill", 0.99, "violation"));
+  (void)run("run c.toml --db c.db -j 1 --replicates 24");
+  EXPECT_THAT(run("compare c.db c.db").out,
+              testing::ContainsRegex("both releases \\| sessions: .*The worker process of [0-9]+ runs was killed"));
+  const json told = json::parse(run("compare c.db c.db --json").out);
+  EXPECT_THAT(told.at("old").at("head").dump(), HasSubstr("this software ends its process now and then"));
+  EXPECT_THAT(run("report c.db --baseline c.db --exit-zero --html page.html").err, testing::Not(HasSubstr("error")));
+  EXPECT_THAT(read(path("page.html")), testing::ContainsRegex("The baseline \\| sessions: .*The worker process of"));
+}
+
 // Nobody else kills a worker in nearly every run.
 TEST_F(VerdictTricks, WorkersThatAreKilledAgainAndAgainAreEndedByTheirSoftware) {
   write("c.toml", fmt::format(fmt::runtime(kPlain), test::unsteady("worn-kill"), 0.01, "worn-kill", 0.99, "violation"));
@@ -401,10 +412,10 @@ TEST_P(ComparisonTricks, HasItsExitCode) {
   for (const auto& [name, lines] : {std::pair{"old", trick.old_lines}, {"new", trick.new_lines}}) {
     const std::string all = lines, agent = all.substr(0, all.find('|')), more = all.substr(all.find('|') + 1);
     write(std::string(name) + ".toml",
-          fmt::format("replicates = 90\ndefault_gates = false\n{}\n[factors]\nagents = [{{ {}, name = \"ours\" }}]\n"
+          fmt::format("replicates = 90\n{}{}\n[factors]\nagents = [{{ {}, name = \"ours\" }}]\n"
                       "layouts = [\"aisle-grid\"]\nfleet_sizes = [3]\nloss = [0.4]\ndelay_s = [2]\n[world]\n"
                       "transports_per_agv_hour = 60\n",
-                      more, agent));
+                      all.find("default_gates") == std::string::npos ? "default_gates = false\n" : "", more, agent));
     (void)run(fmt::format("run {0}.toml --db {0}.db", name));
   }
   const auto told = run("compare old.db new.db --fail-on-regression");
@@ -412,10 +423,16 @@ TEST_P(ComparisonTricks, HasItsExitCode) {
   EXPECT_THAT(told.out, HasSubstr(trick.sentence));
 }
 
-constexpr const char *kSound = "agent = \"hull-lock\"|horizon_s = 60",
-                     *kReckless = "agent = \"reckless\"|horizon_s = 60",
-                     *kCrashes = "file = \"failing.so\", config = \"abort 1\"|horizon_s = 60",
-                     *kParked = "agent = \"scripted\"|horizon_s = 300";
+constexpr const char
+    *kSound = "agent = \"hull-lock\"|horizon_s = 60",
+    *kReckless = "agent = \"reckless\"|horizon_s = 60",
+    *kCrashes = "file = \"failing.so\", config = \"abort 1\"|horizon_s = 60",
+    *kAsksNothing = "agent = \"hull-lock\"|horizon_s = 60\n[coverage]\nprobes = []",
+    *kNotAudited = "agent = \"hull-lock\"|horizon_s = 60\n[audit]\nshare = 0",
+    *kWithGates = "agent = \"hull-lock\"|horizon_s = 60\ndefault_gates = true",
+    *kHeld = "agent = \"hull-lock\"|horizon_s = 60\n[vary]\nhold = [\"layout\"]",
+    *kExempt = "agent = \"hull-lock\"|horizon_s = 60\n[law]\nexempt_purposes = [\"charging\"]\nexempt_radius_m = 1",
+    *kParked = "agent = \"scripted\"|horizon_s = 300";
 
 INSTANTIATE_TEST_SUITE_P(
     Of, ComparisonTricks,
@@ -428,6 +445,21 @@ INSTANTIATE_TEST_SUITE_P(
         Trick{"TwoFleetsThatAreParked", kParked, kParked, 4, "doubt: the new release completed no transport"},
         Trick{"RunsTooShortForATransport", "agent = \"hull-lock\"|horizon_s = 3", "agent = \"reckless\"|horizon_s = 3",
               4, "waived: what is easier here than usual: horizon_s = 3 s"},
+        Trick{"ANewReleaseThatHadToMeetNothing", kSound, kAsksNothing, 4,
+              "doubt: the new release did not have to meet encounter, negotiation?, and the other did"},
+        Trick{"AnOldReleaseThatHadToMeetNothing", kAsksNothing, kSound, 4,
+              "doubt: the old release did not have to meet"},
+        Trick{"AWorseReleaseThatHadToMeetNothing", kAsksNothing, kReckless, 1, "violation   worse: 0 -> "},
+        Trick{"ANewReleaseWithoutAudits", kSound, kNotAudited, 4,
+              "doubt: 0 % of the runs of the new release were to be audited, and 1 % of the other's"},
+        Trick{"AnOldReleaseWithoutAudits", kNotAudited, kSound, 4, "doubt: 0 % of the runs of the old release"},
+        Trick{"ANewReleaseWithoutTheDefaultGates", kWithGates, kSound, 4,
+              "doubt: the new release leaves the default gates out, and the other does not"},
+        Trick{"WhatIsHeldInBoth", kHeld, kHeld, 0,
+              "both releases | held: every replicate has the layout of replicate 0"},
+        Trick{"WhatIsHeldInOne", kSound, kHeld, 4, "new release | held: every replicate has the layout of replicate 0"},
+        Trick{"WhatIsExemptInBoth", kExempt, kExempt, 0, "both releases | exempt: AGVs within 1 m of a station for"},
+        Trick{"WhatIsExemptInOne", kExempt, kSound, 4, "old release | exempt: AGVs within 1 m of a station for"},
         Trick{"AShorterRun", kSound, "agent = \"hull-lock\"|horizon_s = 50", 4, "the campaigns differ in horizon_s"},
         Trick{"AnotherSeedAndAShorterRun", kSound, "agent = \"hull-lock\"|horizon_s = 50\nseed = 2", 4,
               "the campaigns differ in horizon_s"},
