@@ -21,14 +21,19 @@ bool plays_scripts(const Scenario& scenario) {
 class FaultRecordLaw final : public Law {
  public:
   explicit FaultRecordLaw(const Scenario& scenario)
-      : scenario_(scenario), first_obstacle_(scenario.first_obstacle()), first_load_(scenario.first_fallen_load()) {}
+      : scenario_(scenario),
+        first_obstacle_(scenario.first_obstacle()),
+        first_load_(scenario.first_fallen_load()),
+        plays_scripts_(plays_scripts(scenario)) {}
 
   Pieces hears_pieces() const override { return Pieces::None; }
   TraceKinds reads() const override {
     const TraceKinds kinds{TraceKind::FaultStrikes, TraceKind::FaultOver, TraceKind::Appears, TraceKind::Leaves,
                            TraceKind::Denied};
-    return plays_scripts(scenario_) ? kinds | TraceKinds{TraceKind::CallRefused} : kinds;
+    const TraceKinds of_calls{TraceKind::CallRefused, TraceKind::ActivityBegins, TraceKind::ActivityEnds};
+    return plays_scripts_ ? kinds | of_calls : kinds;
   }
+  ActivityKinds reads_about() const override { return {ActivityKind::Pick, ActivityKind::Drop}; }
   void happened(const TraceRecord& record) override {
     switch (record.kind) {
       case TraceKind::FaultStrikes: {
@@ -44,13 +49,16 @@ class FaultRecordLaw final : public Law {
         if (record.entity >= first_obstacle_) appears(record);  // else the operator sets an AGV down
         break;
       case TraceKind::Denied:
-        if (record.entity < first_obstacle_)
-          denied(record);
-        else
-          begins({IncidentKind::ObstacleWithoutRoom, record.entity, {}, record.at, record.at, kNeverCame}, 0);
+        denied(record);
         break;
       case TraceKind::CallRefused:
         refused(record);
+        break;
+      case TraceKind::ActivityBegins:
+        transfers_[record.entity].moves_load = read<traced::ActivityBegins>(record).load().valid();
+        break;
+      case TraceKind::ActivityEnds:
+        transfer_ends(record);
         break;
       case TraceKind::Leaves:
         ends(IncidentKind::ForeignBody, record, 0);
@@ -66,6 +74,7 @@ class FaultRecordLaw final : public Law {
     }
     under_way_.clear();
     not_reached(end);
+    not_sent(end);
   }
   LawResults findings() const override {
     LawResults findings;
@@ -91,6 +100,10 @@ class FaultRecordLaw final : public Law {
   }
   void denied(const TraceRecord& record) {
     const auto [why, number] = read<traced::Denied>(record);
+    if (why == Denial::NotSent) return unused_deliveries_.push_back(number);
+    if (why == Denial::NoSuchKind) return void(++kinds_not_spared_);
+    if (record.entity >= first_obstacle_)
+      return begins({IncidentKind::ObstacleWithoutRoom, record.entity, {}, record.at, record.at, kNeverCame}, 0);
     decided_.insert(number);
     const bool is_load = why == Denial::NoSuchLoad || why == Denial::NoRoom;
     const std::int64_t value = !is_load                ? static_cast<int>(scenario_.faults[number].kind)
@@ -119,6 +132,38 @@ class FaultRecordLaw final : public Law {
     const auto place = static_cast<std::int64_t>(*nearest);
     incidents_.push_back({IncidentKind::CallNotMade, record.entity, {}, record.at, record.at, place});
   }
+  // The calls of one AGV are carried out in their order. A transfer that a halt cuts short begins anew.
+  void transfer_ends(const TraceRecord& record) {
+    const auto [kind, as_planned] = read<traced::ActivityEnds>(record);
+    if (!as_planned) return;
+    Transfers& transfers = transfers_[record.entity];
+    const auto action = kind == ActivityKind::Pick ? ScriptedCall::Action::Pick : ScriptedCall::Action::Drop;
+    const auto& script = scenario_.agvs[record.entity.index()].script;
+    std::size_t& k = transfers.next_call;
+    while (k < script.size() && (script[k].action != action || refused_.contains({record.entity, k}))) ++k;
+    if (k == script.size()) return;
+    const auto place = static_cast<std::int64_t>(k++);
+    if (!transfers.moves_load)
+      incidents_.push_back({IncidentKind::CallWithoutEffect, record.entity, {}, record.at, record.at, place});
+  }
+  // Of each pair of AGVs, the given deliveries that no message got; then the kinds of messages.
+  void not_sent(SimTime end) {
+    std::map<std::pair<AgvId, AgvId>, Incident> pairs;
+    for (const std::uint64_t number : unused_deliveries_) {
+      const GivenDelivery& delivery = scenario_.deliveries[number];
+      const SimTime at = std::min(end, kStart + delivery.sent);
+      Incident& incident =
+          pairs
+              .try_emplace({delivery.sender, delivery.receiver},
+                           Incident{IncidentKind::MessageNotSent, delivery.sender, delivery.receiver, at, at, 0})
+              .first->second;
+      incident.first = std::min(incident.first, at), incident.last = std::max(incident.last, at);
+      ++incident.value;
+    }
+    for (const auto& [pair, incident] : pairs) incidents_.push_back(incident);
+    if (kinds_not_spared_ > 0)
+      incidents_.push_back({IncidentKind::MessageNotSent, {}, {}, end, end, kinds_not_spared_});
+  }
   // What an event at the end of the run would do still takes place.
   void not_reached(SimTime end) {
     const auto late = [&](Duration at) { return kStart + at > end; };
@@ -126,7 +171,8 @@ class FaultRecordLaw final : public Law {
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
       const AgvSetup& agv = scenario_.agvs[i];
       const auto orders = std::ranges::count_if(agv.transports, late, &TransportOrder::release);
-      const auto calls = plays_scripts(scenario_) ? std::ranges::count_if(agv.script, late, &ScriptedCall::at) : 0;
+      const auto calls = std::ranges::count_if(
+          agv.script, [&](Duration at) { return late(at) || !plays_scripts_; }, &ScriptedCall::at);
       counts[EntityId{i}] = orders + calls;
     }
     for (std::size_t i = 0; i < scenario_.faults.size(); ++i)
@@ -147,9 +193,17 @@ class FaultRecordLaw final : public Law {
 
   const Scenario& scenario_;
   EntityId first_obstacle_, first_load_;
+  bool plays_scripts_;
   std::set<std::uint64_t> decided_;                     // faults that struck or were denied, by number
   std::set<std::pair<EntityId, std::size_t>> refused_;  // calls of scripts, by place
-  std::map<Key, std::size_t> under_way_;                // by place in incidents_
+  struct Transfers {
+    bool moves_load = false;    // the one under way
+    std::size_t next_call = 0;  // the first place in the script from which the next one may come
+  };
+  std::map<EntityId, Transfers> transfers_;
+  std::vector<std::uint64_t> unused_deliveries_;  // by number
+  std::int64_t kinds_not_spared_ = 0;
+  std::map<Key, std::size_t> under_way_;  // by place in incidents_
   std::vector<Incident> incidents_;
 };
 

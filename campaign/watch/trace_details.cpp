@@ -89,9 +89,16 @@ std::string note_details(const TraceRecord& record, std::string_view text, const
 }
 
 std::string denied_text(const traced::Denied& denied, EntityId body, const Scenario& scenario) {
-  const bool is_fault = body.index() < scenario.agvs.size();
-  return fmt::format("{}: {}", is_fault ? name_of(scenario.faults[denied.number].kind) : "obstacle",
-                     name_of(denied.why));
+  const auto what = [&]() -> std::string {
+    if (denied.why == Denial::NoSuchKind) return "spared kind " + scenario.radio.adverse.spared_kinds[denied.number];
+    if (denied.why == Denial::NotSent) {
+      const GivenDelivery& delivery = scenario.deliveries[denied.number];
+      return fmt::format("delivery to {} of what is sent at {:.9f} s", body_name(scenario, delivery.receiver),
+                         to_seconds(delivery.sent));
+    }
+    return body.index() < scenario.agvs.size() ? name_of(scenario.faults[denied.number].kind) : "obstacle";
+  };
+  return fmt::format("{}: {}", what(), name_of(denied.why));
 }
 
 }  // namespace

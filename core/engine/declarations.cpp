@@ -45,9 +45,11 @@ bool Declarations::message_sent(AgvId agv, std::uint64_t hash) {
   if (kind.empty()) return false;
   run_.note(agv, traced::Described{hash}, kind);
   const auto& spared = run_.scenario.radio.adverse.spared_kinds;
-  const bool is_spared = std::ranges::find(spared, message_words(kind).kind) != spared.end();
+  const auto found = std::ranges::find(spared, message_words(kind).kind);
   kind.clear();
-  return is_spared;
+  if (found == spared.end()) return false;
+  has_spared_[static_cast<std::size_t>(found - spared.begin())] = true;
+  return true;
 }
 
 void Declarations::set_state(AgvId agv, std::string_view state) {
@@ -73,6 +75,9 @@ void Declarations::settle_accounts() {
   for (std::size_t i = 0; i < agv_states_.size(); ++i) {
     set_safe_mode(AgvId{i}, false);
     run_.counters.safe_mode_ns += agv_states_[i].safe_mode_ns;
+  }
+  for (std::size_t i = 0; i < has_spared_.size(); ++i) {
+    if (!has_spared_[i]) run_.deny(AgvId{0U}, Denial::NoSuchKind, i);
   }
 }
 

@@ -16,7 +16,8 @@ namespace fleetproof {
 // they go to the sink of the trace, and the run is the same without them, unless its radio spares kinds of messages.
 class Declarations {
  public:
-  explicit Declarations(RunContext& run) : run_(run), agv_states_(run.scenario.participant_count()) {}
+  explicit Declarations(RunContext& run)
+      : run_(run), agv_states_(run.scenario.participant_count()), has_spared_(run.scenario.radio.adverse.spared_kinds.size()) {}
 
   void set_safe_mode(AgvId agv, bool on);
   // Invalid: it waits for no AGV.
@@ -54,6 +55,7 @@ class Declarations {
   RunContext& run_;
   ProbeTally probes_;
   std::vector<AgvState> agv_states_;  // by participant
+  std::vector<bool> has_spared_;      // by kind in the scenario's list: a message was described so
 };
 
 }  // namespace fleetproof

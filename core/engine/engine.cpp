@@ -64,6 +64,7 @@ Engine::Engine(const Scenario& scenario, const FleetSoftware& software, std::spa
   // No event is left before the end. Times that are still open are counted up to the end, before the laws get the rest.
   run_.now = end;
   parts_.declarations.settle_accounts();
+  parts_.messenger.settle_accounts();
   parts_.battery.settle_accounts();
   run_.writer.hand_over();
   run_.world.finish(end);

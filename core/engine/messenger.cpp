@@ -288,4 +288,9 @@ void Messenger::forget_inbox(AgvId agv) {
   agv_state.inbox.clear();
 }
 
+void Messenger::settle_accounts() {
+  for (const std::size_t i : radio_.unused_deliveries())
+    run_.deny(run_.scenario.deliveries[i].sender, Denial::NotSent, i);
+}
+
 }  // namespace fleetproof

@@ -83,6 +83,8 @@ class Messenger {
   // The oldest message of the inbox, whose bytes stay valid until the next `read`; false: there is none.
   bool read(AgvId agv, fp_message& out);
   void forget_inbox(AgvId agv);
+  // At the end of the run: what becomes of messages that were never sent.
+  void settle_accounts();
 
  private:
   // How many messages have been sent at the last instant of sending.

@@ -83,7 +83,13 @@ constexpr auto kKinds = std::to_array<IncidentKindInfo>({
     {CallNotMade, Denied, std::nullopt, "call-not-made", "place of the call in the script, from 0",
      "the controller refused a call of the scenario's script"},
     {NotReached, Denied, std::nullopt, "not-reached", "orders, faults, calls and obstacles",
-     "things of the scenario that the run did not reach: after its end, or of a load that was never picked"},
+     "things of the scenario that the run did not reach: after its end, of a load that was never picked, or of a "
+     "script "
+     "that nobody plays"},
+    {MessageNotSent, Denied, std::nullopt, "message-not-sent", "given deliveries, or kinds of messages",
+     "messages of the scenario were never sent: with a given delivery, or of a kind that the radio spares"},
+    {CallWithoutEffect, Denied, std::nullopt, "call-without-effect", "place of the call in the script, from 0",
+     "a pick or drop of the scenario's script found no load to move"},
 });
 
 static_assert([] {

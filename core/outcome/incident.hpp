@@ -37,6 +37,8 @@ enum class IncidentKind : std::uint32_t {
   ObstacleWithoutRoom = 22,
   CallNotMade = 23,
   NotReached = 24,
+  MessageNotSent = 25,
+  CallWithoutEffect = 26,
 };
 
 // What an incident says about the fleet.

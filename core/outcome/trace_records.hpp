@@ -230,8 +230,9 @@ struct Appears {
   static constexpr Appears of(const TraceRecord& r) { return {id_in<StationId>(r.a)}; }
 };
 
-// A fault would strike its AGV, or an obstacle would appear, at this instant. `number` is the fault's place in the
-// scenario; an obstacle leaves it as it is. Not part of the digest.
+// A fault would strike its AGV, or an obstacle would appear, at this instant; or at the end of the run, a given
+// delivery was not used, at its sender, or a kind of messages was not spared, at the first AGV. `number` is the place
+// in the scenario's list of them; an obstacle leaves it as it is. Not part of the digest.
 struct Denied {
   static constexpr TraceKind kKind = TraceKind::Denied;
   Denial why = Denial::NoRoom;

@@ -108,6 +108,7 @@ struct Hearer {
 class Radio {
  public:
   // A message with a given delivery gets that one, whatever the models draw. The models see draw numbers, not AGVs.
+  // Requires: the given deliveries outlive the radio.
   Radio(const RadioSetup& setup, std::uint64_t world_seed, std::span<const GivenDelivery> deliveries = {},
         DrawNumbers numbers = {});
   bool depends_on_place() const { return depends_on_place_; }
@@ -160,6 +161,8 @@ class Radio {
   }
   bool loses(const Block& draws) const { return unit_interval(word64(draws, 0)) < setup_.loss; }
   Duration delay(const Block& draws) const { return delay_.at(unit_interval(word64(draws, 1))); }
+  // The places of given deliveries that no message has got yet, in ascending order.
+  std::vector<std::size_t> unused_deliveries() const { return given_.unused(); }
   // The outage process of messages from this sender to this receiver. Not for the scope Place.
   OutageProcess& process_of(AgvId sender, AgvId receiver);
 

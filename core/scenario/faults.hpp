@@ -75,6 +75,8 @@ enum class Denial : std::uint8_t {
   AgentAway = 2,   // the agent was away already
   NoSuchLoad = 3,  // the AGV carried no load, or that of another transport
   NoRoom = 4,      // another body was in the place, or the AGV itself
+  NotSent = 5,     // the message was never sent: one with a given delivery
+  NoSuchKind = 6,  // no message was described so: of a kind that the radio spares
 };
 constexpr const char* name_of(Denial why) {
   switch (why) {
@@ -86,6 +88,10 @@ constexpr const char* name_of(Denial why) {
       return "the AGV carried no such load";
     case Denial::NoRoom:
       return "no room: a body was in the place";
+    case Denial::NotSent:
+      return "no such message was sent";
+    case Denial::NoSuchKind:
+      return "no message was described so";
   }
   return kNoWord;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/base/outside_text.hpp"
 
@@ -18,7 +19,11 @@ class Requests {
     for (std::size_t i = 0; i < scenario_.faults.size(); ++i) fault(i);
     for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) obstacle(i);
     late_things("/fates", "messages with a given delivery", scenario_.deliveries, &GivenDelivery::sent);
+    if (!scenario_.deliveries.empty() && scenario_.agent == "scripted")
+      add("/fates", "the agent \"scripted\" sends no messages, so no delivery is used; leave them out");
     adverse_scope();
+    idle_radio();
+    idle_rules();
     if (const auto& help = scenario_.operator_help; help.on && seconds(help.least_s) > scenario_.horizon)
       add("/operator/least_s",
           fmt::format("the operator comes {:g} s after a call, which is {}", help.least_s, after()));
@@ -130,6 +135,63 @@ class Requests {
       add("/radio/adverse_until_s", fmt::format("{:g} s is not after adverse_from_s, which is {:g}; so the radio loses "
                                                 "and delays nothing: let it end later",
                                                 adverse.adverse_until_s, adverse.adverse_from_s));
+  }
+
+  // Fields which count only beside another one. That one is told if any of them is not as usual.
+  void idle(bool is_usual, bool counts, std::string_view pointer, std::string_view sentence) {
+    if (!is_usual && !counts) add(std::string(pointer), std::string(sentence));
+  }
+
+  void idle_radio() {
+    const RadioSetup& radio = scenario_.radio;
+    const RadioSetup usual;
+    const auto of_outages = [](const OutageSetup& s) { return std::tuple(s.model, s.scope, s.loss_good, s.loss_bad); };
+    const auto of_tail = [](const DelayTailSetup& s) {
+      return std::tuple(s.min_share, s.median_share, s.shape, s.cap_share);
+    };
+    const auto of_changes = [](const PlaceSetup& s) { return std::tuple(s.roaming_min_s, s.roaming_max_s); };
+    const bool has_outages = radio.outages.mean_outage_s > 0.0, has_windows = radio.places.roaming_border_m > 0.0,
+               roams = has_windows || radio.places.roaming_at_crossing;
+    idle(
+        of_outages(radio.outages) == of_outages(usual.outages), has_outages, "/radio/mean_outage_s",
+        "0 s: there are no outages, so outage_model, outage_scope, loss_good and loss_bad change nothing; set it above "
+        "0, or leave them out");
+    idle(radio.outages.shape == usual.outages.shape,
+         has_outages && radio.outages.model == OutageSetup::Model::HeavyTail, "/radio/outage_shape",
+         "it counts only with outages (mean_outage_s above 0) of the model \"heavy-tail\"; set both, or leave it out");
+    idle(
+        of_tail(radio.delay_tail) == of_tail(usual.delay_tail), radio.delay_model == RadioSetup::DelayModel::HeavyTail,
+        "/radio/delay_model",
+        "it is not \"heavy-tail\", so delay_min_share, delay_median_share, delay_tail_shape and delay_cap_share change "
+        "nothing; set it, or leave them out");
+    idle(of_changes(radio.places) == of_changes(usual.places), roams, "/radio/roaming_at_crossing",
+         "no AGV changes its access point, so roaming_min_s and roaming_max_s change nothing; set it or "
+         "roaming_border_m, or leave them out");
+    idle(radio.places.roaming_gap_s == usual.places.roaming_gap_s, has_windows, "/radio/roaming_border_m",
+         "0 m: borders have no windows, so roaming_gap_s changes nothing; set it above 0, or leave roaming_gap_s out");
+    idle(radio.places.ap_spacing_m == usual.places.ap_spacing_m,
+         roams || (has_outages && radio.outages.scope == OutageSetup::Scope::Place), "/radio/ap_spacing_m",
+         "it counts only if AGVs change their access point, or for outages of places; set roaming_at_crossing, "
+         "roaming_border_m, or outage_scope to \"place\", or leave it out");
+    idle(radio.contention.contention_window == usual.contention.contention_window, radio.contention.interference,
+         "/radio/contention_window", "it counts only with interference; set interference to true, or leave it out");
+  }
+
+  void idle_rules() {
+    const LawSetup& law = scenario_.law;
+    const bool is_exempt = law.exempt_purposes != Purposes{} && law.exempt_radius_m > 0.0;
+    idle(law.exempt_purposes == Purposes{}, is_exempt, "/law/exempt_radius_m",
+         "0 m: exempt_purposes exempts nothing; set it above 0, or leave exempt_purposes out");
+    idle(law.exempt_radius_m == 0.0, is_exempt, "/law/exempt_purposes",
+         "none: exempt_radius_m exempts nothing; name a purpose, or leave exempt_radius_m out");
+    ScannerSetup scanner;
+    OperatorSetup help;
+    scanner.on = help.on = true;
+    const auto off = [](auto setup) { return setup.on = true, setup; };
+    idle(off(scenario_.scanner) == scanner, scenario_.scanner.on, "/scanner/on",
+         "the scanners are off, so the other fields change nothing; set it to true, or leave them out");
+    idle(off(scenario_.operator_help) == help, scenario_.operator_help.on, "/operator/on",
+         "the operator is off, so the other fields change nothing; set it to true, or leave them out");
   }
 
   const Scenario& scenario_;

@@ -16,8 +16,9 @@ struct UnmetRequest {
 
 // Orders, scripted calls, faults, obstacles, given deliveries and help of which the instant is after the end of the
 // run; obstacles where another one stands all the time; loads that nobody carries, or that would fall on their own AGV;
-// scripts that no agent plays; radio that is never adverse. Many of one kind at one AGV are one request. A run files
-// most of them as incidents of the role Denied. Requires: the scenario can be run (unusable_problems).
+// scripts that no agent plays; radio that is never adverse; fields that count only beside another one, which is off.
+// Many of one kind at one AGV are one request. A run files most of them as incidents of the role Denied. Requires: the
+// scenario can be run (unusable_problems).
 std::vector<UnmetRequest> unmet_requests(const Scenario& scenario);
 
 }  // namespace fleetproof

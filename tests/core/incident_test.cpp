@@ -23,7 +23,7 @@ TEST(Incidents, AccuseTheFleetUnlessTheyAreItsCondition) {
   EXPECT_EQ(kinds_with(IncidentRole::Condition), (std::set<std::string>{"fault-injected", "foreign-body"}));
   EXPECT_EQ(kinds_with(IncidentRole::Denied),
             (std::set<std::string>{"fault-without-effect", "load-did-not-fall", "obstacle-without-room",
-                                   "call-not-made", "not-reached"}));
+                                   "call-not-made", "not-reached", "message-not-sent", "call-without-effect"}));
   EXPECT_EQ(kinds_with(IncidentRole::Link), (std::set<std::string>{"waits", "waits-inferred"}));
   for (const IncidentKindInfo& info : incident_kinds()) {
     const bool is_told = info.role == IncidentRole::Condition || info.role == IncidentRole::Denied;

@@ -124,7 +124,48 @@ TEST(DeniedRequests, AreCallsOfAScriptThatTheControllerRefuses) {
   EXPECT_THAT(incidents_of(), ElementsAre(noted(IncidentKind::CallNotMade, 0, 4.0, 4.0, 1),
                                           noted(IncidentKind::CallNotMade, 0, 5.0, 5.0, 2)));
   scenario.agent = "hull-lock";
-  EXPECT_THAT(incidents_of(), testing::IsEmpty()) << "nobody plays the script";
+  EXPECT_THAT(incidents_of(), ElementsAre(noted(IncidentKind::NotReached, 0, 10.0, 10.0, 3)))
+      << "nobody plays the script";
+}
+
+// Calls: a refused pick, a pick that is cut short and begins anew, a drop, a pick, a drop.
+TEST(DeniedRequests, AreTransfersOfAScriptThatMoveNoLoad) {
+  Scenario scenario = with_faults({});
+  for (const auto action : {ScriptedCall::Action::Pick, ScriptedCall::Action::Pick, ScriptedCall::Action::Drop,
+                            ScriptedCall::Action::Pick, ScriptedCall::Action::Drop})
+    scenario.agvs[1].script.push_back({seconds(1.0 + static_cast<double>(scenario.agvs[1].script.size())), action, {}});
+  Told told(scenario, "faults");
+  const auto transfer = [&](double from_s, ActivityKind kind, LoadId load, bool as_planned = true) {
+    told.record(from_s, 1, traced::ActivityBegins{kind, load.value});
+    told.record(from_s + 0.5, 1, traced::ActivityEnds{kind, as_planned});
+  };
+  told.record(1.0, 1, traced::CallRefused{1, {}});
+  transfer(2.0, ActivityKind::Pick, {}, false);
+  transfer(3.0, ActivityKind::Pick, {});
+  transfer(4.0, ActivityKind::Drop, {});
+  transfer(5.0, ActivityKind::Pick, LoadId{0U});
+  transfer(6.0, ActivityKind::Drop, LoadId{0U});
+  EXPECT_THAT(told.finish(10.0).incidents, ElementsAre(noted(IncidentKind::CallNotMade, 1, 1.0, 1.0, 0),
+                                                       noted(IncidentKind::CallWithoutEffect, 1, 3.5, 3.5, 1),
+                                                       noted(IncidentKind::CallWithoutEffect, 1, 4.5, 4.5, 2)));
+}
+
+TEST(DeniedRequests, AreMessagesThatAreNeverSent) {
+  Scenario scenario = with_faults({});
+  const auto given = [](std::uint32_t sender, std::uint32_t receiver, double sent_s) {
+    GivenDelivery delivery;
+    delivery.sender = AgvId{sender}, delivery.receiver = AgvId{receiver}, delivery.sent = seconds(sent_s);
+    return delivery;
+  };
+  scenario.deliveries = {given(1, 0, 3.0), given(0, 1, 2.0), given(1, 0, 1.0), given(1, 0, 11.0)};
+  Told told(scenario, "faults");
+  for (const std::uint32_t number : {0U, 2U, 3U}) told.record(10.0, 1, traced::Denied{Denial::NotSent, number});
+  told.record(10.0, 0, traced::Denied{Denial::NoSuchKind, 0}).record(10.0, 0, traced::Denied{Denial::NoSuchKind, 1});
+  Incident pair = noted(IncidentKind::MessageNotSent, 1, 1.0, 10.0, 3);
+  pair.b = EntityId{0U};
+  Incident kinds = noted(IncidentKind::MessageNotSent, 0, 10.0, 10.0, 2);
+  kinds.a = {};
+  EXPECT_THAT(told.finish(10.0).incidents, ElementsAre(pair, kinds));
 }
 
 TEST(FaultRecord, AccusesNobody) {

@@ -58,9 +58,9 @@ class AskedFor : public test::ProgramTest {
     std::vector<std::string> lines;
     const Json all = told(scenario);
     for (const Json& incident : all["incidents"]) {
-      lines.push_back(incident["kind"].get<std::string>() + ": " + incident["a"].get<std::string>() + " from " +
-                      incident["first_s"].dump() + " to " + incident["last_s"].dump() + " (" +
-                      incident["value"].dump() + ")");
+      const std::string body = incident["a"].is_null() ? "nobody" : incident["a"].get<std::string>();
+      lines.push_back(incident["kind"].get<std::string>() + ": " + body + " from " + incident["first_s"].dump() +
+                      " to " + incident["last_s"].dump() + " (" + incident["value"].dump() + ")");
     }
     return lines;
   }
@@ -181,6 +181,86 @@ TEST_F(AskedFor, ACallOfAScriptThatIsRefusedIsAnIncident) {
   EXPECT_THAT(incidents(json), ElementsAre("call-not-made: V0 from 3.0 to 3.0 (2)"));
   json["agent"] = "hull-lock";
   EXPECT_THAT(warnings(json), HasSubstr("/agvs/0/script: only the agent \"scripted\" plays a script"));
+  EXPECT_THAT(incidents(json), ElementsAre("not-reached: V0 from 60.0 to 60.0 (3)")) << "nobody plays it";
+}
+
+// The orders of the AGV are at B. It picks at A, drops there what it does not have, and picks twice at B.
+TEST_F(AskedFor, ATransferOfAScriptWithoutALoadIsAnIncident) {
+  Json json = plain();
+  json["agvs"][0]["transports"] = Json::parse(R"([{"from": "B", "to": "A", "release_s": 0}])");
+  json["agvs"][0]["script"] = Json::parse(R"([{"at_s": 1, "action": "pick"}, {"at_s": 4, "action": "drop"},
+      {"at_s": 20, "action": "pick", "segment": "ab"}, {"at_s": 45, "action": "pick"}])");
+  EXPECT_THAT(incidents(json),
+              ElementsAre("call-without-effect: V0 from 3.0 to 3.0 (0)", "call-without-effect: V0 from 9.0 to 9.0 (1)",
+                          "call-without-effect: V0 from 47.0 to 47.0 (3)"));
+  EXPECT_THAT(run("simulate s.json").out,
+              HasSubstr("call-without-effect: V0 from 3.000 s; a pick or drop of the scenario's script found no load"));
+  json["agvs"][0]["script"] = Json::parse(R"([{"at_s": 1, "action": "move", "segment": "ab"},
+      {"at_s": 20, "action": "pick"}, {"at_s": 25, "action": "drop", "segment": "ab"}])");
+  EXPECT_THAT(incidents(json), IsEmpty()) << "each has its load";
+}
+
+// Two AGVs of hull-lock, which stand and talk.
+Json talking(const char* fates) {
+  Json json = plain();
+  json["agent"] = "hull-lock";
+  json["agvs"][0].erase("script");
+  json["agvs"].push_back(json["agvs"][0]);
+  json["agvs"][1]["name"] = "V1";
+  json["agvs"][1]["start"] = "B";
+  json["fates"] = Json::parse(fates);
+  return json;
+}
+
+TEST_F(AskedFor, ADeliveryOfAMessageThatIsNeverSentIsAnIncident) {
+  Json json = talking(R"([{"sender": "V0", "receiver": "V1", "sent_ns": 1, "lost": true},
+      {"sender": "V0", "receiver": "V1", "sent_ns": 2000000001, "delay_s": 1},
+      {"sender": "V1", "receiver": "V0", "sent_s": 70, "lost": true}])");
+  EXPECT_THAT(incidents(json), ElementsAre("message-not-sent: V0 from 1e-09 to 2.000000001 (2)",
+                                           "message-not-sent: V1 from 60.0 to 60.0 (1)"));
+  EXPECT_THAT(run("simulate s.json --trace").err,
+              HasSubstr("delivery to V1 of what is sent at 0.000000001 s: no such message was sent"));
+  EXPECT_THAT(warnings(json), HasSubstr("/fates/2: 1 of 3 messages with a given delivery comes after the end"));
+  json["fates"] = Json::parse(R"([{"sender": "V0", "receiver": "V1", "sent_ns": 0, "lost": true}])");
+  EXPECT_THAT(incidents(json), IsEmpty()) << "hull-lock says where it stands at its start";
+  json["radio"] = {{"range_m", 5}};
+  EXPECT_THAT(incidents(json), ElementsAre("message-not-sent: V0 from 0.0 to 0.0 (1)")) << "out of range";
+  json["agent"] = "scripted";
+  EXPECT_THAT(warnings(json), HasSubstr("/fates: the agent \"scripted\" sends no messages"));
+}
+
+TEST_F(AskedFor, AKindOfMessagesThatNobodySendsIsAnIncident) {
+  Json json = talking("[]");
+  json["radio"] = {{"loss", 0.3}, {"spared_kinds", {"STATE", "STATES", "SATTE"}}};
+  EXPECT_THAT(incidents(json), ElementsAre("message-not-sent: nobody from 60.0 to 60.0 (2)"));
+  EXPECT_THAT(run("simulate s.json --trace").err, HasSubstr("spared kind SATTE: no message was described so"));
+  json["radio"]["spared_kinds"] = {"STATE"};
+  EXPECT_THAT(incidents(json), IsEmpty());
+}
+
+TEST_F(AskedFor, AFieldThatCountsOnlyBesideAnotherOneIsTold) {
+  const auto told_of = [&](const char* table, const char* fields) {
+    Json json = plain();
+    json[table] = Json::parse(fields);
+    return warnings(json);
+  };
+  EXPECT_THAT(told_of("radio", R"({"loss_bad": 0.5})"), HasSubstr("/radio/mean_outage_s: 0 s: there are no outages"));
+  EXPECT_THAT(told_of("radio", R"({"mean_outage_s": 1, "loss_bad": 0.5})"), IsEmpty());
+  EXPECT_THAT(told_of("radio", R"({"mean_outage_s": 1, "outage_shape": 2})"), HasSubstr("/radio/outage_shape: it"));
+  EXPECT_THAT(told_of("radio", R"({"delay_tail_shape": 2})"), HasSubstr("/radio/delay_model: it is not"));
+  EXPECT_THAT(told_of("radio", R"({"delay_model": "heavy-tail", "delay_tail_shape": 2})"), IsEmpty());
+  EXPECT_THAT(told_of("radio", R"({"roaming_max_s": 3})"), HasSubstr("/radio/roaming_at_crossing: no AGV changes"));
+  EXPECT_THAT(told_of("radio", R"({"roaming_at_crossing": true, "roaming_max_s": 3, "ap_spacing_m": 9})"), IsEmpty());
+  EXPECT_THAT(told_of("radio", R"({"roaming_gap_s": 3})"), HasSubstr("/radio/roaming_border_m: 0 m: borders have no"));
+  EXPECT_THAT(told_of("radio", R"({"ap_spacing_m": 9})"), HasSubstr("/radio/ap_spacing_m: it counts only if"));
+  EXPECT_THAT(told_of("radio", R"({"mean_outage_s": 1, "outage_scope": "place", "ap_spacing_m": 9})"), IsEmpty());
+  EXPECT_THAT(told_of("radio", R"({"contention_window": 7})"), HasSubstr("/radio/contention_window: it counts only"));
+  EXPECT_THAT(told_of("law", R"({"exempt_radius_m": 2})"), HasSubstr("/law/exempt_purposes: none: exempt_radius_m"));
+  EXPECT_THAT(told_of("law", R"({"exempt_purposes": "storage"})"), HasSubstr("/law/exempt_radius_m: 0 m: exempt"));
+  EXPECT_THAT(told_of("scanner", R"({"on": false, "range_m": 3})"), HasSubstr("/scanner/on: the scanners are off"));
+  EXPECT_THAT(told_of("operator", R"({"on": false, "battery": 0.5})"), HasSubstr("/operator/on: the operator is off"));
+  EXPECT_THAT(told_of("operator", R"({"battery": 0.5})"), HasSubstr("/operator/on: the operator is off"));
+  EXPECT_THAT(told_of("operator", R"({"on": true, "battery": 0.5})"), IsEmpty());
 }
 
 // A run in which nothing is denied has no such word.
