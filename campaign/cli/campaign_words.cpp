@@ -241,7 +241,7 @@ std::string meet_agent(const std::string& word, std::vector<std::string>& plugin
 }
 
 std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<std::string>& plugins,
-                                         AgentPrograms& programs, MeetPlugin meet) {
+                                         AgentPrograms& programs, MeetPlugin meet, bool global_symbols) {
   std::vector<ComputerPart> parts;
   for (const ComputerSetup& computer : scenario.computers) {
     if (computer.agent.empty()) continue;
@@ -251,10 +251,34 @@ std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<s
     part.program = computer.agent;
     if (!is_path_of_object(computer.agent)) continue;
     const auto known = std::ranges::find(programs.all(), absolute_name(computer.agent), &AgentProgram::file);
-    part.program = known != programs.all().end() ? known->name : (programs.*meet)(computer.agent, false);
+    part.program = known != programs.all().end() ? known->name : (programs.*meet)(computer.agent, global_symbols);
     if (std::ranges::find(plugins, computer.agent) == plugins.end()) plugins.push_back(computer.agent);
   }
   return parts;
+}
+
+void add_symbols_option(Options& options, bool& global_symbols) {
+  options.flag("--global-symbols", global_symbols,
+               "load the shared objects with RTLD_GLOBAL, as embedded Python needs it (symbols = \"global\" of a "
+               "campaign)");
+}
+
+void refuse_idle_symbols(bool global_symbols, const AgentFactor& agent, const AgentPrograms& programs) {
+  if (global_symbols && !programs.is_plugin(agent))
+    throw InputError("--global-symbols", fmt::format("has no meaning for {}, which comes from no shared object; name "
+                                                     "one with --plugin",
+                                                     in_quotes(name_of_parts(agent))));
+}
+
+std::string plugin_options(const AgentFactor& agent, const AgentPrograms& programs, const std::string& folder) {
+  std::string words;
+  bool global_symbols = false;
+  for (const AgentProgram* object : programs.objects_of(agent)) {
+    const auto file = std::filesystem::path(object->file).lexically_normal();
+    words += " --plugin " + shell_word(folder.empty() ? object->file : file.lexically_proximate(folder).string());
+    global_symbols = global_symbols || object->global_symbols;
+  }
+  return words + (global_symbols ? " --global-symbols" : "");
 }
 
 int worker_count(const std::optional<std::uint64_t>& jobs) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/cli/command_line.hpp"
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "storage/records.hpp"
@@ -45,10 +46,18 @@ void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentF
 // The name of the agent that `word` names: a name, or the path of a shared object. A path is added to `plugins`, and
 // all of them are met, with RTLD_GLOBAL if they need `global_symbols`. Throws what `meet` throws.
 std::string meet_agent(const std::string& word, std::vector<std::string>& plugins, AgentPrograms& programs,
-                       MeetPlugin meet, bool global_symbols = false);
+                       MeetPlugin meet, bool global_symbols);
 // The programs that a scenario file names for its computers, met as meet_agent does. Those without one are left out.
 std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<std::string>& plugins,
-                                         AgentPrograms& programs, MeetPlugin meet);
+                                         AgentPrograms& programs, MeetPlugin meet, bool global_symbols);
+
+// The option --global-symbols, of verbs that open shared objects for which no campaign says which symbols they need.
+void add_symbols_option(Options& options, bool& global_symbols);
+// Throws InputError if the option was given and no part of `agent` comes from a shared object.
+void refuse_idle_symbols(bool global_symbols, const AgentFactor& agent, const AgentPrograms& programs);
+// What a command needs so that it plays this agent: " --plugin FILE" for each of its objects, with their symbols;
+// nothing if it is built in. `folder`: paths are relative to it; empty: as they are.
+std::string plugin_options(const AgentFactor& agent, const AgentPrograms& programs, const std::string& folder = "");
 
 // The number that --jobs asks for; without it, one worker for each core. Throws InputError.
 int worker_count(const std::optional<std::uint64_t>& jobs);

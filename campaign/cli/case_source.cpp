@@ -56,10 +56,11 @@ CaseSource of_file(const CaseWords& words, AgentPrograms& programs) {
   source.name = std::filesystem::path(words.source).stem().string();
   std::vector<std::string> plugins = words.plugins;
   const std::string& named = words.agent.empty() ? source.scenario.agent : words.agent;
-  source.agent.program = meet_agent(named, plugins, programs, &AgentPrograms::know);
+  source.agent.program = meet_agent(named, plugins, programs, &AgentPrograms::know, words.global_symbols);
   source.agent.config = words.config.empty() ? source.scenario.agent_config : words.config;
   source.agent.laws_left_out = source.scenario.law.leave_out;
-  source.agent.computers = computer_parts(source.scenario, plugins, programs, &AgentPrograms::know);
+  source.agent.computers =
+      computer_parts(source.scenario, plugins, programs, &AgentPrograms::know, words.global_symbols);
   if (source.agent.program.empty())
     throw InputError("--agent", "neither the scenario file nor the command line names an agent; name one");
   return source;
@@ -90,6 +91,7 @@ void add_case_options(Options& options, CaseWords& words) {
   add_failure_option(options, words.failure);
   options.option("--plugin", words.plugins,
                  "shared object with the agent (default: the file that the campaign used); may be repeated");
+  add_symbols_option(options, words.global_symbols);
 }
 
 CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
@@ -97,6 +99,8 @@ CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
   const bool is_run = !words.run.empty();
   if (is_run && (!words.agent.empty() || !words.config.empty()))
     throw InputError("--agent", "a run has its agent and its configuration; leave --agent and --agent-config out");
+  if (is_run && words.global_symbols)
+    throw InputError("--global-symbols", "the campaign says which symbols the agent of a run needs; leave it out");
   CaseSource source = is_run ? of_run(words, programs) : of_file(words, programs);
   source.failure = words.failure;
   source.scenario.expected = {};
@@ -108,7 +112,8 @@ CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
     require_room(*part, *source.scenario.map, source.scenario.agvs.size(), "the scenario", where);
     source.identity += fmt::format(" {} {}", part->name, part->is_plugin() ? part->sha256 : "built in");
   }
-  for (const std::string& file : programs.objects_of(agent)) source.plugin += " --plugin " + shell_word(file);
+  refuse_idle_symbols(words.global_symbols, agent, programs);
+  source.plugin = plugin_options(agent, programs);
   for (const ProgramPart* part : agent.parts()) {
     const std::string& config = part->config ? *part->config : source.agent.config;
     source.identity += fmt::format(" {:016x}", name_hash(config));

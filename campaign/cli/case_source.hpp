@@ -18,6 +18,7 @@ struct CaseWords {
   std::string agent, config;  // of a scenario file that names none
   std::string failure;        // which failure of the run; empty: the one that leads
   std::vector<std::string> plugins;
+  bool global_symbols = false;  // of a scenario file
 };
 void add_case_options(Options& options, CaseWords& words);
 
@@ -28,8 +29,8 @@ struct CaseSource {
   std::string failure;            // as CaseWords
   std::optional<Outcome> stored;  // of the run in the campaign; absent: it is not stored, or it is a scenario file
   std::string recording;          // the command that plays what its agents did then; empty: that is not recorded
-  std::string plugin;    // " --plugin FILE", as a command needs it that plays the case; empty: a reference agent
-  std::string identity;  // of scenario, agent and program: what was learnt of one case says nothing of another
+  std::string plugin;             // as plugin_options has it; empty: a reference agent
+  std::string identity;           // of scenario, agent and program: what was learnt of one case says nothing of another
 };
 
 // Throws InputError. The agent is known to `programs` then; a plug-in is not loaded into this process.

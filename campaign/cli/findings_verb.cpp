@@ -193,15 +193,10 @@ class FindingsOfCampaign {
     return kept;
   }
 
-  // " --plugin FILE", from the folder of the findings file, in which the commands are called.
+  // From the folder of the findings file, in which the commands are called.
   std::string plugin_words(const AgentFactor& agent) const {
-    std::string words;
-    for (const std::string& path : programs_.objects_of(agent)) {
-      const auto folder = std::filesystem::path(absolute_name(file_.path_beside("."))).lexically_normal();
-      const auto file = std::filesystem::path(path).lexically_normal();
-      words += " --plugin " + shell_word(file.lexically_proximate(folder).string());
-    }
-    return words;
+    return plugin_options(agent, programs_,
+                          std::filesystem::path(absolute_name(file_.path_beside("."))).lexically_normal().string());
   }
 
   std::string explanation_text(const KnownIssue& kept, const Explanation& explanation, const AgentFactor& agent) const {

@@ -28,7 +28,7 @@ struct RetestWords {
   std::string file, agent, config;
   std::vector<std::string> plugins, ids;
   std::optional<std::uint64_t> jobs, neighbours;
-  bool bisect = false, json = false;
+  bool bisect = false, json = false, global_symbols = false;
 };
 
 struct Retested {
@@ -153,7 +153,9 @@ int retest_findings(const RetestWords& words) {
     throw InputError("--neighbours", fmt::format("is {}; it is from 1 to {}", *words.neighbours, kMostNeighbours));
   AgentPrograms programs;
   std::vector<std::string> plugins = words.plugins;
-  const std::string agent = meet_agent(words.agent, plugins, programs, &AgentPrograms::know);
+  const std::string agent = meet_agent(words.agent, plugins, programs, &AgentPrograms::know, words.global_symbols);
+  (void)programs.program(agent, "--agent");
+  refuse_idle_symbols(words.global_symbols, AgentFactor(agent), programs);
   const FindingsFile file(words.file);
   std::vector<KeptFailure> failures;
   RetestHosts hosts(programs, worker_count(words.jobs));
@@ -162,7 +164,10 @@ int retest_findings(const RetestWords& words) {
   for (const KnownIssue* finding : findings) {
     failures.push_back(file.failure(*finding));
     const std::string config = words.config.empty() ? failures.back().smallest.agent_config : words.config;
-    host_of.push_back(&hosts.of({agent, config, finding->laws_left_out, finding->limits}));
+    CaseAgent of_case{agent, config, finding->laws_left_out, finding->limits};
+    of_case.computers =
+        computer_parts(failures.back().smallest, plugins, programs, &AgentPrograms::know, words.global_symbols);
+    host_of.push_back(&hosts.of(of_case));
   }
   std::vector<Retested> all;
   // As many as when it was found: there, so many were needed for some of them to fail.
@@ -216,6 +221,7 @@ Action prepare_retest(Options& options) {
   options.option("--agent", words->agent, "the control software to test: a name, or a shared object");
   options.option("--agent-config", words->config, "text handed to the agent (default: as when the finding was found)");
   options.option("--plugin", words->plugins, "shared object with the agent; may be repeated");
+  add_symbols_option(options, words->global_symbols);
   options.option("--finding", words->ids, "only this finding, as F-1c2d3e4f; may be repeated");
   options.option("--neighbours", words->neighbours,
                  "scenarios beside each case (default: as when it was found, at least 1000)");

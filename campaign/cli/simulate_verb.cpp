@@ -249,7 +249,7 @@ std::vector<KnownEnd> ends_of_plugin(SimulateWords words, const Scenario& scenar
   AgentPrograms known;
   words.agent = meet_agent(words.agent, words.plugins, known, &AgentPrograms::know, words.global_symbols);
   CaseAgent agent{words.agent, words.config, scenario.law.leave_out};
-  agent.computers = computer_parts(scenario, words.plugins, known, &AgentPrograms::know);
+  agent.computers = computer_parts(scenario, words.plugins, known, &AgentPrograms::know, words.global_symbols);
   (void)known.parts_of(factor_of(agent), words.agent_place);
   return known_ends(scenario, agent, known);
 }
@@ -297,10 +297,6 @@ int simulate_scenario(SimulateWords words) {
   progress->begin("simulating the run");
   const std::vector<KnownEnd> ends = ends_of_plugin(words, scenario);
   words.agent = meet_agent(words.agent, words.plugins, programs, &AgentPrograms::load, words.global_symbols);
-  if (words.global_symbols && words.plugins.empty())
-    throw InputError("--global-symbols", fmt::format("has no meaning for {}, which comes from no shared object; name "
-                                                     "one with --plugin",
-                                                     in_quotes(words.agent)));
   // The published laws work on after the last event, where only the signal itself can end them.
   if (measures_clearance(words)) listen_to_interrupts();
   const TimeLimit limit({}, is_interrupted);
@@ -308,7 +304,8 @@ int simulate_scenario(SimulateWords words) {
   watch.known_ends = ends;
   watch.abandon = &limit.over();
   AgentFactor agent(words.agent);
-  agent.computers = computer_parts(scenario, words.plugins, programs, &AgentPrograms::load);
+  agent.computers = computer_parts(scenario, words.plugins, programs, &AgentPrograms::load, words.global_symbols);
+  refuse_idle_symbols(words.global_symbols, agent, programs);
   for (const AgentProgram* part : programs.parts_of(agent, words.agent_place))
     require_room(*part, *scenario.map, scenario.agvs.size(), "the scenario", words.agent_place);
   const FleetSoftware software = programs.software(agent, words.config, scenario);
@@ -360,9 +357,7 @@ Action prepare_simulate(Options& options) {
   options.option("--agent-config", words->config,
                  "text handed to the agent as its own parameters (default: the scenario file's)");
   options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
-  options.flag("--global-symbols", words->global_symbols,
-               "load the shared objects with RTLD_GLOBAL, as embedded Python needs it (symbols = \"global\" of a "
-               "campaign)");
+  add_symbols_option(options, words->global_symbols);
   options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");
   options.option("--granularity", words->granularity,
                  "snapshot step of the published laws: 1s, 2.5ms or plain seconds (default: the scenario's, 0.0025)");

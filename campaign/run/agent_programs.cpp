@@ -163,12 +163,12 @@ std::vector<const AgentProgram*> AgentPrograms::parts_of(const AgentFactor& agen
   return programs;
 }
 
-std::vector<std::string> AgentPrograms::objects_of(const AgentFactor& agent) const {
-  std::vector<std::string> files;
+std::vector<const AgentProgram*> AgentPrograms::objects_of(const AgentFactor& agent) const {
+  std::vector<const AgentProgram*> objects;
   for (const AgentProgram* part : parts_of(agent, "agent")) {
-    if (part->is_plugin() && std::ranges::find(files, part->file) == files.end()) files.push_back(part->file);
+    if (part->is_plugin() && std::ranges::find(objects, part) == objects.end()) objects.push_back(part);
   }
-  return files;
+  return objects;
 }
 
 bool AgentPrograms::is_deterministic(const AgentFactor& agent) const {

@@ -66,8 +66,8 @@ class AgentPrograms {
   bool is_plugin(const AgentFactor& agent) const;
   // The programs of its parts, on board first. Throws InputError if one is not known.
   std::vector<const AgentProgram*> parts_of(const AgentFactor& agent, std::string_view where) const;
-  // The files of the shared objects of its parts, each once.
-  std::vector<std::string> objects_of(const AgentFactor& agent) const;
+  // The shared objects of its parts, each once.
+  std::vector<const AgentProgram*> objects_of(const AgentFactor& agent) const;
   // Whether each part promises that it is deterministic.
   bool is_deterministic(const AgentFactor& agent) const;
   // Of a shared object among its parts; null: there is none.

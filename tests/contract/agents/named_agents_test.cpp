@@ -7,6 +7,7 @@
 namespace fleetproof::named_agents_test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class NamedAgents : public test::ProgramTest {
@@ -109,6 +110,39 @@ TEST_F(NamedAgents, ASimulationHasGlobalSymbolsIfItIsTold) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--global-symbols: has no meaning for \"hull-lock\", which comes from no shared "
                                      "object; name one with --plugin"));
+}
+
+// The case crashes only with local symbols, so that each verb shows which ones it gave.
+TEST_F(NamedAgents, VerbsOfFailingCasesHaveGlobalSymbolsIfTheyAreTold) {
+  ASSERT_LT(campaign("[{ file = \"failing.so\", config = \"symbols 1\" }]").exit_code, 5);
+  ASSERT_EQ(run("replay c.db 0 --scenario case.json").exit_code, 0);
+  for (const std::string verb : {"shrink case.json -o least.json", "explain case.json"}) {
+    const std::string command = verb + " --plugin failing.so --max-trials 20";
+    EXPECT_THAT(run(command).out, HasSubstr("crash")) << verb;
+    EXPECT_THAT(run(command + " --global-symbols").out, testing::Not(HasSubstr("crash"))) << verb;
+    EXPECT_THAT(run(verb + " --agent hull-lock --global-symbols").err,
+                HasSubstr("--global-symbols: has no meaning for \"hull-lock\""))
+        << verb;
+  }
+  EXPECT_THAT(run("shrink c.db 0 --global-symbols").err,
+              HasSubstr("--global-symbols: the campaign says which symbols the agent of a run needs; leave it out"));
+  ASSERT_LT(run("findings c.db --file f.toml --add --failure crash --max-trials 20").exit_code, 5);
+  const std::string retest = "retest f.toml --agent failing.so --neighbours 20";
+  EXPECT_THAT(run(retest).out, HasSubstr("still there"));
+  EXPECT_THAT(run(retest + " --global-symbols").out, AllOf(HasSubstr("fixed"), testing::Not(HasSubstr("still there"))));
+  EXPECT_THAT(run("retest f.toml --agent hull-lock --global-symbols").err,
+              HasSubstr("--global-symbols: has no meaning for \"hull-lock\""));
+}
+
+TEST_F(NamedAgents, CommandsOfAgentsWithGlobalSymbolsSayIt) {
+  for (const bool global : {false, true}) {
+    ASSERT_LT(campaign(std::string("[{ file = \"failing.so\", config = \"abort 1\", symbols = ") +
+                       (global ? "\"global\" }]" : "\"local\" }]"))
+                  .exit_code,
+              5);
+    const auto shrunk = run("shrink c.db 0 -o least.json --max-trials 20");
+    EXPECT_THAT(shrunk.out, HasSubstr(std::string("failing.so") + (global ? " --global-symbols\n" : "\n")));
+  }
 }
 
 TEST_F(NamedAgents, AStoredCampaignFindsItsPlugins) {
