@@ -32,7 +32,10 @@ struct AgvState {
   std::vector<TransportId> open;       // transports released and not done
   std::optional<TransportId> carried;  // transport of the load on it
   SimTime open_since = kStart, active_at = kStart, advanced_at = kStart;
-  bool busy = false, off_floor = false;  // off: in the hands of the operator
+  bool busy = false, off_floor = false;      // off: in the hands of the operator
+  ActivityKind doing = ActivityKind::Drive;  // while it is busy
+  bool moves_load = false;                   // it picks or drops one
+  Duration turned{};                         // its last turn, if no drive has followed
   std::optional<SimTime> charging_since;
   EntityId declared;                             // the AGV for which it waits, as its agent declares
   std::uint64_t done = 0, others_done_then = 0;  // when it last advanced
@@ -73,6 +76,7 @@ class ProgressLaw final : public Law {
   using Key = std::pair<IncidentKind, EntityId>;
 
   void goes_on_with(const TraceRecord& record);
+  void begins_work(AgvState& agv, EntityId id, const traced::ActivityBegins& begun);
   void charge_begins_or_ends(AgvState& agv, const TraceRecord& record);
   void order_released(const TraceRecord& record);
   void load_moves(const TraceRecord& record);
@@ -88,7 +92,8 @@ class ProgressLaw final : public Law {
   SimTime still_since(const AgvState& agv) const { return std::max(agv.still_since(), faults_.last()); }
   void look_for_deadlocks(SimTime now);
   void look_for_livelock(SimTime now);
-  Duration longest_way();
+  Duration longest_way(SimTime now);
+  static bool gets_on(const AgvState& agv, const Approach::Gain& gain);
   void look_for_starvation(SimTime now);
   Wait wait_of(EntityId agv, SimTime now);
   void file_circle(const std::vector<EntityId>& circle, const std::map<EntityId, Wait>& waits, SimTime now);
@@ -170,15 +175,23 @@ void ProgressLaw::goes_on_with(const TraceRecord& record) {
   const bool begins = record.kind == TraceKind::ActivityBegins;
   if (activity == ActivityKind::Charge) charge_begins_or_ends(agv, record);
   if (!is_work(activity)) return;
+  const Duration lasted = begins ? Duration{} : record.at - std::max(agv.active_at, fleet_advanced_at_);
   agv.busy = begins;
   agv.active_at = record.at;
   motions_ += begins ? 1 : 0;
-  if (activity != ActivityKind::Drive) return;
-  if (begins) {
-    approach_.drive_begins(record.entity, read<traced::ActivityBegins>(record).segment());
-  } else if (!read<traced::ActivityEnds>(record).as_planned) {
-    approach_.drive_cut_short(record.entity);
-  }
+  if (begins) return begins_work(agv, record.entity, read<traced::ActivityBegins>(record));
+  if (activity == ActivityKind::Turn) agv.turned = lasted;
+  if (activity == ActivityKind::Drive || activity == ActivityKind::Settle) approach_.spend(record.entity, lasted);
+  if (activity == ActivityKind::Drive)
+    approach_.drive_ends(record.entity, read<traced::ActivityEnds>(record).as_planned);
+}
+
+void ProgressLaw::begins_work(AgvState& agv, EntityId id, const traced::ActivityBegins& begun) {
+  agv.doing = begun.activity;
+  agv.moves_load = begun.load().valid() && (agv.doing == ActivityKind::Pick || agv.doing == ActivityKind::Drop);
+  if (agv.doing != ActivityKind::Drive) return;
+  approach_.drive_begins(id, begun.segment());
+  approach_.spend(id, std::exchange(agv.turned, Duration{}));
 }
 
 void ProgressLaw::charge_begins_or_ends(AgvState& agv, const TraceRecord& record) {
@@ -349,25 +362,36 @@ void ProgressLaw::look_for_livelock(SimTime now) {
   const bool still =
       std::ranges::none_of(agvs_, [&](const AgvState& agv) { return agv.busy || now - agv.active_at < stuck_after_; });
   if (still || std::ranges::none_of(agvs_, &AgvState::is_expected)) return;
-  if (without_success < 2 * stuck_after_ + longest_way()) return;
+  if (without_success < 2 * stuck_after_ + longest_way(now)) return;
   goes_on(
       {IncidentKind::Livelock, {}, {}, fleet_advanced_at_, now, static_cast<std::int64_t>(motions_ - motions_then_)});
 }
 
-// The time that the fleet may take for the way by which one of its AGVs has come nearer to its goal. An AGV that is on
-// a long way gets on, even if it picks and delivers nothing meanwhile.
-Duration ProgressLaw::longest_way() {
-  double longest_s = 0.0;
+// The time that the fleet may take for the way by which one of its AGVs has come nearer to its goal: twice that at top
+// speed, or what the drives took that brought it nearer, if that is more. An AGV that is on a long way gets on, even if
+// it picks and delivers nothing meanwhile.
+Duration ProgressLaw::longest_way(SimTime now) {
+  Duration longest{};
   for (std::size_t i = 0; i < agvs_.size(); ++i) {
     const AgvState& agv = agvs_[i];
     if (!agv.has_work()) continue;
     const TransportOrder& order = *orders_[agv.carried.value_or(agv.open.front()).index()].what;
-    const double gained_m = approach_.gained_m(EntityId{i}, agv.carried ? order.to : order.from);
+    const Approach::Gain gain = approach_.gain(EntityId{i}, agv.carried ? order.to : order.from);
     const double speed_mps =
         slower_way_mps(*scenario_.map, scenario_.type_of(scenario_.agvs[i]), agv.carried.has_value());
-    longest_s = std::max(longest_s, kWayTakes * gained_m / speed_mps);
+    const Duration under_way = gets_on(agv, gain) ? now - std::max(agv.active_at, fleet_advanced_at_) : Duration{};
+    longest = std::max({longest, seconds(kWayTakes * gain.way_m / speed_mps), gain.took + under_way});
   }
-  return seconds(longest_s);
+  return longest;
+}
+
+// What it does now is a part of its way: a drive that brings it nearer, the first turn before a drive, a transfer of
+// its load.
+bool ProgressLaw::gets_on(const AgvState& agv, const Approach::Gain& gain) {
+  if (!agv.busy) return false;
+  if (agv.doing == ActivityKind::Turn) return agv.turned == Duration{};
+  return agv.moves_load ||
+         ((agv.doing == ActivityKind::Drive || agv.doing == ActivityKind::Settle) && gain.by_last_drive);
 }
 
 void ProgressLaw::look_for_starvation(SimTime now) {

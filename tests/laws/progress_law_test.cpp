@@ -186,6 +186,41 @@ TEST_F(Progress, WhoIsOnALongWayHasTimeForIt) {
   }
 }
 
+// However slowly. The load that it fetches is at station 3.
+TEST_F(Progress, WhoIsOnItsWayIsNoLivelock) {
+  constexpr std::uint64_t kAway = 0, kNearer = 1, kLoad = 0, kNoLoad = LoadId{}.value;
+  using enum ActivityKind;
+  struct Does {
+    ActivityKind kind;
+    double until_s;
+    std::uint64_t subject;
+  };
+  struct Case {
+    std::vector<Does> does;
+    bool is_livelock;
+  };
+  for (const Case& one : {Case{{{Drive, 520.0, kNearer}}, false},
+                          {{{Drive, 520.0, kAway}}, true},
+                          {{{Drive, 250.0, kNearer}, {Settle, 300.0, 0}, {Drive, 520.0, 2}}, false},
+                          {{{Drive, 150.0, kNearer}, {Drive, 300.0, kNearer}, {Drive, 520.0, kNearer}}, true},
+                          {{{Turn, 260.0, 1}, {Drive, 520.0, kNearer}}, false},
+                          {{{Turn, 260.0, 1}, {Turn, 520.0, 1}}, true},
+                          {{{Pick, 600.0, kLoad}}, false},
+                          {{{Pick, 600.0, kNoLoad}}, true}}) {
+    Told law = told();
+    both_released(law);
+    double at_s = 10.0;
+    for (const auto& [kind, until_s, subject] : one.does) {
+      law.begins(at_s, 0, kind, subject);
+      if (until_s < 525.0) law.ends(until_s, 0, kind);  // else it is under way
+      at_s = until_s;
+    }
+    const auto found = law.finish(525.0).incidents;
+    EXPECT_EQ(!found.empty(), one.is_livelock) << one.does.size() << " " << name_of(one.does.front().kind);
+    EXPECT_TRUE(found.empty() || found[0].kind == Livelock);
+  }
+}
+
 TEST_F(Progress, AHaltOnALongWayTurnsNobodyRound) {
   scenario_.vehicle_types[0].drive.speed_mps = 0.05;
   Told law = told();
