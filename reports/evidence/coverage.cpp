@@ -134,7 +134,8 @@ std::vector<MissingProbe> missing_probes(const Coverage& coverage, const std::ve
       name.pop_back();
     }
     const auto with = coverage.seen(name).runs;
-    if (with == 0 || with * kRunsPerProbe < coverage.runs()) missing.push_back({name, with, coverage.runs()});
+    if (with == 0 || with * kRunsPerProbe < coverage.runs())
+      missing.push_back({name, with, coverage.runs(), name == kEncounterProbe});
   }
   return missing;
 }

@@ -78,6 +78,7 @@ class Coverage {
 struct MissingProbe {
   std::string name;
   std::uint64_t runs_with = 0, runs = 0;
+  bool is_encounter = false;  // any encounter: the drives of two AGVs
 };
 
 // A probe that fewer than one of this many runs met is too rare to have tested anything. A probe that was never met is

@@ -24,8 +24,11 @@ void add_sentence_part(std::string& sentence, const std::string& part) {
 // a fixed one the number would have to be fixed beforehand.
 std::string bound_too_high(const GateRecord& gate, GateResult& result) {
   const auto& claim = *result.claim;
-  std::string text = fmt::format("the upper bound {} is above the limit {}", value_text(gate, claim.upper, rounded_up),
-                                 limit_text(gate));
+  std::string text =
+      std::isinf(claim.upper)
+          ? "every world may fail, so that the rate has no upper bound, and the limit is " + limit_text(gate)
+          : fmt::format("the upper bound {} is above the limit {}", value_text(gate, claim.upper, rounded_up),
+                        limit_text(gate));
   const auto unknown = result.counts.failing_or_unknown - result.counts.failing;
   if (unknown > 0)
     text +=
@@ -73,7 +76,8 @@ std::string missing_for_demonstration(const GateRecord& gate, GateResult& result
   if (!meets_limit(gate, *result.claim)) add_sentence_part(missing, bound_too_high(gate, result));
   if (!counts.doubt.empty()) add_sentence_part(missing, counts.doubt);
   if (counts.met_nobody)
-    add_sentence_part(missing, "no run met an encounter of two AGVs: what this gate claims was never put to the test");
+    add_sentence_part(missing,
+                      "in no run two AGVs met while both drove: what this gate claims was never put to the test");
   if (!asks_for_progress(gate)) return missing;
   const double rate = counts.transports_per_agv_hour.value_or(0.0);
   if (!(rate >= gate.min_transports_per_agv_hour)) {

@@ -48,8 +48,7 @@ std::vector<std::string> row(const ReportInput& input, const BreakdownRow& group
     } else {
       const Estimate rate = estimate(hourly_rule(rule), worlds.failing_or_unknown, worlds.counted, group.cells);
       cells.push_back(rounded_rate(*rate.rate()));
-      cells.push_back(
-          fmt::format("[{}, {}]", rounded_down(rate.interval_95.lower), rounded_up(rate.interval_95.upper)));
+      cells.push_back(rates_text(rate.interval_95.lower, rate.interval_95.upper));
     }
   }
   cells.push_back(fmt::format("{}/{}", group.stalled, worlds.units));

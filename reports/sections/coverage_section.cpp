@@ -37,7 +37,8 @@ void cut(Section& section, std::size_t most_rows) {
 std::string missing_text(const std::vector<MissingProbe>& missing) {
   std::vector<std::string> never, rare;
   for (const auto& probe : missing) {
-    const auto name = printable(probe.name, 64);
+    auto name = printable(probe.name, 64);
+    if (probe.is_encounter) name += " (of two AGVs that both drive)";
     if (probe.runs_with == 0) {
       never.push_back(name);
     } else {

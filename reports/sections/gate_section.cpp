@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/base/contract.hpp"
@@ -181,6 +182,9 @@ std::string finding_text(const ReportInput& input, std::size_t index) {
   if ((violated ? result.optimistic : result.claim)->units == 0) return text;
   const double bound = violated ? result.optimistic->lower : result.claim->upper;
   if (violated && bound <= 0.0) return text;  // one failing run refutes a gate that allows none; it shows no rate
+  if (std::isinf(bound))
+    return text + fmt::format("; every world may fail, so that the true rate has no upper bound ({})",
+                              percent(gate.confidence));
   return text + fmt::format("; the true {} is at {} {} ({}{})", gate.unit == GateUnit::AgvHour ? "rate" : "share",
                             violated ? "least" : "most", value_text(gate, bound, violated ? rounded_down : rounded_up),
                             percent(gate.confidence),

@@ -1,5 +1,6 @@
 """The sentences with numbers that the pages must contain."""
 import re
+from math import inf
 
 import wording as w
 from bounds import bounds
@@ -74,6 +75,9 @@ def finding(gate, counts, verdict, distance):
     upper = bounds(gate["method"], gate["unit"], failing, units, risk, cells, run_hours)[1]
     if violated and lower <= 0.0:
         return text
+    if not violated and upper == inf:
+        return text + re.escape("; every world may fail, so that the true rate has no upper bound "
+                                f"({w.percent(gate['confidence'])})")
     number = w.down(lower if hourly else 100.0 * lower) if violated else w.up(upper if hourly else 100.0 * upper)
     bound = f"; the true {'rate' if hourly else 'share'} is at {'least' if violated else 'most'} {number}"
     bound += " per AGV-hour" if hourly else " %"

@@ -138,8 +138,7 @@ def gate_rows(archive):
             hourly = gate["unit"] == "agv-hour"
             upper = bounds(gate["method"], gate["unit"], failing, units, round(1.0 - gate["confidence"], 12), len(cells),
                            archive.run_hours(cells))[1] if cells or gate["unit"] != "agv-hour" else inf
-            in_unit = (lambda text, number: text(number) + " per AGV-hour") if hourly else (
-                lambda text, number: text(100.0 * number) + " %")
+            in_unit = lambda text, number: w.of_gate(gate, text, number)
             limit = in_unit(lambda number: f"{number:g}", gate["limit_rate"])
             failed = w.failed(known, failing)
             row += [f"{failed}/{units}", in_unit(w.up, upper),

@@ -78,7 +78,9 @@ def failed(known, with_unknown):
 
 
 def of_gate(gate, rounded, value):
-    """A share in percent, or a rate per AGV-hour."""
+    """A share in percent, or a rate per AGV-hour, which may have no bound."""
+    if value == inf:
+        return "none"
     return rounded(value) + " per AGV-hour" if gate["unit"] == "agv-hour" else rounded(100.0 * value) + " %"
 
 
@@ -88,7 +90,7 @@ def grouped(number):
 
 def interval(pair):
     """Of a rate."""
-    return f"[{down(pair[0])}, {up(pair[1])}]"
+    return f"[{down(pair[0])}, {'no upper bound' if pair[1] == inf else up(pair[1])}]"
 
 
 def shares(pair):

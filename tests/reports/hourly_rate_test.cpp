@@ -6,9 +6,11 @@
 
 #include <cmath>
 #include <numeric>
+#include <regex>
 
 #include "reports/evidence/gate_bounds.hpp"
 #include "reports/evidence/gate_table.hpp"
+#include "reports/formats/report_formats.hpp"
 #include "tests/reports/sample_campaign.hpp"
 #include "tests/reports/synthetic_campaigns.hpp"
 
@@ -116,6 +118,27 @@ TEST(HourlyRate, IsRefutedByTooManyWorldsForAllRunsTogether) {
   EXPECT_EQ(input.gates[1].verdict, Verdict::NotDemonstrated) << "1.25 x 5/6 > 1: a failure in each world is allowed";
   EXPECT_FALSE(cannot_be_violated(input.evidence.gates()[0], input.evidence.gate_cells(0)));
   EXPECT_TRUE(cannot_be_violated(input.evidence.gates()[1], input.evidence.gate_cells(1)));
+}
+
+// Where all worlds may fail, a page has a sentence in place of an endless number.
+TEST(HourlyRate, WithoutABoundIsASentence) {
+  const auto page = [](std::uint64_t failing_worlds, double limit) {
+    const auto input =
+        report_of(campaign_of("claim", 20), grid({"sound"}, {0.4}, {2.0}), {hourly(limit)}, [&](RunRecord& run) {
+          if (run.replicate < failing_worlds) samples::violate(run);
+        });
+    return std::regex_replace(find_entry(report_formats(), "text")->make(input), std::regex("\\s+"), " ");
+  };
+  const std::string endless = page(20, 1.25);
+  EXPECT_THAT(endless,
+              HasSubstr("in 20 of 20 runs (16.6667 AGV-hours); every world may fail, so that the true rate has "
+                        "no upper bound (95 %)"));
+  EXPECT_THAT(endless,
+              HasSubstr("no upper bound] per AGV-hour, one-sided 95 % upper bound none, limit 1.25 per AGV-hour"));
+  EXPECT_THAT(endless, HasSubstr("so that the rate has no upper bound, and the limit is 1.25 per AGV-hour"));
+  EXPECT_THAT(endless, Not(testing::ContainsRegex("[^a-z]inf[^a-z]")));
+  EXPECT_THAT(page(0, 1.25), HasSubstr("the true rate is at most "));
+  EXPECT_THAT(page(19, 1.25), Not(HasSubstr("no upper bound")));
 }
 
 // Four thousand campaigns of software at the limit, whose failures come at the start of its worlds, through Evidence.
