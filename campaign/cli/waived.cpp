@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "campaign/plan/default_gates.hpp"
 #include "campaign/plan/plan_fields.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "core/base/error.hpp"
@@ -157,6 +158,13 @@ struct Heaviness {
 };
 constexpr double kFar = 1.25;
 
+// A field of gates that nobody wrote is no field of the campaign file.
+std::string told_field(const CampaignPlan& plan, const std::string& path) {
+  return path.starts_with("gate.") && has_default_gates(plan)
+             ? path + " of the default gates (not written in the campaign)"
+             : path;
+}
+
 }  // namespace
 
 std::vector<LenientCondition> waived_conditions(const CampaignPlan& plan) {
@@ -175,7 +183,7 @@ std::vector<LenientCondition> waived_conditions(const CampaignPlan& plan) {
     }
     if (!easier.empty())
       found.push_back({{farthest >= kFar, field.lenient.weight(), farthest},
-                       {field.path, fmt::format("{}", fmt::join(easier, ", ")), normal.text}});
+                       {told_field(plan, field.path), fmt::format("{}", fmt::join(easier, ", ")), normal.text}});
   }
   std::ranges::stable_sort(found, std::ranges::greater{}, &std::pair<Heaviness, LenientCondition>::first);
   std::vector<LenientCondition> list;
@@ -185,9 +193,10 @@ std::vector<LenientCondition> waived_conditions(const CampaignPlan& plan) {
 
 LenientConditions lenient_conditions(const std::string& plan_json) {
   try {
-    return {waived_conditions(parse_plan(plan_json, PlanCells::MayBeNone)), ""};
+    const CampaignPlan plan = parse_plan(plan_json, PlanCells::MayBeNone);
+    return {waived_conditions(plan), has_default_gates(plan) ? default_floor_text(plan) : "", ""};
   } catch (const EngineError& error) {
-    return {{}, error.what()};
+    return {{}, "", error.what()};
   }
 }
 

@@ -41,14 +41,17 @@ std::optional<double> undisturbed_transport_s(const CampaignPlan& plan) {
   return busy_s > 0.0 ? std::optional(busy_s / transports) : std::nullopt;
 }
 
-// What the fleet has to get done per AGV-hour. With two digits, because people read it.
+// With two digits, because people read it.
+double as_floor(double rate) { return std::floor(100.0 * rate) / 100.0; }
+
+// What the fleet has to get done per AGV-hour.
 double throughput_floor(const CampaignPlan& plan, std::optional<double> transport_s) {
   const bool has_orders = plan.orders || plan.demand.transports_per_agv_hour > 0.0;
   if (!has_orders) return 0.0;
   if (!transport_s) return kUnknownFloor;
   const double undisturbed = 3600.0 / *transport_s;
   const double wanted = plan.orders ? undisturbed : plan.demand.transports_per_agv_hour;
-  return std::floor(100.0 * std::min(kShareOfUndisturbed * undisturbed, kShareOfDemand * wanted)) / 100.0;
+  return as_floor(std::min(kShareOfUndisturbed * undisturbed, kShareOfDemand * wanted));
 }
 
 GateRecord gate(const std::string& agent, EndPoint end_point, GateKind kind, double limit) {
@@ -59,6 +62,18 @@ GateRecord gate(const std::string& agent, EndPoint end_point, GateKind kind, dou
   gate.kind = kind;
   gate.limit = limit;
   return gate;
+}
+
+constexpr EndPoint kNoneAllowed[] = {EndPoint::Violation, EndPoint::Crash, EndPoint::WrongLoad};
+constexpr EndPoint kFewAllowed[] = {EndPoint::Deadlock, EndPoint::Livelock, EndPoint::Starvation, EndPoint::Hang};
+
+bool is_default(const GateRecord& one) {
+  const bool allows_none = std::ranges::find(kNoneAllowed, one.end_point) != std::end(kNoneAllowed);
+  GateRecord usual = gate(one.agent, one.end_point, allows_none ? GateKind::None : GateKind::Rate,
+                          allows_none ? kDefaultSafetyLimit : kDefaultLimit);
+  usual.index = one.index, usual.region = one.region, usual.decides = one.decides, usual.table = one.table;
+  usual.min_transports_per_agv_hour = one.min_transports_per_agv_hour;
+  return one == usual;
 }
 
 bool has_contract_cells(const std::vector<CellRecord>& cells, const std::string& agent) {
@@ -91,13 +106,33 @@ void add_default_gates(CampaignPlan& plan, const std::vector<bool>& is_plugin) {
       plan.gates.back().region = region;
       plan.gates.back().min_transports_per_agv_hour = least;
     };
-    for (const EndPoint end_point : {EndPoint::Violation, EndPoint::Crash, EndPoint::WrongLoad})
+    for (const EndPoint end_point : kNoneAllowed)
       add(end_point, GateKind::None, kDefaultSafetyLimit, end_point == EndPoint::Violation ? floor : 0.0);
-    for (const EndPoint end_point : {EndPoint::Deadlock, EndPoint::Livelock, EndPoint::Starvation, EndPoint::Hang})
-      add(end_point, GateKind::Rate, kDefaultLimit, 0.0);
+    for (const EndPoint end_point : kFewAllowed) add(end_point, GateKind::Rate, kDefaultLimit, 0.0);
     if (judges_throughput) add(EndPoint::Throughput, GateKind::Rate, kDefaultLimit, floor);
   }
   for (std::size_t i = 0; i < plan.gates.size(); ++i) plan.gates[i].index = static_cast<std::uint32_t>(i);
+}
+
+bool has_default_gates(const CampaignPlan& plan) {
+  constexpr std::size_t kLeast = std::size(kNoneAllowed) + std::size(kFewAllowed);
+  return plan.default_gates && plan.gates.size() >= kLeast && std::ranges::all_of(plan.gates, is_default);
+}
+
+std::string default_floor_text(const CampaignPlan& plan) {
+  const double floor = plan.gates.front().min_transports_per_agv_hour,
+               demand = plan.orders ? 0.0 : plan.demand.transports_per_agv_hour;
+  if (floor == 0.0) return "The default gates ask for no throughput: the campaign has no orders, or hardly any.";
+  std::string text = fmt::format(
+      "The floor of throughput was not written in the campaign. By default it is {:g} transports (orders) per "
+      "AGV-hour: ",
+      floor);
+  if (demand > 0.0 && floor == as_floor(kShareOfDemand * demand))
+    return text + fmt::format("half of the {:g} that the campaign orders.", demand);
+  text += fmt::format("a twentieth of the {:.3g} that an AGV alone in these warehouses would do",
+                      floor / kShareOfUndisturbed);
+  if (floor == kUnknownFloor) text += ", or what is asked for where runs are too short for an order";
+  return text + (demand > 0.0 ? fmt::format("; the campaign orders {:g}.", demand) : ".");
 }
 
 }  // namespace fleetproof

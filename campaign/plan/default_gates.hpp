@@ -18,6 +18,11 @@ std::vector<std::string> agents_under_test(const CampaignPlan& plan, const std::
 // their throughput; the fleet has to reach it over all of them.
 void add_default_gates(CampaignPlan& plan, const std::vector<bool>& is_plugin);
 
+// Whether the gates of a plan are default gates. One that names the same gates is taken for one that names none.
+bool has_default_gates(const CampaignPlan& plan);
+// The floor of such a plan, and how it came about, for people: the first worlds of the layouts decide it.
+std::string default_floor_text(const CampaignPlan& plan);
+
 inline constexpr double kDefaultLimit = 0.1, kDefaultSafetyLimit = 0.01;
 
 }  // namespace fleetproof

@@ -94,6 +94,7 @@ Headline claim(const ReportInput& input) {
   std::ranges::move(crash_notes(input), std::back_inserter(headline.details));
   std::ranges::move(meeting_notes(input), std::back_inserter(headline.details));
   std::ranges::move(silence_notes(input), std::back_inserter(headline.details));
+  if (!input.waived.floor.empty()) headline.details.push_back({printable(input.waived.floor, 300), ""});
   for (std::size_t i = 0; i < std::min(kGatesTold, speaking.size()); ++i) {
     const GateResult& result = input.gates[speaking[i]];
     std::string text = i == 0 ? "" : subject(input, speaking[i]) + ". ";

@@ -11,7 +11,7 @@ from counts import END_POINTS, KINDS
 from drawings import field_maps, gate_on_violations, grids, worlds_needed
 from leading import failures, rows_of
 from tables import coverage_rows, rule, share
-from waived import sentence
+from waived import floor_sentence, sentence
 
 ENDS = "CASE WHEN contact THEN 'contact' WHEN violation THEN 'violation' WHEN crash THEN 'crash' WHEN hang THEN 'hang' " \
        "WHEN indeterminate THEN 'indeterminate' WHEN engine_error THEN 'engine error' WHEN stuck THEN 'stuck' END"
@@ -50,6 +50,10 @@ def run_sentence(archive, index):
 
 def is_waived(archive, found):
     return found[1] == sentence(plan_of(archive))
+
+
+def is_floor(archive, found):
+    return found.string == floor_sentence(plan_of(archive))
 
 
 def is_run(archive, found):
@@ -337,6 +341,7 @@ PATTERNS = [(re.compile(pattern), check) for pattern, check in (
      foreign_body_runs),
     (r"^(.+) stalled in ([0-9]+) of ([0-9]+) worlds of the contract region: ", stalled),
     (r"^(.+) (crashed|hung) in ([0-9]+) of ([0-9]+) runs of the contract region\. No gate judges", crashed),
+    (r"^The floor of throughput was not written in the campaign\. ", is_floor),
     (r"^In ([0-9]+) of ([0-9]+) runs of (.+) no two AGVs met\.$", met_nobody),
     (r"^.+ only followed other AGVs: fewer than one in 20000 runs had ", constant),
     (r"^No run ended in an error of the simulator\. ([0-9]+) runs? w(?:as|ere) simulated once more", soundness),

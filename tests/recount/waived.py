@@ -97,9 +97,43 @@ def shown_value(value, key):
     return "given" if isinstance(value, dict) else text(value, key)
 
 
+NONE_ALLOWED, FEW_ALLOWED = ("violation", "crash", "wrong-load"), ("deadlock", "livelock", "starvation", "hang", "throughput")
+
+
+def has_default_gates(plan):
+    """The gates of a claim that names none."""
+    of_each = {end_point: [gate for gate in plan["gates"] if gate["end_point"] == end_point]
+               for end_point in NONE_ALLOWED + FEW_ALLOWED}
+    usual = {"requirement": "", "unit": "world", "method": "any-time", "confidence": 0.95, "layout": "", "fleet_size": None,
+             "loss": None, "delay_s": None, "mean_outage_s": None, "call_cost_s": None}
+    is_usual = lambda gate: (all(gate.get(key, value) == value for key, value in usual.items())
+                             and gate["name"] == f"{gate['agent']} {gate['end_point']}"
+                             and (gate["kind"], gate["limit"]) == (("none", 0.01) if gate["end_point"] in NONE_ALLOWED
+                                                                   else ("rate", 0.1)))
+    return (plan.get("default_gates", True) and all(of_each[each] for each in (NONE_ALLOWED + FEW_ALLOWED)[:7])
+            and sum(map(len, of_each.values())) == len(plan["gates"]) and all(map(is_usual, plan["gates"])))
+
+
+def floor_sentence(plan):
+    """How a floor came about that the campaign does not name; empty: it names one."""
+    if not has_default_gates(plan):
+        return ""
+    floor, demand = plan["gates"][0]["min_transports_per_agv_hour"], plan["world"]["transports_per_agv_hour"]
+    demand = 0.0 if plan.get("orders") else demand
+    if floor == 0.0:
+        return "The default gates ask for no throughput: the campaign has no orders, or hardly any."
+    text = ("The floor of throughput was not written in the campaign. By default it is "
+            f"{floor:g} transports (orders) per AGV-hour: ")
+    if demand > 0.0 and floor == int(100.0 * 0.5 * demand) / 100.0:
+        return text + f"half of the {demand:g} that the campaign orders."
+    text += f"a twentieth of the {floor / 0.05:.3g} that an AGV alone in these warehouses would do"
+    text += ", or what is asked for where runs are too short for an order" if floor == 1.0 else ""
+    return text + (f"; the campaign orders {demand:g}." if demand > 0.0 else ".")
+
+
 def waived(plan):
     """The conditions as pages write them, the heaviest first."""
-    found = []
+    found, written = [], not has_default_gates(plan)
     for key, shown, named, weight in rules():
         usual, easier, farthest = usual_of(key, shown, plan), [], 0.0
         for value in stated(plan, key):
@@ -111,7 +145,9 @@ def waived(plan):
                 easier += [words] * (words not in easier)
         if easier:
             told = shown_value(usual, key) if usual != [] else "none"
-            found.append(((farthest < FAR, ORDER.index(weight), -farthest), f"{key.replace('[]', '')} = {', '.join(easier)} (usual: {told})"))
+            name = key.replace("[]", "")
+            name += " of the default gates (not written in the campaign)" if key.startswith("gate[]") and not written else ""
+            found.append(((farthest < FAR, ORDER.index(weight), -farthest), f"{name} = {', '.join(easier)} (usual: {told})"))
     return [words for _, words in sorted(found, key=lambda each: each[0])]
 
 

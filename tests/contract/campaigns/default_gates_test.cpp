@@ -85,6 +85,34 @@ TEST_F(DefaultGates, CanBeLeftOut) {
   EXPECT_EQ(found.size(), 1U);
 }
 
+// A floor that nobody wrote is told with its value, and how it came about: a plant decides it.
+TEST_F(DefaultGates, TheFloorStandsAtTheHead) {
+  const auto page = [&](const std::string& more) {
+    verdicts("\"hull-lock\"", "hull-lock", 2, more);
+    return std::regex_replace(run("report c.db").out, std::regex("\\s+"), " ");
+  };
+  const std::string usual = page("");
+  EXPECT_THAT(usual,
+              testing::ContainsRegex("The floor of throughput was not written in the campaign. By default it is "
+                                     "[0-9.]+ transports .orders. per AGV-hour: a twentieth of the [0-9.]+ that an "
+                                     "AGV alone in these warehouses would do; the campaign orders 30."));
+  EXPECT_THAT(usual, testing::Not(testing::HasSubstr("what is easier here"))) << "a default is no easier value";
+  EXPECT_THAT(page("[world]\ntransports_per_agv_hour = 2\n"),
+              testing::HasSubstr("By default it is 1 transports (orders) per AGV-hour: half of the 2 that the campaign "
+                                 "orders."));
+  EXPECT_THAT(page("[world]\ntransports_per_agv_hour = 0\n"),
+              testing::HasSubstr("The default gates ask for no throughput"));
+  const std::string slow = page("[[vehicle]]\nspeed_mps = 0.02\n");
+  EXPECT_THAT(slow,
+              testing::HasSubstr("gate.min_transports_per_agv_hour of the default gates (not written in the campaign) "
+                                 "= 0.0"))
+      << "it is below 0.1";
+  EXPECT_THAT(slow, testing::HasSubstr("By default it is 0.0"));
+  EXPECT_THAT(page("[[gate]]\nagent = \"hull-lock\"\nmin_transports_per_agv_hour = 0.05\n"),
+              testing::AllOf(testing::Not(testing::HasSubstr("By default it is")),
+                             testing::HasSubstr("gate.min_transports_per_agv_hour = 0.05")));
+}
+
 // Fallen loads lie in the way, and no control software is told of them.
 TEST_F(DefaultGates, BlameNobodyForWhatNoSoftwareIsToldOf) {
   const auto found =
