@@ -277,8 +277,8 @@ constexpr double kRounding_mps = 1e-9;
 // the boxes of what the bodies share, says which of them cannot be the fastest.
 class FastestInstant {
  public:
-  FastestInstant(const Piece& a, const Piece& b, double below_m, EvaluationCount& count)
-      : a_(a), b_(b), pace_a_(a), pace_b_(b), below_m_(below_m), count_(count) {}
+  FastestInstant(const Piece& a, const Piece& b, double below_m, EvaluationCount& count, double matters_from_mps)
+      : a_(a), b_(b), pace_a_(a), pace_b_(b), below_m_(below_m), count_(count), matters_from_mps_(matters_from_mps) {}
 
   RelativeSpeed within(Interval all) {
     if (a_.manner == Manner::Rest && b_.manner == Manner::Rest) return {};
@@ -289,8 +289,10 @@ class FastestInstant {
       add_samples({t, next});
       t = next;
     }
+    const auto matters = [&](const Sample& sample) { return sample.most_mps >= matters_from_mps_; };
+    if (std::ranges::none_of(samples_, matters)) return {};
     choose();
-    narrow();
+    if (fastest_mps_ >= matters_from_mps_ || most_mps(around_) >= matters_from_mps_) narrow();
     return fastest_mps_ > 0.0 ? relative_speed(a_, b_, fastest_at_) : RelativeSpeed{};
   }
 
@@ -319,27 +321,39 @@ class FastestInstant {
     add_near(phase.end);
   }
 
-  void add(SimTime t, Interval around) {
-    samples_.push_back({t, around, pace_a_.most_mps(t) + pace_b_.most_mps(t) + kRounding_mps});
+  void add(SimTime t, Interval around) { samples_.push_back({t, around, most_mps(t)}); }
+  double most_mps(SimTime t) const { return pace_a_.most_mps(t) + pace_b_.most_mps(t) + kRounding_mps; }
+  // At any instant between the neighbours of a sample: in between, the paces change evenly. Those of the first sample
+  // are the ends of the whole interval.
+  double most_mps(Interval around) const {
+    if (around.begin == samples_.front().t && around.end == samples_.back().t)
+      return std::ranges::max(samples_, {}, &Sample::most_mps).most_mps;
+    return std::max(most_mps(around.begin), most_mps(around.end));
   }
 
   // The fastest sample; of equals, the earliest. A few samples all over the time come first: their speeds rule out most
-  // others.
+  // others. Samples that cannot matter are looked at if no other one does.
   void choose() {
     constexpr std::size_t kFew = 16;
     const Sample* fastest = nullptr;
+    bool those_that_matter = true;
     const auto consider = [&](const Sample& sample) {
-      if (sample.most_mps < fastest_mps_) return;
+      if (sample.most_mps < fastest_mps_ || (sample.most_mps >= matters_from_mps_) != those_that_matter) return;
       const double here_mps = speed_at(sample.t, fastest_mps_);
       if (here_mps == 0.0) return;
       if (here_mps < fastest_mps_ || (here_mps == fastest_mps_ && fastest != nullptr && &sample >= fastest)) return;
       fastest_mps_ = here_mps;
       fastest = &sample;
     };
-    for (std::size_t i = 0; i < samples_.size(); i += kFew) consider(samples_[i]);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (i % kFew != 0) consider(samples_[i]);
-    }
+    const auto consider_all = [&] {
+      for (std::size_t i = 0; i < samples_.size(); i += kFew) consider(samples_[i]);
+      for (std::size_t i = 0; i < samples_.size(); ++i) {
+        if (i % kFew != 0) consider(samples_[i]);
+      }
+    };
+    consider_all();
+    those_that_matter = false;
+    if (fastest_mps_ < matters_from_mps_) consider_all();
     if (fastest == nullptr) return;
     fastest_at_ = fastest->t;
     around_ = fastest->around;
@@ -392,6 +406,7 @@ class FastestInstant {
   Pace pace_a_, pace_b_;
   double below_m_;
   EvaluationCount& count_;
+  double matters_from_mps_;
   std::vector<Sample> samples_;
   double fastest_mps_ = 0.0;
   SimTime fastest_at_ = kStart;
@@ -416,8 +431,9 @@ double clearance_rate_mps(const Piece& a, const Piece& b, SimTime t, TimeSense s
   return rate;
 }
 
-RelativeSpeed fastest_below(const Piece& a, const Piece& b, Interval within, double below_m, EvaluationCount& count) {
-  return FastestInstant(a, b, below_m, count).within(within);
+RelativeSpeed fastest_below(const Piece& a, const Piece& b, Interval within, double below_m, EvaluationCount& count,
+                            double matters_from_mps) {
+  return FastestInstant(a, b, below_m, count, matters_from_mps).within(within);
 }
 
 }  // namespace fleetproof

@@ -21,7 +21,9 @@ RelativeSpeed relative_speed(const Piece& a, const Piece& b, SimTime t);
 // Requires: the bodies do not overlap.
 double clearance_rate_mps(const Piece& a, const Piece& b, SimTime t, TimeSense sense);
 
-// The fastest instant of an interval, among those with a clearance below `below_m`. Zero if there is none.
-RelativeSpeed fastest_below(const Piece& a, const Piece& b, Interval within, double below_m, EvaluationCount& count);
+// The fastest instant of an interval, among those with a clearance below `below_m`. Zero if there is none. A result
+// below `matters_from_mps` may be any speed below it, which costs less.
+RelativeSpeed fastest_below(const Piece& a, const Piece& b, Interval within, double below_m, EvaluationCount& count,
+                            double matters_from_mps = 0.0);
 
 }  // namespace fleetproof

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/base/random.hpp"
 #include "core/base/tolerances.hpp"
@@ -71,6 +72,45 @@ TEST(FastestBelow, NoInstantOfAFineClockIsFaster) {
   }
   EXPECT_GT(in_contact, 1'000U);
   EXPECT_GT(turning, 600U);
+}
+
+// The time in which two bodies are in contact, from their first touch on; nothing if they do not touch.
+std::optional<Interval> contact_of(const Piece& a, const Piece& b) {
+  EvaluationCount count;
+  const Interval common{kStart, std::min(a.end, b.end)};
+  const auto touch = first_below(a, b, common, kTouch_m, count);
+  if (!touch) return std::nullopt;
+  return Interval{*touch, last_below(a, b, {*touch, common.end}, kTouch_m, count).value_or(*touch)};
+}
+
+TEST(FastestBelow, ALimitBelowTheSpeedChangesNoBitOfIt) {
+  Draws draws(11);
+  EvaluationCount all, near, far;  // of the limit to the speed
+  std::size_t matters = 0, others = 0;
+  for (int i = 0; i < 1'500; ++i) {
+    Moving one, other;
+    move(one, 0, draws);
+    move(other, 1, draws);
+    const auto contact = contact_of(one.piece, other.piece);
+    if (!contact) continue;
+    const RelativeSpeed speed = fastest_below(one.piece, other.piece, *contact, kTouch_m, all);
+    for (const double share : {0.3, 0.9, 0.999, 1.0, 1.001, 1.3, 2.0}) {
+      const double from_mps = share * speed.speed_mps;
+      const RelativeSpeed found =
+          fastest_below(one.piece, other.piece, *contact, kTouch_m, share > 1.5 ? far : near, from_mps);
+      if (speed.speed_mps >= from_mps) {
+        ASSERT_EQ(found.speed_mps, speed.speed_mps) << i << " " << share;
+        ASSERT_EQ(found.normal_mps, speed.normal_mps) << i << " " << share;
+        ++matters;
+      } else {
+        ASSERT_LT(found.speed_mps, from_mps) << i << " " << share;
+        ++others;
+      }
+    }
+  }
+  EXPECT_GT(matters, 3'000U);
+  EXPECT_GT(others, 2'000U);
+  EXPECT_LT(far.distance, all.distance / 2) << "it costs less";
 }
 
 }  // namespace
