@@ -1,4 +1,5 @@
 // A claim without gates is judged by those that every fleet has to meet.
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -83,6 +84,25 @@ TEST_F(DefaultGates, CanBeLeftOut) {
   const auto found = verdicts("\"reckless\"", "reckless", 2, "default_gates = false\n");
   EXPECT_EQ(found.at(""), "4");
   EXPECT_EQ(found.size(), 1U);
+}
+
+// A patience that is shorter than a leg takes; legs of a quarter of an hour and turns of twenty minutes; both.
+TEST_F(DefaultGates, AccuseNoSoftwareThatGetsOnOfALivelock) {
+  const std::string slow =
+      "[[vehicle]]\nspeed_mps = 0.01\nacceleration_mps2 = 0.001\ndeceleration_mps2 = 0.001\nturn_speed_radps = 0.002\n";
+  for (const auto& [first, vehicle] : {std::pair<std::string, std::string>{"stuck_after_s = 1\n", ""},
+                                       {"horizon_s = 7200\n", slow},
+                                       {"stuck_after_s = 1\nhorizon_s = 7200\n", slow}}) {
+    write("c.toml", "replicates = 6\n" + first +
+                        "[factors]\nagents = [\"hull-lock\"]\nlayouts = [\"aisle-grid\", \"loop-spurs\", "
+                        "\"corridor-sidings\"]\nfleet_sizes = [1]\n" +
+                        vehicle);
+    ASSERT_EQ(run("run c.toml --db c.db --overwrite").exit_code, 4);
+    const SQLite::Database db(path("c.db"));
+    SQLite::Statement accused(db, "SELECT count(*) FROM v1_incidents WHERE kind = 'livelock'");
+    ASSERT_TRUE(accused.executeStep());
+    EXPECT_EQ(accused.getColumn(0).getInt(), 0) << first << vehicle;
+  }
 }
 
 // A floor that nobody wrote is told with its value, and how it came about: a plant decides it.
