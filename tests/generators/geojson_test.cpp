@@ -159,6 +159,28 @@ TEST(Geojson, ASiteOfOpenRmfIsInMetres) {
       import(replaced(kSite, "\"bidirectional\": true,", "\"graph_idx\": 0,"), other).layout.segments[0].bidirectional);
 }
 
+TEST(Geojson, ALevelOfASiteIsReadAlone) {
+  auto text = replaced(kSite, "\"name\": \"a\"", "\"level_idx\": 0, \"name\": \"a\"");
+  text = replaced(text, "\"name\": \"b\"", "\"level_idx\": 0, \"name\": \"b\"");
+  text = replaced(text, "\"bidirectional\": true", "\"level_idx\": 0, \"bidirectional\": true");
+  text = replaced(text, "\"name\": \"corner\"", "\"level_idx\": 1, \"name\": \"corner\"");
+  text = replaced(text, "\"graph_idx\": 1", "\"level_idx\": 1");
+  const auto [layout, warnings] = import(text);
+  EXPECT_EQ(layout.segments.size(), 1U);
+  EXPECT_THAT(warnings, Contains(HasSubstr("features of 1 other levels are left out (\"1\")")));
+  GeojsonChoice other;
+  other.level = "2";
+  EXPECT_THAT(independent::refusal([&](const std::string& t) { import(t, other); }, text),
+              HasSubstr("no line lies on level \"2\""));
+}
+
+TEST(Geojson, ALineFromAPointToItselfIsLeftOut) {
+  const auto [layout, warnings] =
+      import(replaced(kGraph, "\"startid\": 1, \"endid\": 2", "\"startid\": 2, \"endid\": 2"));
+  EXPECT_EQ(layout.segments.size(), 2U);
+  EXPECT_THAT(warnings, Contains(HasSubstr("1 lines lead from a point to itself and are left out (\"12\")")));
+}
+
 // A road of 12 m and one of 5 m, with coordinates scaled and moved.
 std::string corner(double x, double y, double unit_x, double unit_y, const std::string& crs = "") {
   const auto point = [&](int id, double east, double north) {

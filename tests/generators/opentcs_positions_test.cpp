@@ -325,6 +325,15 @@ TEST(OpenTcsPositions, APathWithALengthBetweenPointsOnOneSpotIsRefusedByName) {
   }
 }
 
+// A drawing in which other points are on one spot is no way out.
+TEST(OpenTcsPositions, ADrawingWithSpotsOfItsOwnMovesNothing) {
+  Model m = shifted(500, 700, 1.1);
+  m.bends = false;
+  m.plant_mm[1] = m.plant_mm[0];
+  m.drawn_mm[2] = m.drawn_mm[1];
+  for (const auto& text : spellings(m)) EXPECT_NE(refusal(text).find("<path> \"road\""), std::string::npos);
+}
+
 TEST(OpenTcsPositions, BrokenDrawingsAreExplained) {
   const auto with = [](const std::string& from, const std::string& to) {
     auto text = old_spelling(Model());

@@ -185,6 +185,10 @@ TEST(Rmf, ALevelIsScaledByTheFiducialsThatItSharesWithTheReference) {
   EXPECT_NE(read(unmeasured, "L2").warnings[1].find("a pixel has 0.5 m (there are no measurements on that level"),
             std::string::npos);
   EXPECT_NE(refused(plant("", "[[10, 10, b], [10]]")).find("b.yaml:9"), std::string::npos);
+  const auto torn = read(replaced(plant("", twice), "[[0, 1, {distance: [3, 5]}]]",
+                                  "[[0, 1, {distance: [3, 4]}], [0, 1, {distance: [3, 6]}]]"),
+                         "L2");
+  EXPECT_NE(torn.warnings[1].find("2 measurements disagree by 40.0 %"), std::string::npos) << "those of the reference";
 }
 
 TEST(Rmf, MeasurementsThatDisagreeAreToldWithTheirSpread) {
@@ -207,7 +211,8 @@ TEST(Rmf, ASecondDocumentIsTold) {
   ASSERT_FALSE(warnings.empty());
   EXPECT_NE(warnings[0].find("b.yaml:13: a second document of this file begins; the first alone is read"),
             std::string::npos);
-  EXPECT_EQ(import("---\n" + kNavGraph + "...\n").warnings, import(kNavGraph).warnings);
+  for (const char* nothing : {"...\n", "---\n", "---\n# nothing more\n...\n"})
+    EXPECT_EQ(import("---\n" + kNavGraph + nothing).warnings, import(kNavGraph).warnings) << nothing;
 }
 
 TEST(Rmf, LanesMaySayIsBidirectional) {

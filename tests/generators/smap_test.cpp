@@ -101,6 +101,18 @@ TEST(Smap, ClassesAreTakenByTheWordsOfTheUser) {
   EXPECT_TRUE(layout.stations[0].purposes.has(Purpose::Parking));
 }
 
+TEST(Smap, EachKnownClassHasItsPurpose) {
+  const auto purposes = [](const std::string& kind) {
+    return import(replaced(kMap, "\"ActionPoint\"", "\"" + kind + "\"")).layout.stations[2].purposes;
+  };
+  const Purposes routing(Purpose::Routing);
+  for (const char* passed : {"LocationMark", "LandMark", "SwitchMap"}) EXPECT_EQ(purposes(passed), routing) << passed;
+  for (const char* served : {"ActionPoint", "TransferLocation"})
+    EXPECT_EQ(purposes(served), routing | Purpose::Storage) << served;
+  EXPECT_EQ(purposes("ChargePoint"), routing | Purpose::Charging);
+  EXPECT_EQ(purposes("ParkPoint"), routing | Purpose::Parking);
+}
+
 TEST(Smap, PointsOfBinsAreForStorage) {
   const auto text = replaced(kMap, "\"advancedCurveList\"",
                              R"("binLocationsList": [{"binLocationList": [{"instanceName": "b1", "pointName": "LM2"},
@@ -115,6 +127,9 @@ TEST(Smap, OtherShapesAreTold) {
               Contains(HasSubstr("1 classes of curves are unknown here (\"SpiralPath\")")));
   EXPECT_THAT(import(replaced(kMap, "\"direction\", \"int32Value\": 0", "\"direction\", \"int32Value\": 2")).warnings,
               Contains(HasSubstr("direction other than 0 or 1 (\"LM1-LM2\")")));
+  EXPECT_THAT(
+      import(replaced(kMap, "\"obsStopDist\", \"doubleValue\": 0.2", "\"movestyle\", \"int32Value\": 1")).warnings,
+      Contains(HasSubstr("1 curves have a movestyle other than 0 (\"LM2-AP3\"); it is left out")));
 }
 
 // Two points, and a curve from one to the other.

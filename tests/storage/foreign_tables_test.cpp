@@ -104,6 +104,15 @@ TEST_P(ForeignTables, AQueryWithoutAnEndIsStopped) {
   EXPECT_EQ(rows, 100'000U);
 }
 
+// Nothing of a file computes by itself, whatever this program asks of it.
+TEST_P(ForeignTables, AViewOfTheFileDoesNotRun) {
+  const OpenedFile file = open_to_read(changed(""));
+  EXPECT_THROW(Query(*file.db, "SELECT count(*) FROM v1_runs"), SQLite::Exception);
+  Query table(*file.db, "SELECT count(*) FROM runs");
+  ASSERT_TRUE(table.step());
+  EXPECT_EQ(table.number(0), 20);
+}
+
 TEST_P(ForeignTables, AnUnchangedFileIsRead) {
   std::uint64_t runs = 0;
   ArchiveReader(changed("")).for_each_run([&](const RunRecord&) { ++runs; });
