@@ -108,6 +108,15 @@ TEST_F(WorkerLog, GivesTheLastLinesOfARun) {
   EXPECT_EQ(last_printed(prefix(), 1, 2).log, log(1));
 }
 
+// As no worker writes it: its lines are not those of a run.
+TEST_F(WorkerLog, ThatIsHugeIsNotRead) {
+  samples::write_bytes(log(0), "run 1, AGV 0, 0.000 s: line\n");
+  std::filesystem::resize_file(log(0), std::uintmax_t{65} << 20);
+  const PrintedLines printed = last_printed(prefix(), 1, 2);
+  EXPECT_THAT(printed.lines, testing::IsEmpty());
+  EXPECT_THAT(printed.trouble, HasSubstr("is larger than the log of a worker ever is"));
+}
+
 TEST_F(WorkerLog, GivesTheLastStackWithoutLabels) {
   const WorkerLogs logs(prefix(), 1, EarlierLogs::Stay);
   const std::string crash = label(5, 9, 1, 2'000'000'000);

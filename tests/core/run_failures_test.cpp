@@ -58,10 +58,12 @@ TEST(RunFailures, TheHeaviestLeadsWheneverItHappened) {
 }
 
 TEST(RunFailures, ACrashAndAHangStandBetweenWrongLoadsAndStalls) {
-  Outcome outcome = run_with(
-      {}, {incident(IncidentKind::Deadlock, 20.0, kEnd_s), incident(IncidentKind::LoadHeldByTwo, 590.0, 590.0)});
+  Outcome outcome =
+      run_with({}, {incident(IncidentKind::Deadlock, 20.0, kEnd_s), incident(IncidentKind::LoadHeldByTwo, 590.0, 590.0),
+                    incident(IncidentKind::BatteryEmpty, 30.0, kEnd_s)});
   outcome.crash = outcome.hang = true;
-  EXPECT_EQ(order_of(outcome), (Words{"load-held-by-two, one body", "crash", "hang", "deadlock, one body"}));
+  EXPECT_EQ(order_of(outcome),
+            (Words{"load-held-by-two, one body", "crash", "hang", "battery-empty, one body", "deadlock, one body"}));
   EXPECT_FALSE(failures_of(outcome).back().is_judged) << "who crashed may have kept the others waiting";
 }
 
@@ -98,6 +100,19 @@ TEST(RunFailures, TheChosenOneIsTheFirstOfItsEndPoint) {
   ASSERT_TRUE(stall);
   EXPECT_EQ(stall->at, at_seconds(20.0));
   EXPECT_FALSE(chosen_failure(outcome, {bit_of(EndPoint::Crash)}));
+}
+
+// Software that differs from run to run: what is found anew is compared by class and pair, not by the instant.
+TEST(RunFailures, TheSameOneHasItsClassAndItsPair) {
+  const auto only = [](const Outcome& outcome) { return failures_of(outcome).front(); };
+  const RunFailure contact = only(run_with({violation(0, 1, 300.0, Level::Contact)}));
+  EXPECT_TRUE(is_same_failure(contact, only(run_with({violation(0, 1, 20.0, Level::Contact)}))));
+  EXPECT_FALSE(is_same_failure(contact, only(run_with({violation(0, 2, 300.0, Level::Contact)}))));
+  EXPECT_FALSE(is_same_failure(contact, only(run_with({violation(2, 1, 300.0, Level::Contact)}))));
+  EXPECT_FALSE(is_same_failure(contact, only(run_with({violation(0, 1, 300.0, Level::Hazardous)}))));
+  const RunFailure stall = only(run_with({}, {incident(IncidentKind::Deadlock, 20.0, kEnd_s, 3)}));
+  EXPECT_FALSE(is_same_failure(stall, only(run_with({}, {incident(IncidentKind::Deadlock, 20.0, kEnd_s, 4)}))));
+  EXPECT_FALSE(is_same_failure(stall, only(run_with({}, {incident(IncidentKind::Livelock, 20.0, kEnd_s, 3)}))));
 }
 
 // A column of the table decides, and every end point that one run can fail has its place in it.

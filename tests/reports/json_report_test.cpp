@@ -34,5 +34,32 @@ TEST(JsonReport, tells_exposure_in_agv_hours) {
   EXPECT_TRUE(nothing_known["gates"][0].at("claim")["interval_95"][1].is_null());
 }
 
+// Worlds in which a fleet stalled stand in a column of their own; a campaign that only counts has no bounds.
+TEST(JsonReport, breakdowns_have_the_counts_and_bounds_of_the_tables) {
+  const auto rows_of = [](const char* kind) {
+    const auto change = [](RunRecord& run) {
+      if (run.replicate % 4 == 0) samples::violate(run);
+      if (run.replicate % 8 == 1)
+        file_incidents(run.outcome, {{IncidentKind::Deadlock, EntityId{1u}, {}, at_seconds(9.0), at_seconds(90.0), 2}});
+    };
+    return nlohmann::json::parse(render_json(samples::report_of(samples::campaign_of(kind, 8),
+                                                                samples::grid({"sound"}, {0.4}, {2.0}), {}, change)))
+        .at("breakdowns");
+  };
+  ASSERT_FALSE(rows_of("claim").empty());
+  for (const auto& row : rows_of("claim")) {
+    EXPECT_EQ(row.at("runs"), 8);
+    EXPECT_EQ(row.at("violating_runs"), 2);
+    EXPECT_EQ(row.at("failing_worlds"), 2);
+    EXPECT_EQ(row.at("stalled_worlds"), 1);
+    EXPECT_EQ(row.at("claim").at("failing"), 2);
+  }
+  for (const auto& row : rows_of("search")) {
+    EXPECT_EQ(row.at("stalled_worlds"), 1);
+    EXPECT_FALSE(row.contains("claim"));
+    EXPECT_FALSE(row.contains("confidence"));
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof::json_report_test

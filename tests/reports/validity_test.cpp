@@ -53,5 +53,22 @@ TEST(Validity, AnErrorOfTheSimulatorFails) {
   EXPECT_THAT(text_of(input), HasSubstr("FAIL  1 run ended in an error of the simulator"));
 }
 
+TEST(Validity, RunsOfSeveralProgramsFail) {
+  CampaignRecord campaign = samples::campaign_of("claim", 2);
+  campaign.engine.libraries = "SQLite 3" + std::string(kEngineBegun) + "another build";
+  const ReportInput input = samples::report_of(campaign, samples::grid({"ours"}, {0.4}, {1.0}), {});
+  EXPECT_THAT(text_of(input), HasSubstr("FAIL  all runs are those of one program"));
+}
+
+// Runs that only differ are software that is not deterministic, and no failure of the check.
+TEST(Validity, AuditsThatWereJudgedOtherwiseFail) {
+  const auto text = [](std::uint32_t failed) {
+    return text_of(samples::report_of(samples::campaign_of("claim", 2), samples::grid({"ours"}, {0.4}, {1.0}), {}, {},
+                                      0, 0, {samples::audit_of(0, false, {failed, 0}), samples::audit_of(1, true)}));
+  };
+  EXPECT_THAT(text(0), HasSubstr("ok    1 of 2 audited runs of ours came out differently"));
+  EXPECT_THAT(text(bit_of(EndPoint::Contact)), HasSubstr("FAIL  1 of 2 audited runs of ours came out differently"));
+}
+
 }  // namespace
 }  // namespace fleetproof::validity_test

@@ -53,6 +53,21 @@ TEST(LineLog, AFolderIsNeverWrittenTo) {
   EXPECT_THROW(append_lines(folder / ".", "{}\n"), MachineError);
 }
 
+// Neither written to nor read: a pipe has no reader, a device takes all, and a huge file takes all memory.
+TEST(LineLog, OnlyARegularFileOfUsualSizeIsAppendedTo) {
+  const TemporaryFolder folder;
+  const auto refused = [](const std::string& path) {
+    EXPECT_THROW(append_lines(path, "{}\n"), MachineError) << path;
+    EXPECT_THROW(append_after(path, [](std::uint64_t) { return "{}"; }), MachineError) << path;
+  };
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  refused(folder / "pipe");
+  refused("/dev/null");
+  samples::write_bytes(folder / "huge", "{}\n");
+  ASSERT_EQ(::truncate((folder / "huge").c_str(), (off_t{64} << 20) + 1), 0);
+  EXPECT_THROW(append_after(folder / "huge", [](std::uint64_t) { return "{}"; }), MachineError);
+}
+
 // Says what comes out for a user who may write neither the file nor its folder.
 std::string said_to_another_user(const std::string& path) {
   try {

@@ -190,6 +190,36 @@ TEST(ViewsOfJudgedRuns, AContactWithAFallenLoadFailsNothing) {
   EXPECT_THAT(query(live, "SELECT run_failed, run_unknown FROM v1_violations"),
               testing::HasSubstr("violation contact"));
   EXPECT_EQ(query(live, "SELECT violation_runs, failed_runs, unknown_runs FROM v1_cells WHERE cell = 0"), "1|0|1");
+  EXPECT_EQ(
+      query(live,
+            "SELECT contact_failed_runs, contact_unknown_runs, violation_unknown_runs, deadlock_unknown_runs FROM "
+            "v1_cells WHERE cell = 0"),
+      "0|1|1|1")
+      << "who touches something stands there";
+}
+
+// An audit that failed where the run had passed.
+TEST(ViewsOfJudgedRuns, AnAuditIsJudgedByItself) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.fp";
+  RunRecord run;
+  run.outcome.agv_count = 2;
+  run.outcome.simulated_ns = 1'000'000'000;
+  run.factors = samples::cells()[0].lowest;
+  RunRecord again = run;
+  Violation violation;
+  violation.a = EntityId{0u};
+  violation.b = EntityId{1u};
+  file_violations(again.outcome, {violation});
+  {
+    ArchiveWriter writer(path, samples::plan());
+    writer.add(run);
+    writer.add(AuditRecord{0, 7, audited_outcome(again)});
+    writer.commit();
+  }
+  const std::string live = path + ".partial";
+  EXPECT_EQ(query(live, "SELECT judged, failed FROM v1_runs"), "passed|");
+  EXPECT_EQ(query(live, "SELECT same, failed, judged, violations FROM v1_audits"), "0|violation|failed|1");
 }
 
 TEST_F(Views, the_file_names_its_kind_and_version) {
