@@ -54,6 +54,7 @@ TEST_F(PrintedLines, AreQuotedByReplayForTheRunThatPrintedThem) {
   const auto told = run("replay a.db 3");
   EXPECT_THAT(told.out, AllOf(HasSubstr("the last that its agents printed in the campaign (a.worker-0.log)"),
                               HasSubstr("failing_agent"), Not(HasSubstr("run 2"))));
+  EXPECT_THAT(read(path("a.worker-0.log")), HasSubstr("\nrun 3, at its end: "));
   const auto json = nlohmann::json::parse(run("replay a.db 3 --json").out);
   EXPECT_EQ(json.at("printed").at("log"), "a.worker-0.log");
   EXPECT_LE(json.at("printed").at("lines").size(), 40U);

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 
 #include <filesystem>
 #include <fstream>
@@ -122,10 +123,33 @@ TEST_F(ShrinkVerb, ASmallerCaseOfTheSameFailureStays) {
   EXPECT_EQ(read(path("small.json")), small);
   EXPECT_THAT(again.out, HasSubstr("an earlier search has found this case"));
   EXPECT_THAT(again.out, HasSubstr("; give more --max-trials"));
-  // Of another failure it is no result.
+  // Of another failure, or of other software, it is no result.
+  std::string of_other = small;
+  const std::string own_word = "\"timeout-grant\"";
+  write("small.json", of_other.replace(of_other.find(own_word), own_word.size(), "\"reckless\""));
+  std::filesystem::remove(path("small.json.trials"));
+  EXPECT_THAT(run(shrink + " --max-trials 10").out, testing::Not(HasSubstr("an earlier search")));
   write("small.json", read(path("case.json")));
   ASSERT_EQ(run(shrink + " --max-trials 300").exit_code, 0);
   EXPECT_NE(read(path("small.json")), read(path("case.json")));
+}
+
+// As if the software had failed with another pair in the campaign.
+TEST_F(ShrinkVerb, AnotherFailureThanTheStoredOneIsRefused) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(path("a.db").c_str(), &db), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(db, "UPDATE violations SET entity_b = entity_b + 40", nullptr, nullptr, nullptr), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(db, "UPDATE runs SET agv_count = 50", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(db);
+  for (const std::string verb : {"shrink", "explain"}) {
+    const auto refused = run(verb + " a.db " + failing_ + " --max-trials 10");
+    EXPECT_EQ(refused.exit_code, 2) << refused.out;
+    EXPECT_THAT(refused.err,
+                testing::ContainsRegex("failed in the campaign with contact.* \\(bodies [0-9]+ and 4[0-9]\\); "
+                                       "0 of 10 repetitions in fresh processes failed so \\(10: contact"));
+    EXPECT_THAT(refused.err, HasSubstr("the software differs, or does not always do the same; the campaign has no "
+                                       "recording of what it did"));
+  }
 }
 
 TEST_F(ShrinkVerb, BadWordsAreRefused) {

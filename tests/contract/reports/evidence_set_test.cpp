@@ -156,9 +156,10 @@ std::vector<std::pair<std::string, int>> promises_of(const std::string& page) {
 TEST_F(EvidenceSet, IsRepeatedByFollowingItsPageAlone) {
   write("plant.json", run("generate aisle-grid --seed 3").out);
   std::filesystem::copy_file(FLEETPROOF_FAILING_AGENT, path("mine.so"));
-  write("e.toml",
-        "seed = 7\nreplicates = 3\nhorizon_s = 120\n[factors]\nagents = [\"./mine.so\", \"reckless\"]\nlayouts = "
-        "[\"plant.json\"]\nfleet_sizes = [6]\nloss = [0.4]\ndelay_s = [2]\n");
+  write(
+      "e.toml",
+      "seed = 7\nreplicates = 3\nhorizon_s = 120\n[factors]\nagents = [{ file = \"./mine.so\", config = "
+      "\"segfault 40\" }, \"reckless\"]\nlayouts = [\"plant.json\"]\nfleet_sizes = [6]\nloss = [0.4]\ndelay_s = [2]\n");
   const auto made = run("run e.toml --db e.db");
   ASSERT_TRUE(test::has_verdict(made));
   ASSERT_EQ(run("report e.db --evidence set").exit_code, made.exit_code);
@@ -172,12 +173,15 @@ TEST_F(EvidenceSet, IsRepeatedByFollowingItsPageAlone) {
     const auto finished =
         shell("mkdir -p bin; ln -sf \"$FLEETPROOF\" bin/fleetproof; PATH=$PWD/bin:$PATH; cd later/set; " + command);
     EXPECT_EQ(finished.exit_code, exit_code) << command << "\n" << finished.out << finished.err;
+    if (!command.ends_with("--digest")) continue;
+    EXPECT_THAT(read(path("later/set/REPEAT.md")), HasSubstr("prints the digest " + finished.out.substr(0, 16) + "."));
   }
   EXPECT_EQ(promises[3].second, made.exit_code) << promises[3].first;
   const auto replayed =
       shell("PATH=$PWD/bin:$PATH; cd later/set; grep -v '^#' replay.txt | head -2 | bash -e; cat layout-1.json");
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
   EXPECT_THAT(replayed.out, testing::StartsWith("REPRODUCED"));
+  EXPECT_THAT(read(path("later/set/replay.txt")), HasSubstr(" --plugin plugin-1.so\n"));
 }
 
 TEST_F(EvidenceSet, SaysWhatIsNotAtHandAnyMore) {
@@ -194,6 +198,10 @@ TEST_F(EvidenceSet, SaysWhatIsNotAtHandAnyMore) {
   EXPECT_THAT(page, HasSubstr("e.toml was changed since"));
   EXPECT_THAT(page, HasSubstr("Cannot be done without the plug-ins"));
   EXPECT_FALSE(std::filesystem::exists(path("set/campaign.toml")));
+  write("mine.so", "another build");
+  run("report e.db --evidence other");
+  EXPECT_THAT(read(path("other/REPEAT.md")), HasSubstr("mine.so is not the file that made the results"));
+  EXPECT_FALSE(std::filesystem::exists(path("other/plugin-1.so")));
 }
 
 TEST_F(EvidenceSet, NamesTheCommitOfTheProgram) {

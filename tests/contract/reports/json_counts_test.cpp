@@ -72,5 +72,25 @@ TEST_F(JsonCounts, TablesSayHowARunIsJudged) {
   EXPECT_THAT(read(path("set/columns.csv")), HasSubstr("before the first contact"));
 }
 
+// Where bodies lie on the floor, flags and judgement differ.
+TEST_F(JsonCounts, TableAndArchiveJudgeEachRunAlike) {
+  write("a.toml",
+        "seed = 5\nreplicates = 12\nhorizon_s = 120\n[factors]\nagents = [\"hull-lock\", \"reckless\"]\nlayouts = "
+        "[\"aisle-grid\"]\nfleet_sizes = [3]\n[faults]\nobstacles_per_hour = 120\n");
+  ASSERT_TRUE(test::has_verdict(run("run a.toml --db a.db")));
+  run("report a.db --evidence set");
+  write("compare.py", R"(
+import csv, sqlite3
+words = ("run_index", "violation", "failed", "unknown", "judged")
+table = [tuple(row[word] for word in words) for row in csv.DictReader(open("set/runs.csv", newline=""))]
+rows = sqlite3.connect("a.db").execute("SELECT " + ", ".join(words) + " FROM v1_runs ORDER BY run_index")
+archive = [tuple(str(value) for value in row) for row in rows]
+assert table == archive, (table, archive)
+print(*sorted({row[4] for row in table}), any(row[1] == "1" and row[4] == "unknown" for row in table))
+)");
+  const auto compared = shell("python3 -B compare.py");
+  EXPECT_EQ(compared.out, "failed passed unknown True\n") << compared.err;
+}
+
 }  // namespace
 }  // namespace fleetproof::json_counts_test

@@ -53,6 +53,19 @@ TEST_F(ImportVerb, VehiclesOfAnotherUnitAreQuestioned) {
   EXPECT_THAT(run("check c.toml").err, HasSubstr("vehicle \"v\": speed_mps is 72: is that in km/h"));
   write("d.toml", campaign("\"aisle-grid\"", "[[vehicle]]\nname = \"v\"\nspeed_mps = 1.5\n"));
   EXPECT_THAT(run("check d.toml").err, Not(HasSubstr("is that in")));
+  write("tables.csv", kTables);
+  std::string sheet = kSheet;
+  sheet.replace(sheet.find("\"length\": 1.3"), 13, "\"length\": 18");
+  write("sheet.json", sheet);
+  EXPECT_THAT(run("import tables.csv --factsheet sheet.json --vehicles v.toml -o l.json").err,
+              HasSubstr("vehicle \"fork\": length_m is 18: is that in millimetres"));
+  run("run d.toml --db d.db");
+  ASSERT_EQ(run("replay d.db 0 --scenario s.json").exit_code, 0);
+  std::string scenario = read(path("s.json"));
+  const auto at = scenario.find("\"speed_mps\": 1.5");
+  ASSERT_NE(at, std::string::npos) << scenario;
+  write("s.json", scenario.replace(at, 16, "\"speed_mps\": 72"));
+  EXPECT_THAT(run("check s.json").err, HasSubstr("speed_mps is 72: is that in km/h"));
 }
 
 TEST_F(ImportVerb, WhatIsNoLayoutIsNamed) {
@@ -110,6 +123,10 @@ TEST_F(ImportVerb, EveryFormatTakesAFactsheet) {
     EXPECT_EQ(finished.exit_code, 0) << words << finished.err;
     EXPECT_THAT(read(path("fork.toml")), HasSubstr("name = \"fork\"\nlength_m = 1.3\n")) << words;
   }
+  expect_named("csv a.csv --factsheet sheet.json", "--factsheet: is given without --vehicles");
+  EXPECT_THAT(run("import opentcs '" + model + "' --factsheet sheet.json --vehicles fork.toml -o l.json").err,
+              HasSubstr("vehicles are left out"))
+      << "those of the model";
   expect_named("csv a.csv --vehicles fork.toml", "the format \"csv\" has no vehicles; name their VDA 5050 factsheet");
   EXPECT_THAT(run("import opentcs '" + model + "' -o l.json").err, HasSubstr("vehicles are left out"));
   EXPECT_THAT(run("import opentcs '" + model + "' --vehicles v.toml -o l.json").err,
@@ -122,6 +139,26 @@ TEST_F(ImportVerb, PositionsOfAModelAreChosen) {
   EXPECT_EQ(run("import opentcs '" + model + "' --positions plant -o l.json").exit_code, 0);
   write("a.csv", kTables);
   expect_named("csv a.csv --positions plant", "has no meaning for format \"csv\"; it belongs to opentcs");
+}
+
+// A point that is drawn 1 m beside its place in the plant.
+TEST_F(ImportVerb, PositionsAreChosenInACampaignToo) {
+  write("m.xml",
+        R"(<model version="6.0.0" name="m"><point name="a" positionX="0" positionY="0"><pointLayout positionX="0"
+positionY="0"/></point><point name="b" positionX="9000" positionY="0"><pointLayout positionX="10000" positionY="0"/>
+</point><path name="ab" sourcePoint="a" destinationPoint="b" length="9000" maxVelocity="1000"/><path name="ba"
+sourcePoint="b" destinationPoint="a" length="9000" maxVelocity="1000"/><visualLayout name="v" scaleX="1" scaleY="1"/>
+</model>)");
+  const auto length_of = [&](const std::string& positions) {
+    write("c.toml", campaign("{ file = \"m.xml\"" + positions + " }"));
+    run("run c.toml --db c.db --overwrite");
+    EXPECT_EQ(run("replay c.db 0 --scenario s.json").exit_code, 0);
+    const auto sizes = run("import scenario s.json -o l.json").err;
+    return sizes.substr(0, sizes.find(';')).substr(sizes.find("size: "));
+  };
+  EXPECT_EQ(length_of(""), "size: 9 m x 0 m");
+  EXPECT_EQ(length_of(", positions = \"plant\""), "size: 9 m x 0 m");
+  EXPECT_EQ(length_of(", positions = \"drawing\""), "size: 10 m x 0 m");
 }
 
 }  // namespace
