@@ -70,6 +70,20 @@ kill -TERM $pid; wait $pid)");
   EXPECT_EQ(finished.out, "") << "no half an answer";
 }
 
+TEST_F(Interruption, AVerificationEndsWithWhatItHasCompared) {
+  write("c.toml",
+        "name = \"c\"\nkind = \"search\"\nreplicates = 900\nhorizon_s = 900\n[factors]\nagents = "
+        "[\"hull-lock\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [3]\n");
+  ASSERT_TRUE(test::has_verdict(run("run c.toml --db c.db")));
+  const auto finished = shell(R"("$FLEETPROOF" verify c.db --sample 100% --jobs 1 & pid=$!
+for i in $(seq 600); do grep -q 'verify: simulating runs again, ' stderr.txt && break; sleep 0.1; done
+kill -TERM $pid; wait $pid)");
+  EXPECT_EQ(finished.exit_code, 143) << finished.err;
+  EXPECT_THAT(finished.err, testing::ContainsRegex("interrupted: [0-9]+ of 900 runs were simulated again"));
+  EXPECT_THAT(finished.err, testing::Not(HasSubstr("interrupted: 900 of 900")));
+  EXPECT_THAT(finished.out, HasSubstr(", 0 differ\n")) << "what it has compared until then";
+}
+
 TEST_F(Interruption, NoVerbLeavesHalfAFile) {
   write("c.toml",
         "name = \"c\"\nkind = \"search\"\nreplicates = 400\nhorizon_s = 5\n[factors]\nagents = "

@@ -158,6 +158,9 @@ TEST_F(LongCase, WhatWasFoundInTheTimeIsToldWithWhatWasNotTried) {
   EXPECT_FALSE(page["not_tried"].empty());
   const json shrunk = json::parse(run("shrink a.db 0 --max-time 12 --max-trials 50 --json -o s.json").out);
   EXPECT_FALSE(shrunk["search_ended"].get<bool>());
+  EXPECT_THAT(run("shrink a.db 0 --jobs 1 --max-time 8 -o t.json").out,
+              testing::AllOf(HasSubstr("1-minimal: not known; the time "),
+                             HasSubstr("; the same command goes on where this one ended\n")));
   EXPECT_THAT(run("simulate s.json").out, HasSubstr("  as expected: "));
   const auto findings = run("findings a.db --jobs 1 --max-time 2");
   EXPECT_EQ(findings.exit_code, 4) << "nothing was found, and not all was looked at";

@@ -142,6 +142,13 @@ TEST_F(FindingsVerb, ACrashOfAPlugInIsAFinding) {
   const std::string retest = "retest c-findings.toml --neighbours 20 --agent '" + plugin + "'";
   EXPECT_THAT(run(retest).out, HasSubstr("  still there\n"));
   EXPECT_THAT(run(retest + " --agent-config 'segfault 100000'").out, HasSubstr("  fixed\n"));
+  // A signal ends it with what it has.
+  const auto finished =
+      shell("\"$FLEETPROOF\" retest c-findings.toml --neighbours 1000000 --agent '" + plugin + "' & pid=$!\n" +
+            R"(for i in $(seq 600); do grep -q 'retest: F-' stderr.txt && break; sleep 0.1; done
+kill -TERM $pid; wait $pid)");
+  EXPECT_EQ(finished.exit_code, 143) << finished.err;
+  EXPECT_THAT(finished.err, HasSubstr("interrupted: 0 of 1 finding were retested\n"));
 }
 
 // Interrupted, it leaves the findings of the failures that it had looked at by then.
