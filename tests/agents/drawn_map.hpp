@@ -113,22 +113,20 @@ struct TestFleet {
   TestFleet(const fp_map& of_map, std::uint32_t count, const fp_agv& agv = kTestAgv) : map(of_map), agvs(count, agv) {}
 
   fp_briefing briefing(std::uint32_t self, std::uint32_t start) const {
-    return {sizeof(fp_briefing),
-            self,
-            static_cast<std::uint32_t>(agvs.size()),
-            sizeof(fp_agv),
-            agvs.data(),
-            &map,
-            start,
-            0,
-            nullptr,
-            0.10,
-            1000.0,
-            config,
-            0,
-            FP_NONE,
-            FP_NONE,
-            nullptr};
+    fp_briefing briefing{};
+    briefing.struct_size = sizeof(fp_briefing);
+    briefing.self = self;
+    briefing.fleet_count = static_cast<std::uint32_t>(agvs.size());
+    briefing.agv_stride = sizeof(fp_agv);
+    briefing.fleet = agvs.data();
+    briefing.map = &map;
+    briefing.start_station = start;
+    briefing.safety_distance_m = 0.10;
+    briefing.radio_range_m = 1000.0;
+    briefing.config = config;
+    briefing.start_segment = FP_NONE;
+    briefing.next_segment = FP_NONE;
+    return briefing;
   }
 
   const fp_map& map;
