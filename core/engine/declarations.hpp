@@ -17,7 +17,9 @@ namespace fleetproof {
 class Declarations {
  public:
   explicit Declarations(RunContext& run)
-      : run_(run), agv_states_(run.scenario.participant_count()), has_spared_(run.scenario.radio.adverse.spared_kinds.size()) {}
+      : run_(run),
+        agv_states_(run.scenario.participant_count()),
+        has_spared_(run.scenario.radio.adverse.spared_kinds.size()) {}
 
   void set_safe_mode(AgvId agv, bool on);
   // Invalid: it waits for no AGV.

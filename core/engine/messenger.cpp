@@ -17,6 +17,15 @@ TraceKind cause_of(const Delivery& lost) {
   return lost.in_outage ? TraceKind::LostInOutage : TraceKind::Lost;
 }
 
+// The ends of a link. A computer that is connected everywhere is at the place of the AGV.
+LinkPlaces places_of(const RunContext& run, EntityId sender, const std::optional<Vec2>& from_m, EntityId receiver) {
+  const std::optional<Vec2> at_m = run.antenna_m(receiver);
+  return {.sender_m = from_m ? *from_m : *at_m,
+          .receiver_m = at_m ? *at_m : *from_m,
+          .sender_roams = run.scenario.is_agv(sender),
+          .receiver_roams = run.scenario.is_agv(receiver)};
+}
+
 }  // namespace
 
 Messenger::Messenger(RunContext& run, AgentHostPort agents)
@@ -152,21 +161,12 @@ void Messenger::count_receptions(Message& message, std::size_t hearing, std::siz
   message.copies += static_cast<std::uint32_t>(arriving);
 }
 
-// The ends of a link. A computer that is connected everywhere is at the place of the AGV.
-LinkPlaces Messenger::places_of(EntityId sender, const std::optional<Vec2>& from_m, EntityId receiver) const {
-  const std::optional<Vec2> at_m = run_.antenna_m(receiver);
-  return {.sender_m = from_m ? *from_m : *at_m,
-          .receiver_m = at_m ? *at_m : *from_m,
-          .sender_roams = run_.scenario.is_agv(sender),
-          .receiver_roams = run_.scenario.is_agv(receiver)};
-}
-
 void Messenger::deliver(const Hearer& hearer, const Block& draws, std::uint32_t slot,
                         const std::optional<Vec2>& from_m) {
   const EntityId receiver = hearer.receiver;
   Message& message = pool_[slot];
   Counters& counters = run_.counters;
-  const LinkPlaces places = needs_places_ ? places_of(message.sender, from_m, receiver) : LinkPlaces{};
+  const LinkPlaces places = needs_places_ ? places_of(run_, message.sender, from_m, receiver) : LinkPlaces{};
   const Delivery delivery = radio_.delivery(message.sender, hearer, run_.now, draws, places, message.spared);
   const SimTime on_air_until = message.on_air.end;
   const SimTime arrival = std::max(run_.now + delivery.delay, on_air_until);

@@ -110,7 +110,6 @@ class Messenger {
   template <class HearerAt>
   void deliver_together(std::uint32_t slot, std::size_t hearing, HearerAt hearer_at);
   std::span<const Hearer> deliver_by_wire(std::uint32_t slot, std::span<const Hearer> hearers);
-  LinkPlaces places_of(EntityId sender, const std::optional<Vec2>& from_m, EntityId receiver) const;
   void deliver_plainly(std::uint32_t slot, std::span<const Hearer> hearers);
   void count_receptions(Message& message, std::size_t hearing, std::size_t arriving);
   void deliver(const Hearer& hearer, const Block& draws, std::uint32_t slot, const std::optional<Vec2>& from_m);
