@@ -21,7 +21,8 @@ constexpr std::uint64_t kFewestInterfered = 5;
 class CongestionLaw final : public Law {
  public:
   explicit CongestionLaw(const Scenario& scenario)
-      : radio_(scenario.radio),
+      : scenario_(scenario),
+        radio_(scenario.radio),
         interference_(radio_.contention.interference),
         bytes_matter_(radio_.air_time_per_byte_s != 0.0),
         last_air_time_(radio_.air_time(0)) {}
@@ -29,7 +30,7 @@ class CongestionLaw final : public Law {
   Pieces hears_pieces() const override { return Pieces::None; }
   bool hears_together() const override { return true; }
   void together(const TracePart& part) override {
-    if (interference_ || bytes_matter_ || !stays_calm(part)) look_at_all(part);
+    if (interference_ || bytes_matter_ || !scenario_.computers.empty() || !stays_calm(part)) look_at_all(part);
   }
   void finish(SimTime end) override { windows_before(end + kWindow); }
   LawResults findings() const override {
@@ -64,6 +65,7 @@ class CongestionLaw final : public Law {
       if (sent.place < part.begin || sent.place >= part.end) continue;
       if (interference_) receptions(*part.block, place, sent.place);
       place = sent.place + 1;
+      if (goes_by_wire(part.block->record(sent.place))) continue;
       enters(part.block->at(sent.place));
       offered_ += bytes_matter_ ? air_time(sent.bytes) : last_air_time_;
     }
@@ -74,11 +76,21 @@ class CongestionLaw final : public Law {
   void receptions(const TraceBlock& block, std::uint32_t begin, std::uint32_t end) {
     for (; begin < end; ++begin) {
       const TraceKind kind = block.kind(begin);
-      if (!kMessageKinds.has(kind) || block.is_copy(begin)) continue;
+      if (!kMessageKinds.has(kind) || block.is_copy(begin) || came_by_wire(block.record(begin))) continue;
       enters(block.at(begin));
       ++receptions_;
       destroyed_ += kind == TraceKind::LostByInterference ? 1 : 0;
     }
+  }
+
+  // What needs no air.
+  bool goes_by_wire(const TraceRecord& record) const {
+    return scenario_.is_computer(record.entity) &&
+           scenario_.are_wired(record.entity, read<traced::Sent>(record).receiver);
+  }
+  bool came_by_wire(const TraceRecord& record) const {
+    return scenario_.is_computer(record.entity) &&
+           scenario_.are_wired(record.entity, read<traced::Reception>(record).sender);
   }
 
   void enters(SimTime t) {
@@ -122,6 +134,7 @@ class CongestionLaw final : public Law {
     incident.value = std::max(incident.value, value_ppm);
   }
 
+  const Scenario& scenario_;
   const RadioSetup& radio_;
   bool interference_, bytes_matter_;
   SimTime window_ = kStart;

@@ -63,6 +63,7 @@ class NormalOperationLaw final : public Law {
   void seconds_before(SimTime t);
   void nothing_goes_on();
   bool needs_quality(SimTime now) const;
+  bool reaches_computers(std::size_t agv) const;
   bool stands_still(SimTime now) const;
   void follow_links(SimTime now);
   void look(SimTime now);
@@ -178,13 +179,21 @@ void NormalOperationLaw::follow_links(SimTime now) {
     quality_.end_second((to_ns(followed_) - 1) / 1'000'000'000);
     bool all = true;
     for (std::size_t i = 0; i < fleet_.agvs.size(); ++i) {
-      const bool kept = quality_.all_in_contract(i);
+      const bool kept = quality_.all_in_contract(i) && reaches_computers(i);
       if (!kept) fleet_.agvs[i].in_contract_since = followed_;
       all = all && kept;
     }
     if (!all) all_in_contract_since_ = followed_;
     always_in_contract_ = always_in_contract_ && all;
   }
+}
+
+// A link between two AGVs is one to an AGV; one from an AGV to a computer is not.
+bool NormalOperationLaw::reaches_computers(std::size_t agv) const {
+  for (std::size_t i = scenario_.first_computer().index(); i < scenario_.participant_count(); ++i) {
+    if (!quality_.link(agv, i).in_contract()) return false;
+  }
+  return true;
 }
 
 void NormalOperationLaw::look(SimTime now) {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <thread>
@@ -54,7 +55,7 @@ class KnownObjects {
   // Gives a part of an agent the name of its program. `path` is empty: it is none of a shared object.
   void name_program(ProgramPart& part, const std::string& path, const std::string& place) {
     if (path.empty()) return;
-    Known& object = known_[path];
+    Known& object = known_[canonical(path)];
     if (object.program.empty()) object = {know_at(place, path, part.global_symbols, programs_), part.global_symbols};
     if (object.global_symbols != part.global_symbols) {
       throw InputError(place, fmt::format("factors.agents: {} is loaded once; give all its agents the same symbols",
@@ -64,6 +65,12 @@ class KnownObjects {
   }
 
  private:
+  // One file may have several names. One that is not there has its own.
+  static std::string canonical(const std::string& path) {
+    std::error_code ignored;
+    const auto whole = std::filesystem::canonical(path, ignored);
+    return ignored ? path : whole.string();
+  }
   struct Known {
     std::string program;
     bool global_symbols = false;
@@ -108,9 +115,7 @@ void warn_of_units(CampaignFile& file) {
 void require_roles(const AgentFactor& agent, const AgentPrograms& programs, const std::string& where) {
   for (const ComputerPart& part : agent.computers) {
     if ((programs.program(part.program, where).flags & FP_SERVES_COMPUTERS) == 0)
-      throw InputError(where, fmt::format("{} does not serve computers, so it cannot be the program of {}; choose "
-                                          "another, or set FP_SERVES_COMPUTERS in its fp_agent_type",
-                                          in_quotes(part.program), in_quotes(part.computer)));
+      throw InputError(where, "factors.agents: " + why_not_on_computer(part.program, part.computer));
   }
 }
 
@@ -126,7 +131,7 @@ void require_room_for_agents(const CampaignFile& file, const AgentPrograms& prog
                      where + ": factors.agents");
       }
     }
-    require_roles(plan.agents[i], programs, where + ": factors.agents");
+    require_roles(plan.agents[i], programs, where);
   }
 }
 
@@ -249,7 +254,13 @@ std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<s
     part.computer = computer.name;
     part.config = computer.agent_config;
     part.program = computer.agent;
-    if (!is_path_of_object(computer.agent)) continue;
+    if (!is_path_of_object(computer.agent)) {
+      if (std::ranges::find(programs.all(), computer.agent, &AgentProgram::name) == programs.all().end())
+        throw InputError("--plugin",
+                         fmt::format("the computer {} runs {}, which is not built in; name its shared object",
+                                     in_quotes(computer.name), in_quotes(computer.agent)));
+      continue;
+    }
     const auto known = std::ranges::find(programs.all(), absolute_name(computer.agent), &AgentProgram::file);
     part.program = known != programs.all().end() ? known->name : (programs.*meet)(computer.agent, global_symbols);
     if (std::ranges::find(plugins, computer.agent) == plugins.end()) plugins.push_back(computer.agent);

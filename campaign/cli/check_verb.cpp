@@ -85,6 +85,15 @@ void require_room_for_agent(const Scenario& scenario, const std::string& path) {
   const auto program = std::ranges::find(programs.all(), scenario.agent, &AgentProgram::name);
   if (program != programs.all().end())
     require_room(*program, *scenario.map, scenario.agvs.size(), "the scenario", path + ": /agent");
+  for (std::size_t i = 0; i < scenario.computers.size(); ++i) {
+    const auto& [name, at_m, offset_s, drift_ppm, agent, config, draws_as] = scenario.computers[i];
+    const std::string where = fmt::format("{}: /computers/{}/agent", path, i);
+    const auto known = std::ranges::find(programs.all(), agent, &AgentProgram::name);
+    if (agent.empty())
+      throw InputError(where, fmt::format("the computer {} has no program; name one", in_quotes(name)));
+    if (known != programs.all().end() && (known->flags & FP_SERVES_COMPUTERS) == 0)
+      throw InputError(where, why_not_on_computer(agent, name));
+  }
 }
 
 void check_scenario(const std::string& path) {

@@ -37,6 +37,7 @@ struct ShrinkWords {
 
 std::string size_text(const CaseSize& size) {
   std::string text = fmt::format("{}, {}", count_text(size.agvs, "AGV"), count_text(size.transports, "transport"));
+  if (size.computers > 0) text += ", " + count_text(size.computers, "computer");
   if (size.faults > 0) text += ", " + count_text(size.faults, "fault");
   if (size.obstacles > 0) text += ", " + count_text(size.obstacles, "obstacle");
   text += size.deliveries_are_drawn ? std::string(", lost and late messages as the radio draws them")
@@ -45,13 +46,9 @@ std::string size_text(const CaseSize& size) {
 }
 
 Json to_json(const CaseSize& size) {
-  Json json = {{"agvs", size.agvs},
-               {"transports", size.transports},
-               {"faults", size.faults},
-               {"obstacles", size.obstacles},
-               {"segments", size.segments},
-               {"fates", nullptr},
-               {"horizon_s", to_seconds(size.horizon)}};
+  Json json = {{"agvs", size.agvs},     {"computers", size.computers},          {"transports", size.transports},
+               {"faults", size.faults}, {"obstacles", size.obstacles},          {"segments", size.segments},
+               {"fates", nullptr},      {"horizon_s", to_seconds(size.horizon)}};
   if (!size.deliveries_are_drawn) json["fates"] = size.deliveries;
   return json;
 }

@@ -251,6 +251,7 @@ std::vector<KnownEnd> ends_of_plugin(SimulateWords words, const Scenario& scenar
   CaseAgent agent{words.agent, words.config, scenario.law.leave_out};
   agent.computers = computer_parts(scenario, words.plugins, known, &AgentPrograms::know, words.global_symbols);
   (void)known.parts_of(factor_of(agent), words.agent_place);
+  known.require_computers(factor_of(agent), scenario, words.scenario + ": ");
   return known_ends(scenario, agent, known);
 }
 

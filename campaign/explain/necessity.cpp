@@ -176,6 +176,8 @@ std::vector<Without> things_of(const Scenario& scenario) {
   const auto but = [](std::size_t i) { return [i](std::size_t other) { return other != i; }; };
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i)
     things.push_back({scenario.agvs[i].name, [=](const Scenario& s) { return with_agvs(s, but(i)); }});
+  for (std::size_t i = 0; i < scenario.computers.size(); ++i)
+    things.push_back({scenario.computers[i].name, [=](const Scenario& s) { return with_computers(s, but(i)); }});
   const auto transports = transports_of(scenario);
   for (std::size_t i = 0; i < transports.size(); ++i) {
     const AgvSetup& agv = scenario.agvs[transports[i].agv];

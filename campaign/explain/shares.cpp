@@ -73,6 +73,10 @@ void add_shares(CaseHost& host, const FailingCase& failing, const FailurePattern
     changes.push_back({failing.scenario.agvs[i].name + " is not there",
                        [i](Scenario& s) { s = with_agvs(s, [i](std::size_t other) { return other != i; }); }});
   }
+  for (std::size_t i = 0; i < failing.scenario.computers.size(); ++i) {
+    changes.push_back({failing.scenario.computers[i].name + " is not there",
+                       [i](Scenario& s) { s = with_computers(s, [i](std::size_t other) { return other != i; }); }});
+  }
   const auto draw = [](std::size_t rank) { return static_cast<std::uint32_t>(rank + 1); };
   for (const WorldChange& change : changes) {
     Share share{.what = change.what, .run = failing.scenario, .failing_draws = {}, .of = kRunsPerShare};

@@ -36,10 +36,9 @@ void take_program(TomlTable& table, ProgramPart& part, std::string& file) {
     throw InputError(table.place("file"),
                      "a table under factors.agents has either file = \"...\" or agent = \"...\", or vehicle = ... with "
                      "computer = ...");
-  if (std::string config; table.has("config")) {
-    table.get("config", config);
-    part.config = config;
-  }
+  std::string config;
+  table.get("config", config);
+  if (table.has("config")) part.config = config;
   take_symbols(table, part);
 }
 
@@ -72,6 +71,8 @@ void take_computers(TomlTable& table, AgentFactor& agent, AgentFiles& files) {
     take_part(*computers, name, part, files.emplace_back());
   }
   computers->finish();
+  if (agent.computers.empty())
+    throw InputError(table.place("computers"), "computers names none; name one as in computers = { server = ... }");
 }
 
 AgentFactor agent_from_table(TomlTable& table, AgentFiles& files) {

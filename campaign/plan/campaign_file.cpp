@@ -21,10 +21,15 @@ constexpr const char* kOnlyComputer = "server";
 
 // An agent that names no computer has a program for the only one. A campaign that lists none has those that its agents
 // name.
-void name_computers(CampaignPlan& plan) {
+void name_computers(CampaignPlan& plan, const PlanPlaces& places) {
   const bool are_listed = !plan.computers.empty();
-  for (AgentFactor& agent : plan.agents) {
-    for (ComputerPart& part : agent.computers) {
+  for (std::size_t i = 0; i < plan.agents.size(); ++i) {
+    for (ComputerPart& part : plan.agents[i].computers) {
+      if (part.computer.empty() && plan.computers.size() > 1)
+        throw InputError(places.of(fmt::format("factors.agents.{}", i)),
+                         fmt::format("factors.agents: computer = ... is for a campaign with one computer, and this one "
+                                     "has {}; name it: computers = {{ {} = ... }}",
+                                     plan.computers.size(), plan.computers[0].name));
       if (part.computer.empty()) part.computer = plan.computers.size() == 1 ? plan.computers[0].name : kOnlyComputer;
       const bool is_known =
           std::ranges::find(plan.computers, part.computer, &ComputerSetup::name) != plan.computers.end();
@@ -36,6 +41,17 @@ void name_computers(CampaignPlan& plan) {
 // A region speaks of loss and delay. A gate that names them itself is not cut by a region that nobody wrote.
 bool names_radio(const CellFilter& filter) {
   return filter.factors[Factor::Loss].has_value() || filter.factors[Factor::Delay].has_value();
+}
+
+void warn_of_idle_computers(CampaignFile& file) {
+  for (const ComputerSetup& computer : file.plan.computers) {
+    const bool is_used = std::ranges::any_of(file.plan.agents, [&](const AgentFactor& agent) {
+      return std::ranges::find(agent.computers, computer.name, &ComputerPart::computer) != agent.computers.end();
+    });
+    if (!is_used)
+      file.warnings.push_back(fmt::format("{}: no agent has a program for the computer {}, so that no world has it",
+                                          file.places.of("computers"), in_quotes(computer.name)));
+  }
 }
 
 // Reads a plan by its list of fields. Bounds are checked here, at the place of the value. check_plan() checks the rules
@@ -50,7 +66,8 @@ class CampaignReader {
     root.finish();
     refuse_unheard(purposes_);
     std::ranges::sort(file_.plan.held_streams);
-    name_computers(file_.plan);
+    name_computers(file_.plan, file_.places);
+    warn_of_idle_computers(file_);
   }
 
  private:

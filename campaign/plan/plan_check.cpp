@@ -261,6 +261,8 @@ void check_vehicles(const CampaignPlan& plan, const PlanPlaces& places) {
   }
 }
 
+constexpr std::string_view kAgvName = "AGV ";  // before the number of an AGV in a drawn world
+
 void check_computers(const CampaignPlan& plan, const PlanPlaces& places) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < plan.computers.size(); ++i) {
@@ -268,6 +270,11 @@ void check_computers(const CampaignPlan& plan, const PlanPlaces& places) {
     const char* fault = fault_of_name(name);
     demand(fault == nullptr, places, fmt::format("computers.{}.name", i).c_str(),
            fmt::format("computers.name: {} is refused: {}", in_quotes(name), fault == nullptr ? "" : fault));
+    const auto digits = std::string_view(name).substr(std::min(name.size(), kAgvName.size()));
+    const bool is_of_agv = name.starts_with(kAgvName) && !digits.empty() &&
+                           std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
+    demand(!is_of_agv, places, fmt::format("computers.{}.name", i).c_str(),
+           fmt::format("computers.name: {} is the name of an AGV; choose another", in_quotes(name)));
     names.push_back(name);
   }
   demand(!has_duplicates(names), places, "computers", "two computers have one name; give each its own");

@@ -42,7 +42,8 @@ AgentProgram program_of(const fp_agent_type& type) {
   AgentProgram program;
   program.name = type.name;
   program.description = type.description;
-  program.flags = type.flags;
+  const bool knows_computers = type.abi_minor >= 5;  // before that, the flag meant nothing
+  program.flags = knows_computers ? type.flags : type.flags & ~FP_SERVES_COMPUTERS;
   program.type = &type;
   return program;
 }
@@ -62,6 +63,13 @@ void require_room(const AgentProgram& program, const LogicalMap& map, std::size_
                                    count == agvs ? "fleet" : "layout"));
     }
   }
+}
+
+std::string why_not_on_computer(std::string_view program, std::string_view computer) {
+  return fmt::format(
+      "{} does not serve computers, so it cannot be the program of {}; choose another, or set "
+      "FP_SERVES_COMPUTERS in its fp_agent_type",
+      in_quotes(program), in_quotes(computer));
 }
 
 std::string name_of_parts(const AgentFactor& agent) {
@@ -189,22 +197,29 @@ bool AgentPrograms::changed_processor(const AgentFactor& agent) const {
   });
 }
 
+void AgentPrograms::require_computers(const AgentFactor& agent, const Scenario& scenario,
+                                      const std::string& where) const {
+  for (std::size_t i = 0; i < scenario.computers.size(); ++i) {
+    const std::string& name = scenario.computers[i].name;
+    const auto part = std::ranges::find(agent.computers, name, &ComputerPart::computer);
+    if (part == agent.computers.end())
+      throw InputError(fmt::format("{}/computers/{}/agent", where, i),
+                       fmt::format("the computer {} has no program; name one", in_quotes(name)));
+    if ((program(part->program, where).flags & FP_SERVES_COMPUTERS) == 0)
+      throw InputError(fmt::format("{}/computers/{}/agent", where, i), why_not_on_computer(part->program, name));
+  }
+}
+
 FleetSoftware AgentPrograms::software(const AgentFactor& agent, const std::string& config,
                                       const Scenario& scenario) const {
   const auto role = [&](const ProgramPart& part) {
     return RoleSoftware{&find(part.program, "agent"), (part.config ? *part.config : config).c_str()};
   };
+  require_computers(agent, scenario, "");
   std::vector<RoleSoftware> computers;
-  for (const ComputerSetup& computer : scenario.computers) {
-    const auto part = std::ranges::find(agent.computers, computer.name, &ComputerPart::computer);
-    if (part == agent.computers.end())
-      throw InputError(agent.name.empty() ? agent.program : agent.name,
-                       fmt::format("has no program for the computer {}; name one", in_quotes(computer.name)));
-    computers.push_back(role(*part));
-  }
-  FleetSoftware software(role(agent), std::move(computers));
-  check_roles(scenario, software);
-  return software;
+  for (const ComputerSetup& computer : scenario.computers)
+    computers.push_back(role(*std::ranges::find(agent.computers, computer.name, &ComputerPart::computer)));
+  return {role(agent), std::move(computers)};
 }
 
 std::vector<std::string> AgentPrograms::plugin_identities() const {

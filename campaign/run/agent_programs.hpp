@@ -34,6 +34,9 @@ struct AgentProgram {
 void require_room(const AgentProgram& program, const LogicalMap& map, std::size_t agvs, std::string_view place,
                   const std::string& where);
 
+// Of a program that serves AGVs only.
+std::string why_not_on_computer(std::string_view program, std::string_view computer);
+
 // The name of an agent that has none of its own: its programs, those on computers first.
 std::string name_of_parts(const AgentFactor& agent);
 
@@ -74,9 +77,11 @@ class AgentPrograms {
   ForeignHandles* handles_of(const AgentFactor& agent) const;
   // Whether an object of its parts was loaded with another state of the processor than the engine's.
   bool changed_processor(const AgentFactor& agent) const;
+  // Throws InputError, at `where`/computers/NUMBER/agent, if a computer of the scenario has no part, or one that cannot
+  // serve it. Requires: the parts are known.
+  void require_computers(const AgentFactor& agent, const Scenario& scenario, const std::string& where) const;
   // For the computers of this scenario. `config`: of parts that have none. Requires: its parts are loaded into this
-  // process; agent and config outlive the result. Throws InputError if a computer has no part, or one that cannot serve
-  // it.
+  // process; agent and config outlive the result. Throws what require_computers() throws.
   FleetSoftware software(const AgentFactor& agent, const std::string& config, const Scenario& scenario) const;
   // "NAME sha256 HEX" of every plug-in: part of the engine's identity in the archive.
   std::vector<std::string> plugin_identities() const;

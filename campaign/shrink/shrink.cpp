@@ -19,6 +19,7 @@ CaseSize CaseSize::of(const Scenario& scenario) {
   const bool is_perfect = radio.loss == 0.0 && radio.delay_s == 0.0 && radio.duplicates == 0.0 &&
                           radio.sources.empty() && radio.trace == nullptr && !radio.contention.interference;
   return {.agvs = scenario.agvs.size(),
+          .computers = scenario.computers.size(),
           .transports = transports_of(scenario).size(),
           .faults = scenario.faults.size(),
           .obstacles = scenario.obstacles.size(),
@@ -35,7 +36,8 @@ std::size_t CaseSize::price() const {
 
 bool CaseSize::is_smaller_than(const CaseSize& other) const {
   const auto rank = [](const CaseSize& size) {
-    return std::tuple(size.price(), size.agvs + size.transports + size.faults + size.obstacles + size.segments,
+    return std::tuple(size.price(),
+                      size.agvs + size.computers + size.transports + size.faults + size.obstacles + size.segments,
                       size.horizon);
   };
   return rank(*this) < rank(other);

@@ -11,7 +11,7 @@ namespace fleetproof {
 
 // How much there is of a scenario. `deliveries`: of single messages; not counted while the radio draws them.
 struct CaseSize {
-  std::size_t agvs = 0, transports = 0, faults = 0, obstacles = 0, segments = 0, deliveries = 0;
+  std::size_t agvs = 0, computers = 0, transports = 0, faults = 0, obstacles = 0, segments = 0, deliveries = 0;
   bool deliveries_are_drawn = true;
   Duration horizon{};
   static CaseSize of(const Scenario& scenario);
@@ -22,9 +22,9 @@ struct CaseSize {
   bool is_smaller_than(const CaseSize& other) const;
 };
 
-// The smallest case that was found. `one_minimal`: each single AGV, transport, fault, obstacle, segment and message
-// delivery was taken away once, and the failure was another one or none. Otherwise `why_not` says why that is not
-// known.
+// The smallest case that was found. `one_minimal`: each single AGV, computer, transport, fault, obstacle, segment and
+// message delivery was taken away once, and the failure was another one or none. Otherwise `why_not` says why that is
+// not known.
 struct ShrinkResult {
   FailingCase best;
   CaseSize before, after;

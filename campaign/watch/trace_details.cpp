@@ -96,7 +96,7 @@ std::string denied_text(const traced::Denied& denied, EntityId body, const Scena
       return fmt::format("delivery to {} of what is sent at {:.9f} s", body_name(scenario, delivery.receiver),
                          to_seconds(delivery.sent));
     }
-    return body.index() < scenario.agvs.size() ? name_of(scenario.faults[denied.number].kind) : "obstacle";
+    return body < scenario.first_obstacle() ? name_of(scenario.faults[denied.number].kind) : "obstacle";
   };
   return fmt::format("{}: {}", what(), name_of(denied.why));
 }

@@ -117,8 +117,9 @@ bool fits(std::uint64_t size) {
 
 std::string line_label(std::uint64_t run_index, const CallNote& call) {
   if (call.number == 0) return fmt::format("{}{}, before its first call: ", kRunLabel, run_index);
-  return fmt::format("{}AGV {}, {:.3f} s: ", run_label(run_index), call.agv.load(),
-                     1e-9 * static_cast<double>(call.at_ns.load()));
+  const std::uint32_t id = call.agv, fleet = call.fleet;
+  return fmt::format("{}{} {}, {:.3f} s: ", run_label(run_index), id < fleet ? "AGV" : "computer",
+                     id < fleet ? id : id - fleet, 1e-9 * static_cast<double>(call.at_ns.load()));
 }
 
 std::string end_label(std::uint64_t run_index) { return run_label(run_index) + "at its end: "; }

@@ -28,6 +28,7 @@ AgentHost::AgentHost(RunContext& run, const Ports& ports, const FleetSoftware& s
       activations_max_(kActivationsPerRun +
                        kActivationsPerSecond * static_cast<std::uint64_t>(to_seconds(run.scenario.horizon))),
       agv_states_(run.scenario.participant_count()) {
+  if (watch.note != nullptr) watch.note->fleet = static_cast<std::uint32_t>(run.agvs.size());
   for (std::size_t i = 0; i < agv_states_.size(); ++i) {
     agv_states_[i].type = software.of(run.scenario, EntityId{i}).type;
     agv_states_[i].controller = ports_.controller.handle_of(EntityId{i});

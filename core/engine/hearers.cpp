@@ -35,11 +35,14 @@ Hearers::Hearers(RunContext& run)
   for (std::size_t i = 0; i < run.agvs.size(); ++i) reach_->piece_begins(run.world.body(AgvId{i}).piece);
 }
 
-// Not everybody hears everything. The wire between two computers has no range.
-bool Hearers::hears(EntityId receiver, EntityId sender, const std::optional<Vec2>& from_m) const {
-  if (!from_m || run_.scenario.are_wired(sender, receiver)) return true;
+bool Hearers::is_in_range(EntityId receiver, const std::optional<Vec2>& from_m) const {
   const std::optional<Vec2> at_m = run_.antenna_m(receiver);
-  return !at_m || (*at_m - *from_m).norm() <= run_.scenario.radio.range_m;
+  return !from_m || !at_m || (*at_m - *from_m).norm() <= run_.scenario.radio.range_m;
+}
+
+// The wire between two computers has no range.
+bool Hearers::hears(EntityId receiver, EntityId sender, const std::optional<Vec2>& from_m) const {
+  return are_everybody() || run_.scenario.are_wired(sender, receiver) || is_in_range(receiver, from_m);
 }
 
 std::span<const std::uint32_t> Hearers::in_range(AgvId sender, const Vec2& from_m) {
@@ -47,7 +50,7 @@ std::span<const std::uint32_t> Hearers::in_range(AgvId sender, const Vec2& from_
   if (!is_exact) {
     std::size_t count = 0;
     for (const std::uint32_t agv : agvs) {
-      if (hears(AgvId{agv}, sender, from_m)) near_[count++] = agv;
+      if (is_in_range(AgvId{agv}, from_m)) near_[count++] = agv;
     }
     agvs = std::span(near_).first(count);
   }
@@ -60,7 +63,7 @@ std::span<const Hearer> Hearers::of(EntityId sender, std::uint32_t receiver, con
   if (sent.counts.empty()) sent.counts.resize(sent_to_.size());
   count_ = 0;
   if (receiver != FP_NONE) {
-    if (are_everybody() || hears(EntityId{receiver}, sender, from_m)) {
+    if (hears(EntityId{receiver}, sender, from_m)) {
       add_one(EntityId{receiver}, sent);
     } else {
       ++run_.counters.out_of_range;
@@ -78,7 +81,7 @@ std::span<const Hearer> Hearers::of(EntityId sender, std::uint32_t receiver, con
   for (EntityId computer = run_.scenario.first_computer(); computer < run_.scenario.first_obstacle();
        ++computer.value) {
     if (computer == sender) continue;
-    if (are_everybody() || hears(computer, sender, from_m)) {
+    if (hears(computer, sender, from_m)) {
       add(computer, sent);
     } else {
       ++run_.counters.out_of_range;

@@ -20,9 +20,9 @@ class Hearers {
   // floor.
   bool are_everybody() const { return !reach_; }
 
-  // Whether a message of this sender, which is there, reaches the receiver; absent: the sender is connected everywhere.
-  // Ask only if not everybody hears everything.
-  bool hears(EntityId receiver, EntityId sender, const std::optional<Vec2>& from_m) const;
+  // Whether the radio of a sender that is there reaches the receiver; absent: it is connected everywhere. Ask only if
+  // not everybody hears everything.
+  bool is_in_range(EntityId receiver, const std::optional<Vec2>& from_m) const;
 
   // Call these as the functions of RadioReach.
   void piece_begins(const Piece& piece) {
@@ -60,6 +60,7 @@ class Hearers {
       receivers.clear();
     }
   };
+  bool hears(EntityId receiver, EntityId sender, const std::optional<Vec2>& from_m) const;
   void add_one(AgvId receiver, SentTo& sent);
   void add(AgvId receiver, const SentTo& sent) {
     found_[count_++] = {receiver, sent.to_all + sent.counts[receiver.index()]};

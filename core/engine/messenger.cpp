@@ -7,9 +7,11 @@ namespace fleetproof {
 namespace {
 
 // A reception may have three events of one kind: the end of the air time (with interference), the arrival of the
-// message, the arrival of its copy. Bits of the payload distinguish them, because no run has 2^29 messages at a time.
-// The third bit says that other transmissions may have destroyed the message at its receiver.
-constexpr std::uint32_t kAirTimeEnds = 0x80000000U, kCopy = 0x40000000U, kContended = 0x20000000U, kSlot = 0x1fffffffU;
+// message, the arrival of its copy. Bits of the payload distinguish them, because no run has 2^28 messages at a time.
+// The third bit says that other transmissions may have destroyed the message at its receiver, the fourth that it came
+// by wire.
+constexpr std::uint32_t kAirTimeEnds = 0x80000000U, kCopy = 0x40000000U, kContended = 0x20000000U,
+                        kByWire = 0x10000000U, kSlot = 0x0fffffffU;
 static_assert(kLongestMessage_bytes == FP_MESSAGE_BYTES_MAX);
 
 TraceKind cause_of(const Delivery& lost) {
@@ -40,7 +42,7 @@ Messenger::Messenger(RunContext& run, AgentHostPort agents)
       draws_decide_(radio_.is_plain() && !contended_ && !run.writer.has_sink()),
       losses_decide_(draws_decide_ && radio_.only_loses()),
       others_(run.agvs.size() - 1),
-      wire_delay_(seconds(run.scenario.wire.takes_s)),
+      wire_{.takes = seconds(run.scenario.wire.takes_s)},
       agv_states_(run.scenario.participant_count()),
       draws_(run.scenario.participant_count() + 3) {}
 
@@ -87,16 +89,15 @@ void Messenger::transmit(AgvId sender, std::uint32_t slot, std::uint32_t receive
   deliver_together(slot, heard_by.size(), [&](std::size_t i) { return Hearer{AgvId{heard_by.data()[i]}, number}; });
 }
 
-// Of a message that a computer sends. What is left over goes by radio: computers are the last of those who hear it.
+// Of a message that a computer sends. What is left over goes by radio: computers are the last of those who hear it. The
+// receptions of a run are those of its radio.
 std::span<const Hearer> Messenger::deliver_by_wire(std::uint32_t slot, std::span<const Hearer> hearers) {
   const auto is_agv = [&](const Hearer& hearer) { return run_.scenario.is_agv(hearer.receiver); };
   const auto by_radio = static_cast<std::size_t>(std::ranges::partition_point(hearers, is_agv) - hearers.begin());
   for (const auto& [receiver, ordinal] : hearers.subspan(by_radio)) {
-    run_.queue.push_arrivals(run_.now + wire_delay_, {&receiver, 1}, slot);
-    run_.counters.delay_sum_ns += static_cast<std::uint64_t>(wire_delay_.count());
+    run_.queue.push_arrivals(run_.now + wire_.takes, {&receiver, 1}, slot | kByWire);
+    ++pool_[slot].copies;
   }
-  const std::size_t by_wire = hearers.size() - by_radio;
-  if (by_wire > 0) count_receptions(pool_[slot], by_wire, by_wire);
   return hearers.first(by_radio);
 }
 
@@ -215,6 +216,7 @@ void Messenger::lose(AgvId receiver, const Message& message, TraceKind cause) {
     air_time_ends(receiver, slot);
     return false;
   }
+  if ((bits & kByWire) != 0) ++wire_.received;
   if (pool_.is_destroyed_at(slot, receiver)) {
     pool_.release(slot);
     return false;
@@ -239,7 +241,7 @@ void Messenger::air_time_ends(AgvId receiver, std::uint32_t slot) {
 bool Messenger::is_drowned(AgvId receiver, const Message& message) const {
   return channel_.any_other_on_air(message.sender, message.on_air, [&](AgvId other) {
     if (other == receiver || hearers_.are_everybody()) return true;
-    return hearers_.hears(receiver, other, run_.antenna_m(other));
+    return hearers_.is_in_range(receiver, run_.antenna_m(other));
   });
 }
 
@@ -289,6 +291,7 @@ void Messenger::forget_inbox(AgvId agv) {
 }
 
 void Messenger::settle_accounts() {
+  run_.counters.received -= std::exchange(wire_.received, 0U);
   for (const std::size_t i : radio_.unused_deliveries())
     run_.deny(run_.scenario.deliveries[i].sender, Denial::NotSent, i);
 }

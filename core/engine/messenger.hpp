@@ -136,7 +136,10 @@ class Messenger {
   // decide whether it is lost.
   bool draws_decide_, losses_decide_;
   std::size_t others_;  // so many AGVs but the sender
-  Duration wire_delay_;
+  struct Wire {
+    Duration takes;
+    std::uint64_t received = 0;
+  } wire_;
   std::vector<AgvState> agv_states_;  // by participant
   std::vector<Block> draws_;          // of those who hear the message being sent
 };

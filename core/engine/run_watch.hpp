@@ -24,8 +24,9 @@ struct CallNote {
 
   std::atomic<std::uint64_t> number{0};  // of the calls of this run, from 1; 0: no call yet
   std::atomic<std::int64_t> at_ns{0};    // simulated time
-  std::atomic<std::uint32_t> agv{0};
-  std::atomic<std::uint32_t> event{0};  // FP_EVENT_..., or kDestroy
+  std::atomic<std::uint32_t> agv{0};     // or computer: its id
+  std::atomic<std::uint32_t> event{0};   // FP_EVENT_..., or kDestroy
+  std::atomic<std::uint32_t> fleet{0};   // so many AGVs; the ids of computers follow
 };
 
 // A call into an agent that is known to end the process or never to return. The engine does not make the call. It files

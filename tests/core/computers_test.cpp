@@ -330,6 +330,66 @@ TEST(Computers, LinksToThemAreLinksOfNormalOperation) {
   EXPECT_FALSE(accused(3.0)) << "no other AGV is there: the link to the server is out of the contract";
 }
 
+// The AGV reports twice a second, and the server says nothing.
+TEST(Computers, LinksFromAgvsToThemCountToo) {
+  Scenario scenario = with_computers({0}, 1, 100.0);
+  scenario.law.reaction_s = 5.0;
+  const auto accused = [&](double delay_s) {
+    scenario.radio.delay_s = delay_s;
+    const test::Handler handler = [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+      if (b.role != FP_AGV) return;
+      if (e.kind == FP_EVENT_START) host.safe_mode(c, 1);
+      host.send_unicast(c, &e.now_ns, sizeof e.now_ns, 1);
+      host.set_timer(c, 0, e.now_ns + 500'000'000);
+    };
+    const auto laws = make_default_laws(scenario, {});
+    test::current_handler = &handler;
+    const Outcome outcome = simulate(scenario, test::handler_software(scenario), laws);
+    test::current_handler = nullptr;
+    return std::ranges::count(outcome.incidents, IncidentKind::SafeModeInContract, &Incident::kind) > 0;
+  };
+  EXPECT_TRUE(accused(1.0));
+  EXPECT_FALSE(accused(3.0));
+}
+
+// A thousand messages a second on the wire are nothing on the radio.
+TEST(Computers, AWireIsNoPartOfTheRadiosBooks) {
+  Scenario scenario = with_computers({0}, 2, 20.0);
+  scenario.radio.air_time_s = 0.01;
+  const test::Handler handler = [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (b.self != 1) return;
+    host.send_unicast(c, &e.now_ns, sizeof e.now_ns, 2);
+    host.set_timer(c, 0, e.now_ns + 1'000'000);
+  };
+  const auto laws = make_default_laws(scenario, {});
+  test::current_handler = &handler;
+  const Outcome outcome = simulate(scenario, test::handler_software(scenario), laws);
+  test::current_handler = nullptr;
+  EXPECT_EQ(outcome.counters.messages_sent, 20'001U);
+  EXPECT_EQ(outcome.counters.receptions, 0U);
+  EXPECT_EQ(outcome.counters.received, 0U);
+  EXPECT_EQ(outcome.counters.under_way, 0U);
+  EXPECT_TRUE(outcome.incidents.empty());
+}
+
+// Of two computers with antennas that are far apart, what one sends by radio drowns nothing at the other.
+TEST(Computers, AWireDoesNotDrownTheRadio) {
+  Scenario scenario = with_computers({0}, 2, 20.0);
+  scenario.computers[0].at_m = Vec2(5.0, 0.0);
+  scenario.computers[1].at_m = Vec2(5000.0, 0.0);
+  scenario.radio.range_m = 100.0;
+  scenario.radio.contention.interference = true;
+  scenario.radio.contention.contention_window = 1;
+  const test::Handler handler = [&](const fp_host& host, fp_controller* c, const fp_briefing& b, const fp_event& e) {
+    if (b.self == 1) return;
+    host.send_unicast(c, &e.now_ns, sizeof e.now_ns, b.self == 0 ? 1 : 0);
+    host.set_timer(c, 0, e.now_ns + 5'000'000);
+  };
+  const Outcome outcome = test::simulate_with(scenario, handler);
+  EXPECT_GT(outcome.counters.received, 1000U);
+  EXPECT_EQ(outcome.counters.lost_by_interference, 0U);
+}
+
 TEST(Computers, ARecordedRunPlaysTheSame) {
   Scenario scenario = hard(with_computers({0, 3}, 2));
   scenario.faults = {of_computer(Fault::Kind::Freeze, 3.0, 2.0)};

@@ -124,6 +124,10 @@ TEST_F(CentralFleet, RefusesWhatCannotBe) {
   EXPECT_THAT(refusal("{ vehicle = \"reckless\", computers = { masted = \"" + kCentral + "\" } }",
                       "[[computers]]\nname = \"master\"\n"),
               HasSubstr("did you mean \"master\"?"));
+  EXPECT_THAT(refusal("{ vehicle = \"reckless\", computers = { } }"), HasSubstr("names none"));
+  EXPECT_THAT(refusal(central(), "[[computers]]\nname = \"a\"\n[[computers]]\nname = \"b\"\n"),
+              HasSubstr("computers = { a = ... }"));
+  EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"AGV 0\"\n"), HasSubstr("is the name of an AGV"));
   EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"\"\n"), HasSubstr("computers.name"));
   EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"a\"\nat_m = [1]\n"), HasSubstr("[x, y]"));
   EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"a\"\n[[computers]]\nname = \"a\"\n"),
@@ -137,7 +141,17 @@ TEST_F(CentralFleet, OfAScenarioFileNamesTheProgramsOfItsComputers) {
   EXPECT_THAT(read(path("s.json")), HasSubstr(R"("agent": "central", "agent_config": "late")"));
   const test::Finished without = run("simulate s.json");
   EXPECT_EQ(without.exit_code, 2);
-  EXPECT_THAT(without.err, HasSubstr("agent \"central\" is not known"));
+  EXPECT_THAT(without.err, HasSubstr("the computer \"server\" runs \"central\", which is not built in"));
+  const std::string scenario = read(path("s.json"));
+  const std::string names = R"("agent": "central", "agent_config")";
+  for (const char* other : {R"("agent": "hull-lock", "agent_config")", R"("agent_config")"}) {
+    write("other.json", std::string(scenario).replace(scenario.find(names), names.size(), other));
+    for (const std::string verb : {"check", "simulate --agent reckless", "shrink --agent reckless"}) {
+      const test::Finished refused = run(verb + " other.json");
+      EXPECT_EQ(refused.exit_code, 2) << verb;
+      EXPECT_THAT(refused.err, HasSubstr("other.json: /computers/0/agent")) << verb;
+    }
+  }
   const test::Finished with = run("simulate s.json --plugin " + kCentral);
   EXPECT_TRUE(test::has_verdict(with));
   const auto digest = [](const std::string& text) { return text.substr(text.find("trace digest"), 29); };
