@@ -26,6 +26,7 @@ class WorkerLog : public testing::Test {
     note.number = call;
     note.agv = agv;
     note.at_ns = at_ns;
+    note.fleet = 5;
     return line_label(run, note);
   }
   static void print(int file, const std::string& text) {
@@ -36,6 +37,7 @@ class WorkerLog : public testing::Test {
 
 TEST_F(WorkerLog, NamesRunAgvAndTimeOnEachLine) {
   EXPECT_EQ(label(17, 4, 2, 12'345'678'900), "run 17, AGV 2, 12.346 s: ");
+  EXPECT_EQ(label(17, 4, 6, 0), "run 17, computer 1, 0.000 s: ");
   EXPECT_EQ(label(17, 0, 0, 0), "run 17, before its first call: ");
   const WorkerLogs logs(prefix(), 1, EarlierLogs::Stay);
   const int file = logs.descriptors()[0];
