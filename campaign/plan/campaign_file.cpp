@@ -10,6 +10,7 @@
 #include "campaign/plan/plan_fields.hpp"
 #include "campaign/plan/toml_table.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "generators/scenario_file/exempt_pairs.hpp"
 #include "generators/scenario_file/radio_trace.hpp"
