@@ -1,10 +1,13 @@
 // Participants without a body: who hears them, what they may not do, what goes wrong with them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
 
+#include "core/base/error.hpp"
+#include "core/outcome/trace_records.hpp"
 #include "laws/laws.hpp"
 #include "tests/core/row_of_tens.hpp"
 #include "tests/core/told_run.hpp"
