@@ -47,7 +47,7 @@ void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentF
 // all of them are met, with RTLD_GLOBAL if they need `global_symbols`. Throws what `meet` throws.
 std::string meet_agent(const std::string& word, std::vector<std::string>& plugins, AgentPrograms& programs,
                        MeetPlugin meet, bool global_symbols);
-// The programs that a scenario file names for its computers, met as meet_agent does. Those without one are left out.
+// Of each computer for which the scenario file names a program: that program, met as meet_agent does.
 std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<std::string>& plugins,
                                          AgentPrograms& programs, MeetPlugin meet, bool global_symbols);
 

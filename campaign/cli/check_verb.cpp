@@ -86,7 +86,7 @@ void require_room_for_agent(const Scenario& scenario, const std::string& path) {
   if (program != programs.all().end())
     require_room(*program, *scenario.map, scenario.agvs.size(), "the scenario", path + ": /agent");
   for (std::size_t i = 0; i < scenario.computers.size(); ++i) {
-    const auto& [name, at_m, offset_s, drift_ppm, agent, config, draws_as] = scenario.computers[i];
+    const std::string &name = scenario.computers[i].name, &agent = scenario.computers[i].agent;
     const std::string where = fmt::format("{}: /computers/{}/agent", path, i);
     const auto known = std::ranges::find(programs.all(), agent, &AgentProgram::name);
     if (agent.empty())

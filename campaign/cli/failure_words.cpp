@@ -31,8 +31,8 @@ EndPoint end_point_of(const std::string& word) {
                                             fmt::join(end_point_words(), ", ")));
 }
 
-// The levels of a violation, the mildest first. A run that has one level has all milder ones, too: each contact is also
-// a violation.
+// How near two bodies came, the mildest first. A run with one of them has those before it, too: each contact is also a
+// violation.
 constexpr std::array kLevels = {EndPoint::Violation, EndPoint::Contact, EndPoint::HazardousContact};
 
 double shown_s(SimTime t) { return to_seconds(t - kStart); }

@@ -58,7 +58,7 @@ ImportChoice choice_of(const ImportWords& words) {
   return choice;
 }
 
-// The vehicles of the factsheet if --factsheet names one, otherwise those of the plant model.
+// Those of the file that --factsheet names; without it, those that the imported model has.
 std::vector<ForeignVehicle> read_vehicles(const ImportWords& words, const Layout& layout,
                                           std::vector<std::string>& warnings) {
   if (words.factsheet.empty()) return read_opentcs_vehicles(words.file, warnings);

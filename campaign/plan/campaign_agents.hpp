@@ -12,8 +12,8 @@ namespace fleetproof {
 // Whether a word where an agent is named is the path of a shared object.
 bool is_path_of_object(std::string_view word);
 
-// The paths of the shared objects of an agent, beside the campaign file, in the order of its parts: on board first.
-// Empty: a reference agent.
+// Of each part of an agent, that on board first: the path of its shared object, beside the campaign file. Empty: it is
+// built in.
 using AgentFiles = std::vector<std::string>;
 
 // Reads factors.agents: "hull-lock", "my.so", { file = "my.so", name = "candidate", config = "patience=3" }, or

@@ -46,9 +46,8 @@ bool names_radio(const CellFilter& filter) {
 
 void warn_of_idle_computers(CampaignFile& file) {
   for (const ComputerSetup& computer : file.plan.computers) {
-    const bool is_used = std::ranges::any_of(file.plan.agents, [&](const AgentFactor& agent) {
-      return std::ranges::find(agent.computers, computer.name, &ComputerPart::computer) != agent.computers.end();
-    });
+    const bool is_used = std::ranges::any_of(
+        file.plan.agents, [&](const AgentFactor& agent) { return agent.part_on(computer.name) != nullptr; });
     if (!is_used)
       file.warnings.push_back(fmt::format("{}: no agent has a program for the computer {}, so that no world has it",
                                           file.places.of("computers"), in_quotes(computer.name)));

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "campaign/plan/unit_sample.hpp"
@@ -80,7 +81,12 @@ struct AgentFactor : ProgramPart {
   bool is_word() const {
     return name == program && !config && !global_symbols && role == AgentRole::ByOrigin && computers.empty();
   }
-  // On board first.
+  // Null: it has none for this computer.
+  const ComputerPart* part_on(std::string_view computer) const {
+    const auto found = std::ranges::find(computers, computer, &ComputerPart::computer);
+    return found == computers.end() ? nullptr : &*found;
+  }
+  // The part on board, then those on computers.
   std::vector<const ProgramPart*> parts() const {
     std::vector<const ProgramPart*> all{this};
     for (const ComputerPart& part : computers) all.push_back(&part);

@@ -75,8 +75,7 @@ void ScenarioSource::add_computers(Scenario& scenario, const AgentFactor& agent)
   if (agent.computers.empty()) return;
   scenario.wire = plan_.wire;
   for (std::uint32_t i = 0; i < plan_.computers.size(); ++i) {
-    const std::string& name = plan_.computers[i].name;
-    if (std::ranges::find(agent.computers, name, &ComputerPart::computer) == agent.computers.end()) continue;
+    if (agent.part_on(plan_.computers[i].name) == nullptr) continue;
     ComputerSetup& computer = scenario.computers.emplace_back(plan_.computers[i]);
     if (i + 1 != scenario.computers.size()) computer.draws_as = i;
   }

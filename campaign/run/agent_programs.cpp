@@ -42,8 +42,7 @@ AgentProgram program_of(const fp_agent_type& type) {
   AgentProgram program;
   program.name = type.name;
   program.description = type.description;
-  const bool knows_computers = type.abi_minor >= 5;  // before that, the flag meant nothing
-  program.flags = knows_computers ? type.flags : type.flags & ~FP_SERVES_COMPUTERS;
+  program.flags = serves_computers(type) ? type.flags : type.flags & ~FP_SERVES_COMPUTERS;
   program.type = &type;
   return program;
 }
@@ -63,13 +62,6 @@ void require_room(const AgentProgram& program, const LogicalMap& map, std::size_
                                    count == agvs ? "fleet" : "layout"));
     }
   }
-}
-
-std::string why_not_on_computer(std::string_view program, std::string_view computer) {
-  return fmt::format(
-      "{} does not serve computers, so it cannot be the program of {}; choose another, or set "
-      "FP_SERVES_COMPUTERS in its fp_agent_type",
-      in_quotes(program), in_quotes(computer));
 }
 
 std::string name_of_parts(const AgentFactor& agent) {
@@ -201,8 +193,8 @@ void AgentPrograms::require_computers(const AgentFactor& agent, const Scenario& 
                                       const std::string& where) const {
   for (std::size_t i = 0; i < scenario.computers.size(); ++i) {
     const std::string& name = scenario.computers[i].name;
-    const auto part = std::ranges::find(agent.computers, name, &ComputerPart::computer);
-    if (part == agent.computers.end())
+    const ComputerPart* part = agent.part_on(name);
+    if (part == nullptr)
       throw InputError(fmt::format("{}/computers/{}/agent", where, i),
                        fmt::format("the computer {} has no program; name one", in_quotes(name)));
     if ((program(part->program, where).flags & FP_SERVES_COMPUTERS) == 0)
@@ -217,8 +209,7 @@ FleetSoftware AgentPrograms::software(const AgentFactor& agent, const std::strin
   };
   require_computers(agent, scenario, "");
   std::vector<RoleSoftware> computers;
-  for (const ComputerSetup& computer : scenario.computers)
-    computers.push_back(role(*std::ranges::find(agent.computers, computer.name, &ComputerPart::computer)));
+  for (const ComputerSetup& computer : scenario.computers) computers.push_back(role(*agent.part_on(computer.name)));
   return {role(agent), std::move(computers)};
 }
 

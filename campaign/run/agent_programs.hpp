@@ -34,9 +34,6 @@ struct AgentProgram {
 void require_room(const AgentProgram& program, const LogicalMap& map, std::size_t agvs, std::string_view place,
                   const std::string& where);
 
-// Of a program that serves AGVs only.
-std::string why_not_on_computer(std::string_view program, std::string_view computer);
-
 // The name of an agent that has none of its own: its programs, those on computers first.
 std::string name_of_parts(const AgentFactor& agent);
 
@@ -67,7 +64,7 @@ class AgentPrograms {
   const std::deque<AgentProgram>& all() const { return programs_; }
   // Whether a part of it comes from a shared object. Parts may be missing among the programs.
   bool is_plugin(const AgentFactor& agent) const;
-  // The programs of its parts, on board first. Throws InputError if one is not known.
+  // The program on board, then those on its computers. Throws InputError if one is not known.
   std::vector<const AgentProgram*> parts_of(const AgentFactor& agent, std::string_view where) const;
   // The shared objects of its parts, each once.
   std::vector<const AgentProgram*> objects_of(const AgentFactor& agent) const;

@@ -13,10 +13,11 @@ RunOne::RunOne(const CampaignPlan& plan, const AgentPrograms& programs)
     : plan_(plan), scenarios_(plan), programs_(programs), handles_(plan.agents.size()) {}
 
 // An agent that calls too late is an agent of its own factor, whatever else its software runs as.
-ForeignHandles* RunOne::handles_of(const AgentFactor& agent) const {
+ForeignHandles* RunOne::handles_of(std::uint64_t cell) const {
+  const AgentFactor& agent = plan_.agent_of_cell(cell);
   if (!programs_.is_plugin(agent)) return nullptr;
   const std::lock_guard lock(mutex_);
-  auto& handles = handles_[static_cast<std::size_t>(&agent - plan_.agents.data())];
+  auto& handles = handles_[agent_of_run(cell, plan_.agents.size())];
   if (handles == nullptr) handles = std::make_unique<ForeignHandles>(programs_.changed_processor(agent));
   return handles.get();
 }
@@ -61,7 +62,7 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const Run
   record.scenario_digest = scenario_digest(scenario);
   RunWatch in_plant = watch;
   in_plant.plant = &world->plant;
-  in_plant.foreign = is_played ? nullptr : handles_of(factor);
+  in_plant.foreign = is_played ? nullptr : handles_of(record.cell);
   record.outcome = simulate(scenario, software_of(factor, scenario, is_played), laws, sink, in_plant);
   return record;
 }

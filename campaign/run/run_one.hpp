@@ -31,7 +31,7 @@ class RunOne {
   const ScenarioSource& scenarios() const { return scenarios_; }
 
  private:
-  ForeignHandles* handles_of(const AgentFactor& agent) const;
+  ForeignHandles* handles_of(std::uint64_t cell) const;
   FleetSoftware software_of(const AgentFactor& agent, const Scenario& scenario, bool is_played) const;
 
   const CampaignPlan& plan_;

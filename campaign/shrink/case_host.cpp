@@ -44,9 +44,10 @@ Scenario played_by(const CaseAgent& agent, Scenario scenario) {
   scenario.agent = agent.program;
   scenario.agent_config = agent.config;
   scenario.law.leave_out = agent.laws_left_out;
+  const AgentFactor factor = factor_of(agent);
   for (ComputerSetup& computer : scenario.computers) {
-    const auto part = std::ranges::find(agent.computers, computer.name, &ComputerPart::computer);
-    if (part == agent.computers.end()) continue;
+    const ComputerPart* part = factor.part_on(computer.name);
+    if (part == nullptr) continue;
     computer.agent = part->program;
     computer.agent_config = part->config.value_or("");
   }

@@ -45,8 +45,8 @@ class ActivationCount {
   std::uint64_t in_run_ = 0;
 };
 
-// The agents of all participants and the computers on which they run: when an agent is called, what it is told, and
-// what happens when it crashes, hangs or loses its computer for a time.
+// The agents of all participants: when an agent is called, what it is told, and what happens when it crashes, hangs, or
+// when that on which it runs is away for a time.
 class AgentHost {
  public:
   struct Ports {

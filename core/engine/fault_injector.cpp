@@ -55,16 +55,16 @@ void FaultInjector::strikes(AgvId agv, std::uint64_t number) {
   if (const auto why = denial_of(agv, number)) return run_.deny(agv, *why, number);
   ++run_.counters.faults;
   run_.trace(agv, traced::FaultStrikes{fault.kind, number});
-  if (holds_agv(fault.kind) && run_.scenario.is_agv(agv))
-    fault_states_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
+  if (holds(fault)) fault_states_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
   if (stops_computer(fault.kind)) ports_.agents.goes_away(agv);
   if (fault.kind == Fault::Kind::Freeze) ports_.agents.freeze_until(agv, run_.now + fault.lasts);
   run_.queue.push(run_.now + fault.lasts, agv, Event::Kind::FaultOver, number);
 }
 
 void FaultInjector::ends(AgvId agv, std::uint64_t number) {
-  const Fault::Kind kind = run_.scenario.faults[number].kind;
-  if (holds_agv(kind) && run_.scenario.is_agv(agv)) {
+  const Fault& fault = run_.scenario.faults[number];
+  const Fault::Kind kind = fault.kind;
+  if (holds(fault)) {
     halt_ends(agv, number);
   } else {
     run_.trace(agv, traced::FaultOver{kind, number});

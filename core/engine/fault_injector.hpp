@@ -39,6 +39,8 @@ class FaultInjector {
     std::uint64_t halt = 0;  // that the fault caused, while it lasts
     bool came = false;       // of a fault that counts from a pick: it has been set
   };
+  // Of an AGV: a computer has nothing that could brake.
+  bool holds(const Fault& fault) const { return holds_agv(fault.kind) && run_.scenario.is_agv(fault.agv); }
   void halt_ends(AgvId agv, std::uint64_t number);
   // Absent: the fault strikes. A load that can fall falls.
   std::optional<Denial> denial_of(AgvId agv, std::uint64_t number);

@@ -1,10 +1,19 @@
 #include "core/engine/fleet_software.hpp"
 
-#include <string>
-
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 
 namespace fleetproof {
+
+// Before minor 5 the flag meant nothing.
+bool serves_computers(const fp_agent_type& type) {
+  return type.abi_minor >= 5 && (type.flags & FP_SERVES_COMPUTERS) != 0;
+}
+
+std::string why_not_on_computer(std::string_view program, std::string_view computer) {
+  return in_quotes(program) + " does not serve computers, so it cannot be the program of " + in_quotes(computer) +
+         "; choose another, or set FP_SERVES_COMPUTERS in its fp_agent_type";
+}
 
 void check_roles(const Scenario& scenario, const FleetSoftware& software) {
   if (software.computers.size() != scenario.computers.size()) {
@@ -14,10 +23,8 @@ void check_roles(const Scenario& scenario, const FleetSoftware& software) {
   }
   for (std::size_t i = 0; i < scenario.computers.size(); ++i) {
     const fp_agent_type& type = *software.computers[i].type;
-    if (type.abi_minor >= 5 && (type.flags & FP_SERVES_COMPUTERS) != 0) continue;
-    throw InputError(type.name, "does not serve computers, so it cannot be the program of '" +
-                                    scenario.computers[i].name +
-                                    "'; choose another, or set FP_SERVES_COMPUTERS in its fp_agent_type");
+    if (!serves_computers(type))
+      throw InputError("computers", why_not_on_computer(type.name, scenario.computers[i].name));
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +32,10 @@ struct FleetSoftware {
   }
 };
 
+// Whether the program may run on computers.
+bool serves_computers(const fp_agent_type& type);
+// Why a program does not run on this computer, of one that serves AGVs only.
+std::string why_not_on_computer(std::string_view program, std::string_view computer);
 // Throws InputError if a computer has no program, or one that cannot serve it.
 void check_roles(const Scenario& scenario, const FleetSoftware& software);
 

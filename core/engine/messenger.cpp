@@ -19,7 +19,7 @@ TraceKind cause_of(const Delivery& lost) {
   return lost.in_outage ? TraceKind::LostInOutage : TraceKind::Lost;
 }
 
-// The ends of a link. A computer that is connected everywhere is at the place of the AGV.
+// Where the two ends of a link are. A computer that is connected everywhere counts as being where the AGV is.
 LinkPlaces places_of(const RunContext& run, EntityId sender, const std::optional<Vec2>& from_m, EntityId receiver) {
   const std::optional<Vec2> at_m = run.antenna_m(receiver);
   return {.sender_m = from_m ? *from_m : *at_m,

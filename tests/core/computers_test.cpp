@@ -23,6 +23,15 @@ Scenario with_computers(std::vector<std::uint32_t> starts, std::size_t computers
   return scenario;
 }
 
+// Under the default laws.
+Outcome judged(const Scenario& scenario, const test::Handler& handler) {
+  const auto laws = make_default_laws(scenario, {});
+  test::current_handler = &handler;
+  Outcome outcome = simulate(scenario, test::handler_software(scenario), laws);
+  test::current_handler = nullptr;
+  return outcome;
+}
+
 // Who received what from whom, and when; by receiver, sender and first byte of the message.
 using Heard = std::map<std::tuple<std::uint32_t, std::uint32_t, char>, std::int64_t>;
 
@@ -247,10 +256,7 @@ Life life_of_computer(const Scenario& scenario) {
     message.struct_size = sizeof message;
     while (host.get_message(c, &message) == FP_OK) life.heard_ns.push_back(e.now_ns);
   };
-  const auto laws = make_default_laws(scenario, {});
-  test::current_handler = &handler;
-  life.outcome = simulate(scenario, test::handler_software(scenario), laws);
-  test::current_handler = nullptr;
+  life.outcome = judged(scenario, handler);
   return life;
 }
 
@@ -311,6 +317,10 @@ TEST(ComputerFaults, ExcuseTheFleet) {
   EXPECT_EQ(accused(), 0);
 }
 
+bool accuses_safe_mode(const Outcome& outcome) {
+  return std::ranges::count(outcome.incidents, IncidentKind::SafeModeInContract, &Incident::kind) > 0;
+}
+
 TEST(Computers, LinksToThemAreLinksOfNormalOperation) {
   Scenario scenario = with_computers({0}, 1, 100.0);
   scenario.law.reaction_s = 5.0;
@@ -323,11 +333,7 @@ TEST(Computers, LinksToThemAreLinksOfNormalOperation) {
         host.set_timer(c, 0, e.now_ns + 500'000'000);
       }
     };
-    const auto laws = make_default_laws(scenario, {});
-    test::current_handler = &handler;
-    const Outcome outcome = simulate(scenario, test::handler_software(scenario), laws);
-    test::current_handler = nullptr;
-    return std::ranges::count(outcome.incidents, IncidentKind::SafeModeInContract, &Incident::kind) > 0;
+    return accuses_safe_mode(judged(scenario, handler));
   };
   EXPECT_TRUE(accused(1.0)) << "the server is heard well, so that the AGV stands without a reason";
   EXPECT_FALSE(accused(3.0)) << "no other AGV is there: the link to the server is out of the contract";
@@ -345,11 +351,7 @@ TEST(Computers, LinksFromAgvsToThemCountToo) {
       host.send_unicast(c, &e.now_ns, sizeof e.now_ns, 1);
       host.set_timer(c, 0, e.now_ns + 500'000'000);
     };
-    const auto laws = make_default_laws(scenario, {});
-    test::current_handler = &handler;
-    const Outcome outcome = simulate(scenario, test::handler_software(scenario), laws);
-    test::current_handler = nullptr;
-    return std::ranges::count(outcome.incidents, IncidentKind::SafeModeInContract, &Incident::kind) > 0;
+    return accuses_safe_mode(judged(scenario, handler));
   };
   EXPECT_TRUE(accused(1.0));
   EXPECT_FALSE(accused(3.0));
@@ -364,10 +366,7 @@ TEST(Computers, AWireIsNoPartOfTheRadiosBooks) {
     host.send_unicast(c, &e.now_ns, sizeof e.now_ns, 2);
     host.set_timer(c, 0, e.now_ns + 1'000'000);
   };
-  const auto laws = make_default_laws(scenario, {});
-  test::current_handler = &handler;
-  const Outcome outcome = simulate(scenario, test::handler_software(scenario), laws);
-  test::current_handler = nullptr;
+  const Outcome outcome = judged(scenario, handler);
   EXPECT_EQ(outcome.counters.messages_sent, 20'001U);
   EXPECT_EQ(outcome.counters.receptions, 0U);
   EXPECT_EQ(outcome.counters.received, 0U);
