@@ -134,9 +134,23 @@ struct AnyTaskPool::Impl {
   }
 
   // What TBB calls a task is one of the threads: it does tasks of ours until none is left. To hand each over by itself
-  // would wake three threads for it.
+  // would wake three threads for it. Even a thread that finds no memory for the books of the pool comes to its end
+  // here: all others wait for it.
   void work() {
     std::unique_lock lock(mutex);
+    try {
+      work_while_tasks_are_left(lock);
+    } catch (...) {
+      if (!lock.owns_lock()) lock.lock();
+      if (!failure) failure = std::current_exception();
+      stopping = true;
+      room.notify_all();
+    }
+    --working;
+    ended.notify_all();
+  }
+
+  void work_while_tasks_are_left(std::unique_lock<std::mutex>& lock) {
     while (const auto index = next_task(lock)) {
       lock.unlock();
       std::any result;
@@ -149,8 +163,6 @@ struct AnyTaskPool::Impl {
       lock.lock();
       finish(*index, std::move(result), error);
     }
-    --working;
-    ended.notify_all();
   }
 
   std::optional<std::uint64_t> next_task(std::unique_lock<std::mutex>& lock) {

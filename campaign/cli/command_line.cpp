@@ -129,15 +129,22 @@ int perform(const Action& action) {
   }
 }
 
-// A library ends the program if it gets no thread: then nobody is left to catch what it threw.
+// A library ends the program if it gets no thread: then nobody is left to catch what it threw. There may be no memory
+// for a text either.
 [[noreturn]] void end_without_catcher() {
+  static constexpr std::string_view kWithoutText = "error: the program cannot go on; give it more memory\n";
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const InvariantViolation&) {  // its place is in the stack
+    std::abort();
   } catch (const std::exception& error) {
-    say(kEngineFault, "error",
-        fmt::format("the program cannot go on ({}); give it more memory and processes, or use fewer workers (--jobs)",
-                    printable(error.what())));
+    try {
+      say(kEngineFault, "error",
+          fmt::format("the program cannot go on ({}); give it more memory and processes, or use fewer workers (--jobs)",
+                      printable(error.what())));
+    } catch (...) {
+      steer_terminal(kWithoutText);
+    }
     ::_exit(kEngineFault);
   }
   std::abort();

@@ -38,7 +38,8 @@ inline constexpr int kPatience_ms = 1000, kNoPatience_ms = 0, kForever_ms = -1;
 // Writes a message for people to standard error. If the text cannot be written, the program continues.
 void talk_text(std::string_view text, int patience_ms = kPatience_ms);
 
-// The same with control characters. Only this function sends escape sequences to the terminal.
+// The same with control characters, and without taking memory. Only this function sends escape sequences to the
+// terminal.
 void steer_terminal(std::string_view text, int patience_ms = kPatience_ms);
 
 // A text argument becomes one printable line; other arguments stay.

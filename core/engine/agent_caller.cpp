@@ -13,6 +13,7 @@ AgentCaller::AgentCaller(const RunWatch& watch)
     : counter_(watch),
       tape_(watch.play.empty() ? watch.record : nullptr),
       host_(tape_ != nullptr || watch.foreign != nullptr ? &kForeignHost : &kHost),
+      foreign_agents_(watch.foreign != nullptr),
       is_plain_(watch.record == nullptr && watch.play.empty() && watch.foreign == nullptr),
       is_watched_(!is_plain_ || watch.note != nullptr || !watch.known_ends.empty()) {
   if (!watch.play.empty()) {

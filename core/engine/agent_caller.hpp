@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string_view>
 
@@ -48,6 +49,9 @@ class AgentCaller {
       return nullptr;
     } catch (const InvariantViolation&) {
       throw;  // ours, not the agent's
+    } catch (const std::bad_alloc& error) {
+      if (!foreign_agents_) throw;  // an agent of this program has no memory of its own
+      return failed(false, error.what());
     } catch (const std::exception& error) {
       return failed(false, error.what());
     } catch (...) {
@@ -71,6 +75,7 @@ class AgentCaller {
   std::unique_ptr<ForeignHandles> own_handles_;  // of a recorded run of agents that are part of this program
   std::optional<ForeignCalls> foreign_;
   std::optional<TapePlayer> player_;
+  bool foreign_agents_;   // some agents are no part of this program
   bool is_plain_;         // no tape, no foreign code
   bool is_watched_;       // not plain, or there is a note of the last call or a call that must not be made
   AgentFailure failure_;  // the last one

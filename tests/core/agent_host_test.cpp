@@ -1,5 +1,6 @@
 #include "core/engine/agent_host.hpp"
 
+#include <new>
 #include <stdexcept>
 
 #include "tests/core/small_world.hpp"
@@ -124,6 +125,15 @@ TEST(AgentHostPart, AnAgentThatThrowsIsFiledAndNeverCalledAgain) {
   EXPECT_TRUE(outcome.crash);
   EXPECT_FALSE(outcome.hang);
   EXPECT_EQ(outcome.message, "agent of agv-1: no idea");
+}
+
+// The memory is that of the whole program, and the agent is a part of it: nobody has proved that it failed.
+TEST(AgentHostPart, TooLittleMemoryIsNoFaultOfAnAgentOfThisProgram) {
+  SmallWorld world(test::row_of_tens({0}), [](const fp_host&, fp_controller*, const fp_briefing&, const fp_event& e) {
+    if (e.kind == FP_EVENT_TIMER) throw std::bad_alloc();
+  });
+  started(world);
+  EXPECT_THROW(world.parts.agents.tell(kFirst, timer(1)), std::bad_alloc);
 }
 
 }  // namespace
