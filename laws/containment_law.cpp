@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/outcome/trace_records.hpp"
+#include "core/scenario/order_table.hpp"
 #include "laws/whereabouts.hpp"
 
 namespace fleetproof {
@@ -54,21 +55,14 @@ class ContainmentLaw final : public Law {
   }
 
   Whereabouts bodies_;
-  std::vector<const TransportOrder*> orders_;  // by number of the transport
-  std::optional<TransportId> released_;        // its load is about to appear
+  OrderTable orders_;
+  std::optional<TransportId> released_;  // its load is about to appear
   std::map<LoadId, TrackedLoad> loads_;
   std::map<EntityId, Handling> handling_;
   std::vector<Incident> incidents_;
 };
 
-ContainmentLaw::ContainmentLaw(const Scenario& scenario) : bodies_(scenario) {
-  std::size_t transports = 0;
-  for (const AgvSetup& agv : scenario.agvs) transports += agv.transports.size();
-  orders_.reserve(transports);
-  for (const AgvSetup& agv : scenario.agvs) {
-    for (const TransportOrder& order : agv.transports) orders_.push_back(&order);
-  }
-}
+ContainmentLaw::ContainmentLaw(const Scenario& scenario) : bodies_(scenario), orders_(scenario) {}
 
 void ContainmentLaw::happened(const TraceRecord& record) {
   switch (record.kind) {
@@ -105,7 +99,7 @@ void ContainmentLaw::happened(const TraceRecord& record) {
 void ContainmentLaw::appears(EntityId owner, LoadId number, TrackedLoad& load, const Holder& where, SimTime at) {
   load.holder = where;
   load.transport = std::exchange(released_, std::nullopt);
-  if (!load.transport || load.transport->index() >= orders_.size() || where.kind != Holder::Kind::Station) {
+  if (!load.transport || !orders_.has(*load.transport) || where.kind != Holder::Kind::Station) {
     return accuse(IncidentKind::LoadMovedByNobody, owner, {}, at, number);
   }
   check_put_down(owner, number, load, StationId{where.index}, at);
@@ -139,8 +133,8 @@ void ContainmentLaw::moves(EntityId owner, LoadId number, TrackedLoad& load, con
 }
 
 void ContainmentLaw::check_put_down(EntityId owner, LoadId number, TrackedLoad& load, StationId station, SimTime at) {
-  if (!load.transport || load.transport->index() >= orders_.size()) return;
-  const TransportOrder& order = *orders_[load.transport->index()];
+  if (!load.transport || !orders_.has(*load.transport)) return;
+  const TransportOrder& order = orders_.order(*load.transport);
   if (station == order.from || station == order.to) return;
   load.misplaced = incidents_.size();
   accuse(IncidentKind::LoadAtWrongStation, owner, {}, at, number);
@@ -162,8 +156,7 @@ void ContainmentLaw::transport_done(const TraceRecord& record) {
     if (load.transport != done) continue;
     if (load.delivered) accuse(IncidentKind::LoadDeliveredTwice, record.entity, {}, record.at, number);
     load.delivered = true;
-    const bool there =
-        done.index() < orders_.size() && load.holder == Holder{Holder::Kind::Station, orders_[done.index()]->to.value};
+    const bool there = orders_.has(done) && load.holder == Holder{Holder::Kind::Station, orders_.order(done).to.value};
     if (!there && !load.misplaced) accuse(IncidentKind::LoadAtWrongStation, record.entity, {}, record.at, number);
   }
 }

@@ -8,6 +8,7 @@
 
 #include "core/outcome/trace_records.hpp"
 #include "core/outcome/work_and_progress.hpp"
+#include "core/scenario/order_table.hpp"
 #include "laws/approach.hpp"
 #include "laws/fault_watch.hpp"
 #include "laws/inferred_waits.hpp"
@@ -109,11 +110,7 @@ class ProgressLaw final : public Law {
   FaultWatch faults_;
   Approach approach_;
   std::vector<AgvState> agvs_;
-  struct Order {
-    const TransportOrder* what;
-    std::uint32_t owner;
-  };
-  std::vector<Order> orders_;                   // by number of the transport
+  OrderTable orders_;
   std::vector<TransportId> transport_of_load_;  // invalid: the load comes from nowhere
   std::optional<TransportId> released_;
   std::uint64_t done_ = 0, motions_ = 0, motions_then_ = 0;  // then: when the fleet last advanced
@@ -132,14 +129,9 @@ ProgressLaw::ProgressLaw(const Scenario& scenario)
       faults_(scenario),
       approach_(scenario),
       agvs_(scenario.agvs.size()),
+      orders_(scenario),
       next_look_(kStart + look_every_) {
-  std::size_t transports = 0;
-  for (const AgvSetup& agv : scenario.agvs) transports += agv.transports.size();
-  orders_.reserve(transports), transport_of_load_.reserve(transports);
-  for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
-    for (const TransportOrder& order : scenario.agvs[i].transports)
-      orders_.push_back({&order, static_cast<std::uint32_t>(i)});
-  }
+  transport_of_load_.reserve(orders_.size());
 }
 
 void ProgressLaw::happened(const TraceRecord& record) {
@@ -246,8 +238,8 @@ void ProgressLaw::load_moves(const TraceRecord& record) {
 }
 
 void ProgressLaw::transport_over(TransportId transport, bool done, SimTime at) {
-  if (transport.index() >= orders_.size()) return;
-  AgvState& agv = agvs_[orders_[transport.index()].owner];
+  if (!orders_.has(transport)) return;
+  AgvState& agv = agvs_[orders_.agv_of(transport).index()];
   std::erase(agv.open, transport);
   agv.done += done ? 1 : 0;
   done_ += done ? 1 : 0;
@@ -296,7 +288,7 @@ bool ProgressLaw::goes_on(const Incident& incident) {
 Wait ProgressLaw::wait_of(EntityId agv, SimTime now) {
   const AgvState& state = agvs_[agv.index()];
   if (state.declared.valid()) return {state.declared, false};
-  const TransportOrder& order = *orders_[state.carried.value_or(state.open.front()).index()].what;
+  const TransportOrder& order = orders_.order(state.carried.value_or(state.open.front()));
   return {inferred_waits_.of(agv, state.carried ? order.to : order.from, state.carried.has_value(), now), true};
 }
 
@@ -375,7 +367,7 @@ Duration ProgressLaw::longest_way(SimTime now) {
   for (std::size_t i = 0; i < agvs_.size(); ++i) {
     const AgvState& agv = agvs_[i];
     if (!agv.has_work()) continue;
-    const TransportOrder& order = *orders_[agv.carried.value_or(agv.open.front()).index()].what;
+    const TransportOrder& order = orders_.order(agv.carried.value_or(agv.open.front()));
     const Approach::Gain gain = approach_.gain(EntityId{i}, agv.carried ? order.to : order.from);
     const double speed_mps =
         slower_way_mps(*scenario_.map, scenario_.type_of(scenario_.agvs[i]), agv.carried.has_value());

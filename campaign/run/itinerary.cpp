@@ -25,10 +25,8 @@ Vec2 take_vector(ByteSource& source) {
 void ItineraryKeeper::record(const TraceRecord& record, std::string_view) {
   if (record.kind == TraceKind::ActivityBegins || record.kind == TraceKind::ActivityEnds) turned(record);
   if (record.kind != TraceKind::TransportDone) return;
-  std::uint32_t number = read<traced::TransportDone>(record).transport.value;
-  for (std::size_t agv = 0; agv < record.entity.index(); ++agv)
-    number -= static_cast<std::uint32_t>(scenario_.agvs[agv].transports.size());
-  found_.done.push_back({record.entity, number, record.at});
+  const TransportId transport = read<traced::TransportDone>(record).transport;
+  found_.done.push_back({record.entity, orders_.own_number(transport), record.at});
 }
 
 void ItineraryKeeper::turned(const TraceRecord& record) {

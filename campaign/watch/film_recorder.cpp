@@ -11,6 +11,7 @@
 #include "campaign/watch/trace_details.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/outcome/note_records.hpp"
+#include "core/scenario/order_table.hpp"
 
 namespace fleetproof {
 namespace {
@@ -44,13 +45,6 @@ web::Receipt receipt_of(TraceKind kind) {
 std::string goal_text(double goal_deg) {
   const auto degrees = static_cast<int>(std::lround(goal_deg));
   return fmt::format("to {}\u00b0", degrees <= -180 ? degrees + 360 : degrees);
-}
-
-// The transports of a scenario have one number after the other.
-const TransportOrder& order_of(const Scenario& scenario, std::size_t number) {
-  std::size_t agv = 0;
-  while (number >= scenario.agvs[agv].transports.size()) number -= scenario.agvs[agv++].transports.size();
-  return scenario.agvs[agv].transports[number];
 }
 
 }  // namespace
@@ -232,7 +226,7 @@ void FilmRecorder::note_order(const TraceRecord& record) {
   const bool released = record.kind == TraceKind::OrderReleased;
   const TransportId transport =
       released ? read<traced::OrderReleased>(record).transport : read<traced::TransportDone>(record).transport;
-  const TransportOrder& order = order_of(scenario_, transport.index());
+  const TransportOrder& order = OrderTable(scenario_).order(transport);
   const std::string from = scenario_.map->station(order.from).name, to = scenario_.map->station(order.to).name;
   if (released && !order_of_.contains(transport.index())) {
     order_of_[transport.index()] = film_.orders.size();

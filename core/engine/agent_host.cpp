@@ -163,9 +163,9 @@ void AgentHost::start(AgvId agv) {
   tell(agv, event);
 }
 
-void AgentHost::order_released(AgvId agv, std::uint64_t own_number) {
-  const TransportOrder& order = run_.setup(agv).transports[own_number];
-  const TransportId transport = run_.transport_of(agv, own_number);
+void AgentHost::order_released(TransportId transport) {
+  const TransportOrder& order = run_.orders.order(transport);
+  const AgvId agv = run_.orders.agv_of(transport);
   ++run_.counters.transports_released;
   const LoadId load = run_.world.add_load(transport, agv, order.from, order.to);
   run_.trace(agv, traced::OrderReleased{transport});
@@ -220,7 +220,7 @@ bool AgentHost::is_over(TransportId transport) const {
 }
 
 void AgentHost::tell_again(AgvId agv, const Load& load) {
-  const TransportOrder& order = run_.setup(agv).transports[run_.own_number(agv, load.transport)];
+  const TransportOrder& order = run_.orders.order(load.transport);
   const bool at_station = load.holder.kind == Holder::Kind::Station;
   tell_order(agv, load.transport, at_station ? StationId{load.holder.index} : order.from, order.to);
 }

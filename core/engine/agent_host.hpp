@@ -63,8 +63,7 @@ class AgentHost {
   // the event. Size and time of the event are filled in here.
   void tell(AgvId agv, fp_event event);
   void start(AgvId agv);
-  // `own_number`: of the transport among those of this AGV.
-  void order_released(AgvId agv, std::uint64_t own_number);
+  void order_released(TransportId transport);
   // The event. The agent may have been frozen since.
   void becomes_free(AgvId agv);
 

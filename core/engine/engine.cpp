@@ -82,7 +82,8 @@ inline void Engine::goes_on_until(SimTime at) {
     run_.queue.push(kStart, agv, Event::Kind::Start);
     const auto& transports = run_.setup(agv).transports;
     for (std::size_t own = 0; own < transports.size(); ++own)
-      run_.queue.push(kStart + transports[own].release, agv, Event::Kind::OrderReleased, own);
+      run_.queue.push(kStart + transports[own].release, agv, Event::Kind::OrderReleased,
+                      run_.orders.of_agv(agv, own).value);
     parts_.contacts.predict(agv);
     parts_.battery.predict_empty(agv);
   }
@@ -99,7 +100,7 @@ inline void Engine::goes_on_until(SimTime at) {
     case Event::Kind::Start:
       return parts_.agents.start(id);
     case Event::Kind::OrderReleased:
-      return parts_.agents.order_released(id, event.payload);
+      return parts_.agents.order_released(TransportId{static_cast<std::uint32_t>(event.payload)});
     case Event::Kind::ActivityEnds:
       if (parts_.activities.is_current(id, event.stamp)) parts_.actions.activity_ends(id);
       return;

@@ -32,10 +32,10 @@ void FaultInjector::schedule() {
 }
 
 void FaultInjector::load_taken_up(AgvId agv, TransportId transport) {
-  const std::uint64_t own = run_.own_number(agv, transport);
   for (std::size_t i = 0; i < fault_states_.size(); ++i) {
     const Fault& fault = run_.scenario.faults[i];
-    if (fault.agv != agv || fault.transport != own || fault_states_[i].came) continue;
+    if (fault.agv != agv || !fault.transport || fault_states_[i].came) continue;
+    if (*fault.transport != run_.orders.own_number(transport)) continue;
     fault_states_[i].came = true;  // the first time that the load is taken up
     run_.queue.push(run_.now + fault.at, agv, Event::Kind::FaultStrikes, i);
   }
@@ -126,7 +126,7 @@ std::optional<Denial> FaultInjector::load_drops(AgvId agv, std::uint64_t number)
   const Fault& fault = run_.scenario.faults[number];
   const LoadId load = run_.world.carried_load(agv);
   if (!load.valid()) return Denial::NoSuchLoad;
-  if (fault.transport && run_.own_number(agv, run_.world.load(load).transport) != *fault.transport)
+  if (fault.transport && run_.orders.own_number(run_.world.load(load).transport) != *fault.transport)
     return Denial::NoSuchLoad;  // the fault belongs to another transport
   const OrientedRectangle from = run_.world.body(agv).piece.body_at(run_.now);
   const Pose pose{from.centre_m + fault.ahead_m * from.heading + fault.left_m * left_of(from.heading), from.heading};

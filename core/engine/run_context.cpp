@@ -13,14 +13,10 @@ RunContext::RunContext(const Scenario& of, std::span<const std::unique_ptr<Law>>
       agvs(of.agvs.size()),
       motion_key(stream_key(of.seed_of(Stream::Motion), Stream::Motion)),
       draw_numbers(of),
+      orders(of),
       hears_notes_(sink != nullptr || !of.radio.adverse.spared_kinds.empty()) {
   ensure(of.entity_count() < EventOrder::kNoEntity, "every entity has a place in the order of events");
-  std::uint64_t transports = 0;
-  for (std::size_t i = 0; i < agvs.size(); ++i) {
-    agvs[i].station = of.agvs[i].start;
-    first_transport_.push_back(transports);
-    transports += of.agvs[i].transports.size();
-  }
+  for (std::size_t i = 0; i < agvs.size(); ++i) agvs[i].station = of.agvs[i].start;
 }
 
 Piece RunContext::standing_piece(AgvId agv, const Pose& pose) const {
@@ -30,14 +26,6 @@ Piece RunContext::standing_piece(AgvId agv, const Pose& pose) const {
 double RunContext::motion_draw(MotionTopic topic, AgvId agv, std::uint32_t number) const {
   return unit_interval(
       word64(philox(motion_key, {number, 0, static_cast<std::uint32_t>(topic), draw_numbers.of(agv).value}), 0));
-}
-
-TransportId RunContext::transport_of(AgvId agv, std::uint64_t own_number) const {
-  return TransportId{static_cast<std::uint32_t>(first_transport_[agv.index()] + own_number)};
-}
-
-std::uint64_t RunContext::own_number(AgvId agv, TransportId transport) const {
-  return transport.value - first_transport_[agv.index()];
 }
 
 bool RunContext::transports_are_open() const { return open_transports(counters) > 0; }

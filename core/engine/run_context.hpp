@@ -13,6 +13,7 @@
 #include "core/outcome/outcome.hpp"
 #include "core/outcome/trace_records.hpp"
 #include "core/scenario/draw_numbers.hpp"
+#include "core/scenario/order_table.hpp"
 #include "core/scenario/scenario.hpp"
 
 namespace fleetproof {
@@ -40,6 +41,7 @@ struct RunContext {
   std::vector<AgvStatus> agvs;
   std::uint64_t motion_key;
   DrawNumbers draw_numbers;
+  OrderTable orders;
 
   AgvStatus& status(AgvId agv) { return agvs[agv.index()]; }
   const AgvStatus& status(AgvId agv) const { return agvs[agv.index()]; }
@@ -59,9 +61,6 @@ struct RunContext {
   double motion_draw(MotionTopic topic, AgvId agv, std::uint32_t number) const;
   void progressed(AgvId agv) { last_progress = status(agv).last_progress = now; }
 
-  // Transports are numbered through the fleet; each AGV counts its own from 0.
-  TransportId transport_of(AgvId agv, std::uint64_t own_number) const;
-  std::uint64_t own_number(AgvId agv, TransportId transport) const;
   bool transports_are_open() const;
   void move_load(LoadId load, Holder to);
   void trace_load(LoadId load);
@@ -88,7 +87,6 @@ struct RunContext {
 
  private:
   bool hears_notes_;
-  std::vector<std::uint64_t> first_transport_;  // by AGV
 };
 
 }  // namespace fleetproof

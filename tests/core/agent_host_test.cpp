@@ -64,7 +64,7 @@ TEST(AgentHostPart, IsBackWhenEveryReasonForItsAbsenceIsOver) {
   std::uint32_t boot = 0;
   SmallWorld world(scenario,
                    [&](const fp_host&, fp_controller*, const fp_briefing& b, const fp_event&) { boot = b.boot; });
-  started(world).parts.agents.order_released(kFirst, 0);
+  started(world).parts.agents.order_released(TransportId{0U});
   auto& agents = world.parts.agents;
   world.heard.clear();
   agents.goes_away(kFirst);

@@ -12,6 +12,7 @@ using test::started;
 
 Scenario with(std::vector<Fault> faults) {
   Scenario scenario = test::row_of_tens({0});
+  scenario.agvs[0].transports.assign(2, {StationId{0U}, StationId{2U}, Duration{}});
   scenario.faults = std::move(faults);
   return scenario;
 }

@@ -83,7 +83,7 @@ TEST(OperatorActionsPart, RestartsAnAgentAtAStandstillAndNotWhileWorkIsUnderWay)
   Scenario scenario = with_operator({0, 2});
   scenario.agvs[1].transports = {{StationId{2U}, StationId{3U}, Duration{}}};
   SmallWorld world(scenario);
-  started(world).parts.agents.order_released(kSecond, 0);
+  started(world).parts.agents.order_released(TransportId{0U});
   world.clock(130.0);
   world.run.status(kFirst).activity = world.drive_activity(kFirst, world.lane(0, 0));
   world.parts.operator_actions.looks();
