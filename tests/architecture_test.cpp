@@ -92,6 +92,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
 // Folders of sources inside a room, each with the reason why they are no rooms of their own.
 const std::map<std::string, std::string> kInsideARoom = {
     {"campaign/cli/evidence", "one verb of campaign/cli"},
+    {"core/agents/central", "the pair of core/agents for fleets with a computer"},
     {"core/agents/faulty", "the faulty agents of core/agents"},
     {"core/sdk/fleetproof", "the header of core/sdk, under the name by which agents include it"},
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "core/sdk/fleetproof/agent.h"
 
 namespace fleetproof::agents {
@@ -19,6 +21,13 @@ constexpr fp_agent_type agent_type(const char* name, const char* description, Cr
           [](void* agent, const fp_event* event) { static_cast<Agent*>(agent)->on_event(*event); },
           [](void* agent) { delete static_cast<Agent*>(agent); }};
 }
+
+// The most stations, lanes or AGVs that a plant may have for agents whose paths and messages name each by 16 bits.
+inline constexpr std::uint32_t kNumbersOnTheWire = 0xffff;
+// Whether this plant has no more of them. If it has, it says why the agent cannot start.
+bool has_numbers_for_all(const fp_host& host, fp_controller* controller, const fp_briefing& briefing);
+// For `create`: the sentence goes to hosts that hear it (minor 4). Returns false.
+bool cannot_start(const fp_host& host, fp_controller* controller, const char* why);
 
 extern const fp_agent_type kHullLock;
 extern const fp_agent_type kReckless;

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "core/agents/agent_type.hpp"
+#include "core/agents/central/roles.hpp"
 #include "core/agents/faulty/faulty_agents.hpp"
 #include "core/agents/hull_lock.hpp"
 
@@ -13,8 +14,11 @@ struct ReferenceAgent {
   const fp_agent_type* type;
   uint32_t most_of_each;  // stations, drives, AGVs; FP_NONE: any number
 };
-constexpr ReferenceAgent kWithoutPlantedFault[] = {
-    {&kScripted, FP_NONE}, {&kHullLock, kNumbersOnTheWire}, {&kReckless, FP_NONE}};
+constexpr ReferenceAgent kWithoutPlantedFault[] = {{&kScripted, FP_NONE},
+                                                   {&kHullLock, kNumbersOnTheWire},
+                                                   {&kReckless, FP_NONE},
+                                                   {&central::kFollower, kNumbersOnTheWire},
+                                                   {&central::kZoneServer, kNumbersOnTheWire}};
 }  // namespace
 
 extern "C" {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string>
 #include <utility>
 
 #include "core/agents/fleet.hpp"
@@ -386,30 +385,9 @@ void HullLock::reconsider() {
   request(std::move(retreat), Purpose::MakeWay, to == Yields::ToElders ? eldest_ns : -1);
 }
 
-namespace {
-
-void say_what_is_too_large(const fp_host& host, fp_controller* controller, const fp_briefing& briefing) {
-  constexpr std::uint32_t kSaysWhy = 4;  // minor version
-  if (host.abi_minor < kSaysWhy) return;
-  const fp_map& map = *briefing.map;
-  std::string text;
-  for (const auto& [count, what] : {std::pair(map.station_count, "stations"), std::pair(map.lane_count, "drives"),
-                                    std::pair(briefing.fleet_count, "AGVs")}) {
-    if (count > kNumbersOnTheWire) text += (text.empty() ? "there are " : " and ") + std::to_string(count) + " " + what;
-  }
-  host.cannot_start(controller,
-                    (text + ", and a message can name " + std::to_string(kNumbersOnTheWire) + " of each").c_str());
-}
-
-}  // namespace
-
 void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
                        const LockOptions& options) {
-  const fp_map& map = *briefing->map;
-  if (std::max({map.station_count, map.lane_count, briefing->fleet_count}) > kNumbersOnTheWire) {
-    say_what_is_too_large(*host, controller, *briefing);
-    return nullptr;
-  }
+  if (!has_numbers_for_all(*host, controller, *briefing)) return nullptr;
   return new HullLock(*host, controller, *briefing, options);
 }
 

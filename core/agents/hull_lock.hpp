@@ -126,9 +126,6 @@ class HullLock {
   double plan_after_s_ = 0.0;
 };
 
-// The most stations, lanes or AGVs that a plant may have: messages name each of them by a number of 16 bits.
-inline constexpr std::uint32_t kNumbersOnTheWire = 0xffff;
-
 // For the C table. Returns null, and says why, if there are more of them.
 void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
                        const LockOptions& options);

@@ -18,7 +18,7 @@ constexpr Word kWords[] = {
     {"newcomer", "it asked one more AGV for a request that is open"},
     {"deferred", "it answered a request with DEFER: not now"},
     {"joins", "in a divided fleet, it asked who else is in the zones of its way"},
-    {"grant-lost", "it was asked again for what it has granted already"},
+    {"grant-lost", "it was asked again for what it granted; a follower: it lacks the steps before those of a GRANT"},
     {"retransmission", "it asked again, because no answer came"},
     {"overtaken", "it granted a request that comes first, and has to ask that AGV again for its own"},
     {"late-grant", "a GRANT, or a STATE that repeats one, was for another request or attempt than its open one"},
@@ -29,6 +29,12 @@ constexpr Word kWords[] = {
     {"retreat", "it asks for a way back, to let others pass"},
     {"drives-to-charger", "its battery is low"},
     {"number-wrapped", "its requests began again with number 1"},
+    {"steps", "numbered actions that a zone-server grants to a follower: lanes to drive, loads to pick and drop"},
+    {"learning", "the zone-server does not know yet where each AGV stands, and grants nothing"},
+    {"finding its place", "since a restart, the follower waits until it surely rests"},
+    {"grant", "the zone-server granted steps"},
+    {"server-restarted", "the follower heard that its zone-server has started anew"},
+    {"grant-of-another-way", "the follower got a GRANT from before a restart of the server, or of its own computer"},
 };
 
 }  // namespace

@@ -18,6 +18,8 @@ const std::map<std::string, std::string> kDeclaredElsewhere = {
     {"campaign/cli/main.cpp main", "the program"},
     {"core/agents/agents.cpp fp_reference_agent", "a C header, agents.h, declares it"},
     {"core/agents/agents.cpp fp_faulty_agent", "a C header, agents.h, declares it"},
+    {"core/agents/central/central_plugin.cpp fp_agent_query",
+     "the entry point that core/sdk/fleetproof/agent.h declares"},
     {"core/agents/plugin.cpp fp_agent_query", "the entry point that core/sdk/fleetproof/agent.h declares"},
 };
 

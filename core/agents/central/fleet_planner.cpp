@@ -1,0 +1,470 @@
+#include "core/agents/central/fleet_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/agents/fleet.hpp"
+#include "core/agents/lane_costs.hpp"
+
+namespace fleetproof::agents::central {
+namespace {
+
+constexpr double kLead_s = 10.0;     // so long before its way ends, an AGV gets more of it
+constexpr double kSection_m = 24.0;  // a section that is as long need not be longer
+constexpr double kMostOfASection_m = 40.0;
+constexpr double kPlanAgain_s = 2.0;  // after so long, an AGV that waits may find another way
+constexpr double kLookAgain_s = 1.0;  // and so long it does not ask others again to make way
+// So long others may pass before an AGV that waits; then its floor is kept free.
+constexpr double kKeepsFreeAfter_s = 20.0;
+// An AGV that waits for so long itself makes way for an older one, and so long it waits before an older one makes way.
+constexpr double kYields_s = 4.0, kInsists_s = 15.0, kStandsBack_s = 30.0;
+constexpr int kMostInARow = 4;  // AGVs that make way for each other
+
+constexpr double kTransferTakes_s = 5.0, kTurnTakes_s = 3.0;  // expected
+// Prices of a station at which another AGV will stand: about how long it stays.
+constexpr double kMovingPrice_s = 8.0, kIdlePrice_s = 10.0, kWaitingPrice_s = 20.0, kWallPrice_s = 1000.0;
+constexpr double kUnsafeChargerPrice_s = 30.0, kNoWayBackPrice_s = 300.0, kNoParkingPrice_s = 10.0;
+constexpr double kBurdenPrice_s = 5.0, kMostBurdenPrice_s = 200.0;
+constexpr std::uint32_t kCrowdedBurden = 1;
+constexpr std::size_t kMostPlaces = 40;  // that are looked at, for an AGV that makes way
+
+double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+}  // namespace
+
+FleetPlanner::Model::Model(const MapView& map, const HullGeometry& geometry, std::uint32_t agv, std::uint32_t of)
+    : rules(map, tells_minor_2(geometry.parts().facts()) ? agv_of(geometry.parts().facts(), agv).vehicle_type : 0),
+      routes(map, rules),
+      prices(map, rules, lane_costs_s(geometry.parts(), agv), geometry.parts().facts().fleet_count),
+      number(of) {}
+
+FleetPlanner::FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook& book, const Settings& settings)
+    : map_(map),
+      geometry_(geometry),
+      book_(book),
+      settings_(settings),
+      places_(map, geometry),
+      tasks_(book.fleet_count()),
+      pushed_(book.fleet_count()) {
+  for (std::uint32_t agv = 0; agv < book.fleet_count(); ++agv) {
+    const std::uint32_t number = agents::model_of(geometry.parts().facts(), agv);
+    auto& model = models_[number];
+    if (!model) model = std::make_unique<Model>(map, geometry, agv, number);
+    model_of_.push_back(model.get());
+  }
+}
+
+// ---- work
+
+void FleetPlanner::begin(std::uint32_t agv) { tasks_[agv] = {}; }
+
+void FleetPlanner::take_orders(std::uint32_t agv, std::uint32_t first, std::span<const Order> orders) {
+  Task& task = tasks_[agv];
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    if (first + i != task.orders) continue;
+    const Order& order = orders[i];
+    if (order.id != book_.way(agv).first_load) task.goals.push_back({order.from, {Step::Kind::Pick, order.id}});
+    task.goals.push_back({order.to, {Step::Kind::Drop, order.id}});
+    ++task.orders;
+  }
+}
+
+bool FleetPlanner::carries_load(std::uint32_t agv) const {
+  const auto& goals = tasks_[agv].goals;
+  const auto next = std::ranges::find_if(goals, [](const Goal& goal) { return goal.step.kind != Step::Kind::Charge; });
+  return next != goals.end() && next->step.kind == Step::Kind::Drop;
+}
+
+// Those that stand back are younger than all others; then those that do not wait.
+bool FleetPlanner::is_older(std::uint32_t a, std::uint32_t b) const {
+  const auto age = [&](std::uint32_t agv) {
+    const Task& task = tasks_[agv];
+    return std::tuple(now_ns_ < task.stands_back_ns, task.since_ns < 0, task.since_ns, agv);
+  };
+  return age(a) < age(b);
+}
+
+std::vector<std::uint32_t> FleetPlanner::by_age() const {
+  std::vector<std::uint32_t> agvs;
+  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) agvs.push_back(agv);
+  std::ranges::sort(agvs, [&](std::uint32_t a, std::uint32_t b) { return is_older(a, b); });
+  return agvs;
+}
+
+void FleetPlanner::plan(std::int64_t now_ns) {
+  if (!book_.all_joined()) return;
+  now_ns_ = now_ns;
+  reserved_.clear();
+  pushed_.assign(pushed_.size(), false);
+  for (const std::uint32_t agv : by_age()) plan_for(agv);
+}
+
+void FleetPlanner::plan_for(std::uint32_t agv) {
+  Task& task = tasks_[agv];
+  if (book_.way(agv).out_of_order || time_left_s(agv) > kLead_s) return;
+  look_at_battery(agv);
+  if (task.charging) return;
+  transfer_here(agv);
+  if (task.charging) return;
+  const bool plans_again = !task.wanted || seconds(now_ns_ - task.planned_ns) > kPlanAgain_s;
+  if (task.is_idle()) {
+    if (!plans_again || !book_.way(agv).is_waiting()) return;
+    task.wanted.emplace(), task.planned_ns = now_ns_;
+    if (!places_.is_safe(book_.end_of_way(agv).station)) evade(agv, nullptr, 0);
+    return;
+  }
+  if (task.since_ns < 0) task.since_ns = now_ns_;
+  if (plans_again || !is_identical(task.wanted->up_to(0), book_.end_of_way(agv))) {
+    task.wanted = towards_goals(agv);
+    task.planned_ns = now_ns_;
+    task.obstruction = {};
+  }
+  if (task.wanted->ends.empty()) return;
+  if (is_still_obstructed(agv) || !extend(agv, *task.wanted)) wait(agv);
+}
+
+void FleetPlanner::transfer_here(std::uint32_t agv) {
+  Task& task = tasks_[agv];
+  while (!task.goals.empty()) {
+    const Path here = book_.end_of_way(agv);
+    const Goal goal = task.goals.front();
+    if (goal.station != here.station || !map_.may_stay(here.station, here.heading)) return;
+    if (!book_.grant(agv, {&goal.step, 1})) return;
+    task.goals.pop_front();
+    task.since_ns = -1;
+    task.wanted.reset();
+    task.charging = goal.step.kind == Step::Kind::Charge;
+    if (task.charging) return;
+  }
+}
+
+void FleetPlanner::look_at_battery(std::uint32_t agv) {
+  if (!map_.has_chargers()) return;
+  Task& task = tasks_[agv];
+  const double level = book_.way(agv).battery;
+  if (level >= settings_.charge_to) task.charging = false;
+  if (task.charging || !settings_.is_low(level)) return;
+  if (!task.goals.empty() && task.goals.front().step.kind == Step::Kind::Charge) return;
+  const bool loaded = carries_load(agv), urgent = settings_.is_urgent(level, loaded);
+  if (loaded && !urgent) return;
+  const std::uint32_t charger = free_charger(agv, urgent);
+  if (charger == FP_NONE) return;
+  task.goals.push_front({charger, {Step::Kind::Charge, FP_NONE}});
+  task.wanted.reset();
+}
+
+// As far as the server knows; what the AGV has done since makes it less.
+double FleetPlanner::time_left_s(std::uint32_t agv) const {
+  const FloorBook::Way& way = book_.way(agv);
+  const fp_agv& like = agv_of(geometry_.parts().facts(), agv);
+  double sum_s = 0.0;
+  Vec heading = way.held.heading;
+  for (const Step& step : way.steps) {
+    if (!step.drives()) {
+      sum_s += kTransferTakes_s;
+      continue;
+    }
+    if (!same_heading(heading, map_.start_heading(step.what))) sum_s += kTurnTakes_s;
+    sum_s += map_.lane(step.what).length_m / lane_speed_mps(map_, step.what, like);
+    heading = map_.end_heading(step.what);
+  }
+  return sum_s;
+}
+
+// ---- ways
+
+void FleetPlanner::price(Model& model, std::uint32_t agv, bool loaded, double waiting_s) {
+  model.prices.begin(loaded);
+  for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
+    if (other == agv) continue;
+    const FloorBook::Way& way = book_.way(other);
+    const Task& task = tasks_[other];
+    const double extra_s = way.out_of_order    ? kWallPrice_s
+                           : !way.is_waiting() ? kMovingPrice_s
+                                               : std::min(waiting_s, task.is_idle() ? kIdlePrice_s : kWaitingPrice_s);
+    model.prices.price_station(book_.end_of_way(other).station,
+                               way.is_waiting() ? std::max(extra_s, waiting_s) : extra_s);
+    model.prices.price_meetings(way.held);
+    if (task.wanted) model.prices.price_meetings(task.wanted->path);
+  }
+}
+
+void FleetPlanner::search(Model& model, const Path& from, std::uint32_t goal) {
+  const auto remains_s = remaining_costs_s(geometry_.parts(), model.number, goal);
+  model.routes.search_towards(goal, remains_s, from.station, from.heading, model.prices.costs_s());
+}
+
+// How much an AGV that stands there blocks. Two AGVs so near to each other that none of them can turn may stay for
+// ever.
+std::uint32_t FleetPlanner::burden_at(std::uint32_t agv, const Path& standing) {
+  const std::uint32_t burden = places_.burden(standing.station);
+  if (burden != 0) return burden;
+  for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
+    if (other != agv && geometry_.turns_conflict(agv, standing.station, other, book_.end_of_way(other).station))
+      return kCrowdedBurden;
+  }
+  return 0;
+}
+
+// A section that grows lane by lane.
+struct FleetPlanner::Walk {
+  Walk(FleetPlanner& of, std::uint32_t id) : planner(of), agv(id) { section.path = planner.book_.end_of_way(agv); }
+
+  FleetPlanner& planner;
+  std::uint32_t agv;
+  Section section;
+  Section::End here, least;
+  std::uint32_t least_burden = ~0U;
+  double length_m = 0.0;
+
+  Path end() const { return end_of(planner.map_, section.path); }
+  bool is_done() const { return !section.ends.empty() && (length_m >= kSection_m || here.goals > 0); }
+
+  // False if the walk is done, or has no room for this lane.
+  bool drive(std::uint32_t lane) {
+    const double lane_m = planner.map_.lane(lane).length_m;
+    if (planner.book_.way(agv).held.count + here.lanes >= kPathLanesMax) return false;
+    if ((here.lanes > 0 && length_m + lane_m > kMostOfASection_m) || !section.path.append(lane)) return false;
+    length_m += lane_m;
+    section.steps.push_back({Step::Kind::Drive, lane});
+    ++here.lanes;
+    note_end();
+    return true;
+  }
+
+  // False if the walk ends before the end of these lanes.
+  bool follow(std::span<const std::uint32_t> lanes) {
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+      if (!drive(lanes[i]) || (i + 1 < lanes.size() && is_done())) return false;
+    }
+    return !lanes.empty();
+  }
+
+  void transfer(const Goal& goal) {
+    section.steps.push_back(goal.step);
+    ++here.goals;
+    note_end();
+  }
+
+  void note_end() {
+    here.steps = static_cast<std::uint32_t>(section.steps.size());
+    if (here.lanes == 0) return;
+    const std::uint32_t burden = planner.burden_at(agv, end());
+    if (burden <= least_burden) least = here, least_burden = burden;
+    if (burden > 0) return;
+    if (!section.ends.empty() && section.ends.back().lanes == here.lanes) section.ends.pop_back();
+    section.ends.push_back(here);
+  }
+
+  // If it passes no waiting place, it ends where the AGV blocks least.
+  Section take() {
+    if (section.ends.empty() && least.lanes > 0) section.ends.push_back(least);
+    return std::move(section);
+  }
+};
+
+// To the first goal and on to a waiting place, or to a waiting place on the way.
+Section FleetPlanner::towards_goals(std::uint32_t agv) {
+  Model& model = *model_of_[agv];
+  bool loaded = carries_load(agv);
+  price(model, agv, loaded, 0.0);
+  Walk walk(*this, agv);
+  for (const Goal& goal : tasks_[agv].goals) {
+    const Path here = walk.end();
+    if (here.station != goal.station || !map_.may_stay(here.station, here.heading)) {
+      search(model, here, goal.station);
+      if (!walk.follow(model.routes.lanes(goal.station))) return walk.take();
+    }
+    walk.transfer(goal);
+    if (goal.step.kind == Step::Kind::Charge) {  // it stays there, and nothing is behind it
+      walk.section.ends.assign(1, walk.here);
+      return walk.take();
+    }
+    if (walk.is_done()) return walk.take();
+    const bool now_loaded = goal.step.kind == Step::Kind::Pick;
+    if (model.rules.any() && now_loaded != loaded) price(model, agv, now_loaded, 0.0);
+    loaded = now_loaded;
+  }
+  const std::uint32_t place = waiting_place(agv, walk.end());
+  if (place != FP_NONE) walk.follow(model.routes.lanes(place));
+  return walk.take();
+}
+
+// The nearest one at which no other AGV is or will be. Afterwards, the way there may be asked for.
+std::uint32_t FleetPlanner::waiting_place(std::uint32_t agv, const Path& from) {
+  Model& model = *model_of_[agv];
+  std::uint32_t found = FP_NONE;
+  const auto look_at = [&](std::uint32_t station, double) {
+    if (station == from.station || !places_.is_safe(station)) return false;
+    for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
+      if (other != agv && geometry_.turn_conflict(agv, station, other, book_.way(other).held)) return false;
+    }
+    found = station;
+    return true;
+  };
+  model.routes.search_until(look_at, from.station, from.heading, model.prices.costs_s());
+  return found;
+}
+
+std::uint32_t FleetPlanner::free_charger(std::uint32_t agv, bool urgent) {
+  Model& model = *model_of_[agv];
+  const Path standing = book_.end_of_way(agv);
+  price(model, agv, carries_load(agv), 0.0);
+  model.routes.search(standing.station, standing.heading, model.prices.costs_s());
+  const auto is_taken = [&](std::uint32_t station) {
+    for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
+      if (other == agv) continue;
+      const auto& goals = tasks_[other].goals;
+      const bool goes_there =
+          !goals.empty() && goals.front().step.kind == Step::Kind::Charge && goals.front().station == station;
+      if (goes_there || geometry_.turn_conflict(agv, station, other, book_.end_of_way(other))) return true;
+    }
+    return false;
+  };
+  std::uint32_t best = FP_NONE;
+  double best_s = urgent ? 2.0 * kWallPrice_s : kWallPrice_s;
+  for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
+    if ((map_.station(station).purposes & FP_CHARGING) == 0 || model.routes.cost_s(station) >= best_s) continue;
+    const double cost_s = model.routes.cost_s(station) + (places_.is_safe(station) ? 0.0 : kUnsafeChargerPrice_s) +
+                          (is_taken(station) ? kWallPrice_s : 0.0);
+    if (cost_s < best_s) best = station, best_s = cost_s;
+  }
+  return best;
+}
+
+// ---- granting
+
+// As much of the section as is free, up to one of its ends.
+bool FleetPlanner::extend(std::uint32_t agv, const Section& section) {
+  const std::uint32_t free = free_lanes(agv, section.path);
+  const Section::End* best = nullptr;
+  for (const Section::End& end : section.ends) {
+    if (end.lanes <= free) best = &end;
+  }
+  if (best == nullptr || !book_.grant(agv, std::span(section.steps).first(best->steps))) return false;
+  Task& task = tasks_[agv];
+  task.charging = section.steps[best->steps - 1].kind == Step::Kind::Charge;
+  task.goals.erase(task.goals.begin(), task.goals.begin() + best->goals);
+  if (best->goals > 0) task.since_ns = -1;
+  task.wanted.reset();
+  return true;
+}
+
+std::uint32_t FleetPlanner::free_lanes(std::uint32_t agv, const Path& path) {
+  Path part = path;
+  const auto shorten = [&](std::uint32_t other, const Path& of_other) {
+    if (other == agv || part.empty() || !geometry_.conflict(agv, part, other, of_other)) return;
+    std::uint32_t free = 0, taken = part.count;
+    while (free + 1 < taken) {
+      part.count = (free + taken) / 2;
+      (geometry_.conflict(agv, part, other, of_other) ? taken : free) = part.count;
+    }
+    part.count = free;
+  };
+  for (const Need& need : reserved_) shorten(need.agv, need.path);
+  for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) shorten(other, book_.way(other).held);
+  return part.count;
+}
+
+bool FleetPlanner::is_still_obstructed(std::uint32_t agv) const {
+  const Obstruction& known = tasks_[agv].obstruction;
+  return known.by != FP_NONE && book_.way(known.by).changes == known.changes &&
+         seconds(now_ns_ - known.seen_ns) < kLookAgain_s;
+}
+
+// Those in the way that wait themselves are asked to make way. If others are, they will pass; after a while, their
+// successors must not pass as well.
+void FleetPlanner::wait(std::uint32_t agv) {
+  Task& task = tasks_[agv];
+  const Need need{agv, task.wanted->up_to(task.wanted->ends.front().lanes)};
+  if (!is_still_obstructed(agv)) {
+    const bool standing = book_.way(agv).is_waiting();
+    task.obstruction = {};
+    for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
+      if (!book_.is_held_by(other, agv, need.path)) continue;
+      const FloorBook::Way& way = book_.way(other);
+      const bool lasts = task.obstruction.lasts || way.is_waiting() || way.out_of_order;
+      task.obstruction = {other, way.changes, now_ns_, lasts};
+      if (standing && way.is_waiting()) push(other, need, 0);
+    }
+  }
+  if (!task.obstruction.lasts && seconds(now_ns_ - task.since_ns) > kKeepsFreeAfter_s) reserved_.push_back(need);
+}
+
+void FleetPlanner::push(std::uint32_t agv, const Need& by, int depth) {
+  Task& task = tasks_[agv];
+  if (pushed_[agv] || book_.way(agv).out_of_order) return;
+  if (task.charging && !settings_.is_enough(book_.way(agv).battery)) return;
+  const double waits_s = task.is_idle() ? INFINITY : task.since_ns < 0 ? 0.0 : seconds(now_ns_ - task.since_ns);
+  const double asked_s = seconds(now_ns_ - tasks_[by.agv].since_ns);
+  const bool insists = asked_s > kInsists_s;
+  if (waits_s < kYields_s || (!task.is_idle() && is_older(agv, by.agv) && !insists)) return;
+  pushed_[agv] = true;
+  if (!task.is_idle() && is_older(agv, by.agv))
+    task.stands_back_ns = now_ns_ + static_cast<std::int64_t>(kStandsBack_s * 1e9);
+  evade(agv, &by, depth);
+}
+
+// Goes to a place at which it is in nobody's way, at once. If others that wait are on every way, they are asked too.
+bool FleetPlanner::evade(std::uint32_t agv, const Need* from, int depth) {
+  Model& model = *model_of_[agv];
+  Task& task = tasks_[agv];
+  const Path standing = book_.end_of_way(agv);
+  price(model, agv, carries_load(agv), kWallPrice_s);
+  struct Place {
+    double cost_s;
+    std::uint32_t station;
+  };
+  std::vector<Place> places;
+  const auto look_at = [&](std::uint32_t station, double way_s) {
+    if (way_s >= 3.0 * kWallPrice_s || places.size() >= kMostPlaces) return true;
+    if (station == standing.station ||
+        (from != nullptr && geometry_.turn_conflict(agv, station, from->agv, from->path)))
+      return false;
+    for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
+      if (other != agv && geometry_.turn_conflict(agv, station, other, book_.way(other).held)) return false;
+    }
+    const auto leads = [&](auto back) { return std::ranges::any_of(map_.lanes_from(station), back); };
+    if (model.rules.any() && !leads([&](std::uint32_t lane) { return model.prices.costs_s()[lane] < INFINITY; }))
+      return false;
+    const bool back = !model.rules.any() ||
+                      leads([&](std::uint32_t lane) { return model.rules.leads_back(lane, model.prices.loaded()); });
+    const bool parking = !task.is_idle() || (map_.station(station).purposes & FP_PARKING) != 0;
+    const double burden_s = std::min(kBurdenPrice_s * places_.burden(station), kMostBurdenPrice_s);
+    // Each time it prefers other places, so that AGVs that block each other do not repeat the same choice.
+    const double varied_s = (station * 7 + task.evaded * 3) % 5 * 2.0;
+    places.push_back(
+        {way_s + burden_s + varied_s + (back ? 0.0 : kNoWayBackPrice_s) + (parking ? 0.0 : kNoParkingPrice_s),
+         station});
+    return false;
+  };
+  model.routes.search_until(look_at, standing.station, standing.heading, model.prices.costs_s());
+  std::ranges::sort(places, [](const Place& a, const Place& b) {
+    return std::tuple(a.cost_s, a.station) < std::tuple(b.cost_s, b.station);
+  });
+  Section section;
+  for (const Place& place : places) {
+    section = {standing, {}, {}};
+    bool fits = true;
+    for (const std::uint32_t lane : model.routes.lanes(place.station)) {
+      fits = fits && section.path.append(lane);
+      section.steps.push_back({Step::Kind::Drive, lane});
+    }
+    if (!fits || section.path.empty()) continue;
+    if (free_lanes(agv, section.path) == section.path.count && book_.grant(agv, section.steps)) {
+      ++task.evaded;
+      task.charging = false;
+      task.wanted.reset();
+      return true;
+    }
+    if (depth >= kMostInARow) continue;
+    for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
+      if (book_.way(other).is_waiting() && book_.is_held_by(other, agv, section.path))
+        push(other, {from != nullptr ? from->agv : agv, section.path}, depth + 1);
+    }
+  }
+  return false;
+}
+
+}  // namespace fleetproof::agents::central

@@ -1,0 +1,134 @@
+// Where the AGVs of a central fleet go next. An error here costs time, never safety: the book refuses what is not free.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/agents/central/floor_book.hpp"
+#include "core/agents/central/messages.hpp"
+#include "core/agents/drive_rules.hpp"
+#include "core/agents/hull.hpp"
+#include "core/agents/lane_prices.hpp"
+#include "core/agents/map_view.hpp"
+#include "core/agents/routes.hpp"
+#include "core/agents/settings.hpp"
+#include "core/agents/waiting_places.hpp"
+
+namespace fleetproof::agents::central {
+
+// A station to go to, and what to do there.
+struct Goal {
+  std::uint32_t station = FP_NONE;
+  Step step;
+};
+
+// What could be granted next, from the end of what an AGV holds.
+struct Section {
+  // A part of it after which the AGV blocks no other AGV.
+  struct End {
+    std::uint32_t lanes = 0, steps = 0, goals = 0;
+  };
+  Path path;
+  std::vector<Step> steps;
+  std::vector<End> ends;  // the nearest first
+
+  Path up_to(std::uint32_t lanes) const {
+    Path part = path;
+    part.count = lanes;
+    return part;
+  }
+};
+
+// An AGV that holds floor of what another one needs: while its book does not change, nothing has to be worked out
+// again.
+struct Obstruction {
+  std::uint32_t by = FP_NONE, changes = 0;
+  std::int64_t seen_ns = 0;
+  bool lasts = false;  // one of those in the way stands and waits, or is out of order
+};
+
+// The work of one AGV.
+struct Task {
+  std::deque<Goal> goals;            // that nothing was granted for
+  std::uint32_t orders = 0;          // of its present way, so many are known
+  std::int64_t since_ns = -1;        // since when it has wanted to reach its next goal; below 0: it does not wait
+  std::int64_t stands_back_ns = -1;  // until then it lets the others go first
+  bool charging = false;             // it is at a charger, or on the last steps to one
+  std::uint32_t evaded = 0;          // so often
+  std::optional<Section> wanted;     // what it needs next, while it cannot get that
+  std::int64_t planned_ns = 0;       // when that was found
+  Obstruction obstruction;           // why it cannot get it
+  bool is_idle() const { return goals.empty(); }
+};
+
+// Grants sections that end at waiting places, the AGV first that has waited longest. If an AGV that waits is in the
+// way, it makes way. Requires: all that is passed outlives the object.
+class FleetPlanner {
+ public:
+  FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook& book, const Settings& settings);
+
+  // The AGV has begun a way: nothing is known of its work.
+  void begin(std::uint32_t agv);
+  // Orders of this AGV, by its own numbers from `first` on. Known ones may be among them.
+  void take_orders(std::uint32_t agv, std::uint32_t first, std::span<const Order> orders);
+  std::uint32_t orders_of(std::uint32_t agv) const { return tasks_[agv].orders; }
+  // Grants what can be granted now.
+  void plan(std::int64_t now_ns);
+
+ private:
+  // What depends on the kind of vehicle.
+  struct Model {
+    Model(const MapView& map, const HullGeometry& geometry, std::uint32_t agv, std::uint32_t number);
+    DriveRules rules;
+    Routes routes;
+    LanePrices prices;
+    std::uint32_t number;
+  };
+  struct Walk;
+  struct Need {
+    std::uint32_t agv;
+    Path path;
+  };
+
+  std::vector<std::uint32_t> by_age() const;
+  bool is_older(std::uint32_t a, std::uint32_t b) const;
+  void plan_for(std::uint32_t agv);
+  void transfer_here(std::uint32_t agv);
+  void look_at_battery(std::uint32_t agv);
+  double time_left_s(std::uint32_t agv) const;
+  bool carries_load(std::uint32_t agv) const;
+
+  Section towards_goals(std::uint32_t agv);
+  std::uint32_t burden_at(std::uint32_t agv, const Path& standing);
+  std::uint32_t waiting_place(std::uint32_t agv, const Path& from);
+  std::uint32_t free_charger(std::uint32_t agv, bool urgent);
+  void search(Model& model, const Path& from, std::uint32_t goal);
+  void price(Model& model, std::uint32_t agv, bool loaded, double waiting_s);
+
+  bool extend(std::uint32_t agv, const Section& section);
+  std::uint32_t free_lanes(std::uint32_t agv, const Path& path);
+  bool is_still_obstructed(std::uint32_t agv) const;
+  void wait(std::uint32_t agv);
+  void push(std::uint32_t agv, const Need& by, int depth);
+  bool evade(std::uint32_t agv, const Need* from, int depth);
+
+  const MapView& map_;
+  HullGeometry& geometry_;
+  FloorBook& book_;
+  const Settings& settings_;
+  WaitingPlaces places_;
+  std::map<std::uint32_t, std::unique_ptr<Model>> models_;
+  std::vector<Model*> model_of_;  // by AGV
+  std::vector<Task> tasks_;       // by AGV
+  // Of the present call.
+  std::int64_t now_ns_ = 0;
+  std::vector<Need> reserved_;  // floor that is kept free for AGVs that have waited long
+  std::vector<bool> pushed_;    // by AGV
+};
+
+}  // namespace fleetproof::agents::central

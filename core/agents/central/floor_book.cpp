@@ -1,0 +1,75 @@
+#include "core/agents/central/floor_book.hpp"
+
+#include <algorithm>
+
+namespace fleetproof::agents::central {
+
+FloorBook::News FloorBook::hear(std::uint32_t agv, const State& state) {
+  Way& way = ways_[agv];
+  if (state.way.server_boot != server_boot_ || !state.stands) return News::None;
+  if (way.joined && state.way.agv_boot < way.boot) return News::None;
+  const bool joins = !way.joined || state.way.agv_boot > way.boot;
+  if (joins) begin(way, state);
+  if (joins || state.number > way.newest) {
+    way.newest = state.number;
+    way.battery = state.battery;
+    way.out_of_order = state.out_of_order;
+  }
+  way.known = std::clamp(state.known, way.known, way.granted());
+  const bool passed = pass(way, state.done);
+  return joins ? News::Joined : passed ? News::Progress : News::None;
+}
+
+void FloorBook::begin(Way& way, const State& state) {
+  joined_ += way.joined ? 0 : 1;
+  const std::uint32_t changes = way.changes + 1;
+  way = {};
+  way.changes = changes;
+  way.joined = true;
+  way.boot = state.way.agv_boot;
+  way.held.station = state.station;
+  way.held.heading = state.heading;
+  way.first_load = state.load;
+}
+
+bool FloorBook::pass(Way& way, std::uint32_t done) {
+  const bool passes = way.done < done && !way.steps.empty();
+  while (way.done < done && !way.steps.empty()) {
+    if (way.steps.front().drives()) pass_first_lane(map_, way.held);
+    way.steps.pop_front();
+    ++way.done;
+  }
+  way.changes += passes ? 1 : 0;
+  return passes;
+}
+
+bool FloorBook::is_free(std::uint32_t agv, const Path& path) {
+  for (std::uint32_t other = 0; other < fleet_count(); ++other) {
+    if (is_held_by(other, agv, path)) return false;
+  }
+  return true;
+}
+
+bool FloorBook::grant(std::uint32_t agv, std::span<const Step> steps) {
+  Way& way = ways_[agv];
+  if (!all_joined()) return false;
+  Path longer = way.held, added = end_of(map_, way.held);
+  for (const Step& step : steps) {
+    if (step.drives() && (!longer.append(step.what) || !added.append(step.what))) return false;
+  }
+  if (!is_driveable(map_, longer) || !is_free(agv, added)) return false;
+  way.held = longer;
+  ++way.changes;
+  way.steps.insert(way.steps.end(), steps.begin(), steps.end());
+  return true;
+}
+
+Grant FloorBook::unknown_steps(std::uint32_t agv) const {
+  const Way& way = ways_[agv];
+  Grant grant{number_of(agv), std::max(way.known, way.done), {}, 0};
+  for (std::uint32_t i = grant.first; i < way.granted() && grant.steps.size() < kMostStepsInAMessage; ++i)
+    grant.steps.push_back(way.steps[i - way.done]);
+  return grant;
+}
+
+}  // namespace fleetproof::agents::central

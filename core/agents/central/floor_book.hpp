@@ -1,0 +1,104 @@
+// Proof that a follower drives only on floor that is its own.
+//
+// Terms
+// - A way of AGV i is a row of steps that begins where i stands, at rest. Its number consists of a boot of the server
+//   and a boot of i. i begins at most one way with a number: when its computer starts, and when it hears of a later
+//   boot of the server; both times not before i rests and knows its place.
+// - covers(i): the floor that i may cover by the steps that it knows: the hull of the path from its last station over
+//   the lanes of these steps that it has not left behind; at rest, its standing body. i drives the lanes in their
+//   order and nothing else, so its body is in covers(i), whatever stops, delays or frees it.
+// - holds(i): the hull of the path that this book has for i. It contains all steps that were ever granted to the way,
+//   but for those of which i said that it has left them behind.
+//
+// Invariant, while the server has this boot and every AGV has joined it:
+//   (A) holds(i) contains covers(i).     (B) What two AGVs may cover never conflicts.
+// From both follows that no two bodies come too close.
+//
+// Every step keeps them:
+// - i joins. A State with the server's boot and a new boot of i says where i began that way. Nothing was granted to
+//   this way before, and i takes no steps of other ways, so i still stands there: (A). i moved only in covers(i) until
+//   it rested, so covers(i) has not grown: (B). An older way of i gets no more steps, and i has ended it.
+// - i restarts. covers(i) only shrinks: the new self takes no step until it has begun a way, and its former actions end
+//   within what the former self knew. holds(i) does not change before the State of the new way arrives.
+// - The server grants i a step. It does that only when every AGV has joined, and only if the floor of the step
+//   conflicts with holds(j) of no other AGV j, so by (A) with no covers(j): (B). holds(i) grows at once, covers(i) when
+//   the Grant arrives, or never: (A). So loss and delay are harmless, and nothing that was granted is ever taken back.
+// - A Grant arrives late, twice or out of order. It names its way and the numbers of its steps. i takes a step only of
+//   its present way, and only if it has all steps before it; a step of a number is always the same step.
+// - A State arrives late, twice or out of order. What it says has been done stays done, and States of older ways are
+//   ignored. The book only drops lanes that are behind i: (A).
+// - The server restarts. The new book grants nothing before every AGV has joined it. An AGV that has joined takes no
+//   steps from an earlier boot. Until then it goes on with steps that it knows: covers(i) only shrinks.
+//
+// Time occurs nowhere: no floor becomes free because a clock says so, and a silent AGV keeps what it holds. At the
+// start, bodies are apart, but loads may be larger: the book grants a pick only if the loaded body is clear of all
+// others. An AGV that was set down elsewhere by hand has restarted; it begins a way there.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "core/agents/central/messages.hpp"
+#include "core/agents/hull.hpp"
+#include "core/agents/map_view.hpp"
+#include "core/agents/path.hpp"
+
+namespace fleetproof::agents::central {
+
+// The server's book of one boot: what each AGV of the fleet may use. Requires: map and geometry outlive it.
+class FloorBook {
+ public:
+  struct Way {
+    bool joined = false;
+    std::uint32_t boot = 0;        // of the AGV
+    Path held;                     // from the last station that the AGV has told
+    std::deque<Step> steps;        // granted, and not known to be done
+    std::uint32_t done = 0;        // steps before these
+    std::uint32_t known = 0;       // steps that the AGV is known to have
+    std::uint32_t newest = 0;      // the number of its newest State
+    double battery = 1.0;          // as that says
+    bool out_of_order = false;     // as that says
+    std::uint32_t changes = 0;     // of the held path
+    std::uint32_t first_load = 0;  // the order whose load it carried when the way began, or FP_NONE
+    std::uint32_t granted() const { return done + static_cast<std::uint32_t>(steps.size()); }
+    // It stands and has nothing to do, as far as the server knows.
+    bool is_waiting() const { return joined && steps.empty(); }
+  };
+  enum class News : std::uint8_t { None, Progress, Joined };
+
+  FloorBook(const MapView& map, HullGeometry& geometry, std::uint32_t fleet_count, std::uint32_t server_boot)
+      : map_(map), geometry_(geometry), server_boot_(server_boot), ways_(fleet_count) {}
+
+  std::uint32_t fleet_count() const { return static_cast<std::uint32_t>(ways_.size()); }
+  const Way& way(std::uint32_t agv) const { return ways_[agv]; }
+  bool all_joined() const { return joined_ == ways_.size(); }
+  WayNumber number_of(std::uint32_t agv) const { return {server_boot_, ways_[agv].boot}; }
+  Path end_of_way(std::uint32_t agv) const { return end_of(map_, ways_[agv].held); }
+
+  // Requires: the station exists.
+  News hear(std::uint32_t agv, const State& state);
+  // Whether another AGV holds floor of this path.
+  bool is_held_by(std::uint32_t other, std::uint32_t agv, const Path& path) {
+    return other != agv && geometry_.conflict(agv, path, other, ways_[other].held);
+  }
+  bool is_free(std::uint32_t agv, const Path& path);
+  // The AGV may use these steps from now on. False, and nothing has changed, if they are not its to use: they do not
+  // continue its way, another AGV holds floor of them, an AGV has not joined, or the way is too long.
+  bool grant(std::uint32_t agv, std::span<const Step> steps);
+  // What the AGV is not known to have yet.
+  Grant unknown_steps(std::uint32_t agv) const;
+
+ private:
+  void begin(Way& way, const State& state);
+  bool pass(Way& way, std::uint32_t done);
+
+  const MapView& map_;
+  HullGeometry& geometry_;
+  std::uint32_t server_boot_;
+  std::vector<Way> ways_;  // by AGV
+  std::uint32_t joined_ = 0;
+};
+
+}  // namespace fleetproof::agents::central

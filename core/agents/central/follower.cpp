@@ -1,0 +1,250 @@
+#include "core/agents/central/follower.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "core/agents/central/roles.hpp"
+#include "core/agents/hull_tables.hpp"
+
+namespace fleetproof::agents::central {
+namespace {
+
+constexpr double kWrongClock = 1.02;  // clocks may run wrong by up to 1 %
+
+}  // namespace
+
+Follower::Follower(const fp_host& host, fp_controller* handle, const fp_briefing& briefing)
+    : controller_(host, handle, briefing.boot),
+      facts_(briefing),
+      map_(facts_.shared()),
+      settings_(read_settings(briefing.config)),
+      server_(briefing.fleet_count) {
+  way_.way.agv_boot = briefing.boot;
+  held_.station = briefing.start_station;
+  // Its former self has begun these. What else the former self was granted, it does not know and does not use.
+  for (const std::uint32_t segment : {briefing.start_segment, briefing.next_segment}) {
+    for (const std::uint32_t lane : map_.lanes_from(end_of(map_, held_).station)) {
+      if (is_restarted() && map_.action_segment(lane) == segment) {
+        held_.append(lane);
+        break;
+      }
+    }
+  }
+  held_ = end_of(map_, held_);
+}
+
+void Follower::on_event(const fp_event& event) {
+  controller_.set_clock(event.now_ns);
+  switch (event.kind) {
+    case FP_EVENT_START:
+      start();
+      break;
+    case FP_EVENT_ORDER:
+      orders_.push_back({{event.order_id, event.from, event.to}});
+      break;
+    case FP_EVENT_MESSAGE:
+      controller_.drain_inbox([&](std::uint32_t sender, std::span<const std::byte> bytes) {
+        if (sender == server_) obey(bytes);
+      });
+      break;
+    case FP_EVENT_TIMER:
+      tick();
+      break;
+    case FP_EVENT_ACTION_DONE:
+      action_done(event.result);
+      break;
+    default:
+      break;
+  }
+  act();
+  controller_.declare_state(activity());
+}
+
+void Follower::start() {
+  rests_from_ns_ =
+      controller_.now_ns() + static_cast<std::int64_t>(kWrongClock * settings_.position_late_s * 1e9) + kSecond_ns;
+  if (is_restarted()) {
+    controller_.sometimes("restarted");
+  } else {
+    fp_pose pose{};
+    if (controller_.pose(pose)) held_.heading = {pose.heading_x, pose.heading_y};
+    begin_way();
+  }
+  tick();
+}
+
+void Follower::tick() {
+  const double pause_s = kPulse_s * (0.8 + 0.4 * controller_.random(kPulseDraws));
+  controller_.set_timer(kPulseTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
+  if (phase_ == Phase::Lost) find_place();
+  report();
+}
+
+// If the AGV was idle at two looks and no action ended between them, nothing of its former self is under way, and no
+// end of such an action is still to be told. When no position can be older than its last motion, the heading is right.
+// An AGV that a contact stopped is out of order; it may be beside the station.
+void Follower::find_place() {
+  const std::uint32_t action = controller_.action();
+  const bool idle = action == FP_IDLE || action == FP_PARKED || action == FP_CHARGING_NOW;
+  const bool was_idle = seen_idle_;
+  seen_idle_ = idle;
+  if (!idle)
+    rests_from_ns_ = controller_.now_ns() + static_cast<std::int64_t>(kWrongClock * settings_.position_late_s * 1e9);
+  fp_pose pose{};
+  if (!idle || !was_idle || controller_.now_ns() <= rests_from_ns_ || !controller_.pose(pose)) return;
+  const double off_m = length(Vec{pose.x_m, pose.y_m} - map_.position_m(held_.station));
+  if (off_m > 2.0 * settings_.position_error_m + kHullTolerance_m) return;
+  held_.heading = {pose.heading_x, pose.heading_y};
+  begin_way();
+}
+
+// Requires: the AGV rests, and the held path says where.
+void Follower::begin_way() {
+  phase_ = Phase::OnWay;
+  way_.stands = true;
+  way_.station = held_.station;
+  way_.heading = held_.heading;
+  way_.known = way_.done = 0;
+  way_.load = controller_.order_on_board();
+  std::erase_if(orders_, [](const OwnOrder& own) { return own.done; });
+  orders_told_ = 0;
+}
+
+void Follower::obey(std::span<const std::byte> bytes) {
+  const std::optional<Grant> grant = decode_grant(bytes);
+  if (!grant) return;
+  if (grant->way.server_boot > way_.way.server_boot) follow_boot(grant->way.server_boot);
+  if (phase_ != Phase::OnWay || grant->way != way_.way) return controller_.sometimes("grant-of-another-way");
+  orders_told_ = std::clamp(grant->orders, orders_told_, static_cast<std::uint32_t>(orders_.size()));
+  take_steps(*grant);
+}
+
+// It forgets the steps of the former boot, but for those under way: at their end a new way begins.
+void Follower::follow_boot(std::uint32_t server_boot) {
+  controller_.sometimes("server-restarted");
+  way_.way.server_boot = server_boot;
+  if (phase_ == Phase::Lost) return;
+  steps_.resize(under_way_);
+  held_.count = std::min(
+      held_.count, static_cast<std::uint32_t>(std::ranges::count_if(steps_, [](const Step& s) { return s.drives(); })));
+  phase_ = Phase::Ending;
+  way_.stands = false;
+  if (under_way_ == 0) begin_way();
+}
+
+// The first steps of the message may be known already; if others are missing before them, it waits for these.
+void Follower::take_steps(const Grant& grant) {
+  if (grant.first > way_.known) return controller_.sometimes("grant-lost");
+  const auto last = static_cast<std::uint32_t>(grant.first + grant.steps.size());
+  if (last <= way_.known) return;
+  for (std::uint32_t i = way_.known - grant.first; i < grant.steps.size(); ++i) {
+    const Step& step = grant.steps[i];
+    if (step.drives()) {
+      Path longer = held_;
+      if (step.what >= map_.lane_count() || !longer.append(step.what) || !is_driveable(map_, longer)) break;
+      held_ = longer;
+    }
+    steps_.push_back(step);
+    ++way_.known;
+  }
+  act();
+  report();
+}
+
+// After a refusal, the AGV is out of order where it is, for good: this step never ends.
+void Follower::action_done(std::int32_t result) {
+  seen_idle_ = false;
+  if (under_way_ == 0 || result != FP_OK) return;
+  --under_way_;
+  finish_step();
+  if (phase_ == Phase::Ending && under_way_ == 0) begin_way();
+  act();
+  report();
+}
+
+void Follower::act() {
+  while (phase_ == Phase::OnWay && under_way_ == 0 && !steps_.empty()) {
+    if (is_needless(steps_.front())) {
+      finish_step();
+      continue;
+    }
+    if (begin(steps_.front())) {
+      under_way_ = 1;
+      break;
+    }
+    if (steps_.front().kind != Step::Kind::Pick || controller_.action() != FP_IDLE) return;
+    finish_order(steps_.front().what);  // its load is not here
+    finish_step();
+  }
+  roll_on();
+}
+
+bool Follower::begin(const Step& step) {
+  switch (step.kind) {
+    case Step::Kind::Drive:
+      return controller_.move(map_.action_segment(step.what));
+    case Step::Kind::Pick:
+      return controller_.pick_load(FP_HERE, step.what);
+    case Step::Kind::Drop:
+      return controller_.drop(FP_HERE);
+    case Step::Kind::Charge:
+      return controller_.charge(FP_HERE);
+  }
+  return false;
+}
+
+// What its former self did already, or what a load that was not there has made pointless.
+bool Follower::is_needless(const Step& transfer) {
+  if (transfer.kind == Step::Kind::Pick) return controller_.order_on_board() == transfer.what;
+  return transfer.kind == Step::Kind::Drop && controller_.order_on_board() != transfer.what;
+}
+
+// If the move is given before the AGV brakes, the AGV does not stop between two lanes.
+void Follower::roll_on() {
+  if (phase_ != Phase::OnWay || under_way_ != 1 || steps_.size() < 2) return;
+  const Step &now = steps_[0], &next = steps_[1];
+  if (!now.drives() || !next.drives()) return;
+  const bool straight_on = same_heading(map_.end_heading(now.what), map_.start_heading(next.what));
+  if (straight_on && controller_.move(map_.action_segment(next.what))) under_way_ = 2;
+}
+
+void Follower::finish_step() {
+  const Step step = steps_.front();
+  steps_.pop_front();
+  ++way_.done;
+  if (step.drives()) pass_first_lane(map_, held_);
+  if (step.kind == Step::Kind::Drop) finish_order(step.what);
+}
+
+void Follower::finish_order(std::uint32_t id) {
+  for (OwnOrder& own : orders_) own.done = own.done || own.order.id == id;
+}
+
+void Follower::report() {
+  ++way_.number;
+  State state = way_;
+  state.battery = controller_.battery_level();
+  state.out_of_order = controller_.out_of_order();
+  state.first_order = orders_told_;
+  for (std::size_t i = orders_told_; i < orders_.size() && state.orders.size() < kMostOrdersInAMessage; ++i)
+    state.orders.push_back(orders_[i].order);
+  controller_.describe(
+      ("STATE: " + std::to_string(way_.done) + " of " + std::to_string(way_.known) + " steps").c_str());
+  controller_.send(encode(state), server_);
+}
+
+const char* Follower::activity() const {
+  if (phase_ == Phase::Lost) return "finding its place";
+  if (under_way_ > 0) return name_of(steps_.front().kind);
+  return orders_.empty() || orders_.back().done ? "idle" : "waiting";
+}
+
+void* create_follower(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
+  if (!can_start(*host, controller, *briefing, FP_AGV)) return nullptr;
+  return new Follower(*host, controller, *briefing);
+}
+
+constinit const fp_agent_type kFollower =
+    agent_type<Follower>("follower", "drives as its zone-server grants, and stops where that ends", create_follower);
+
+}  // namespace fleetproof::agents::central

@@ -1,0 +1,81 @@
+// What a follower and its zone-server tell each other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/agents/shapes.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof::agents::central {
+
+// One controller call: drives a lane, or picks, drops or charges where the AGV then stands.
+struct Step {
+  enum class Kind : std::uint8_t { Drive, Pick, Drop, Charge };
+  Kind kind = Kind::Drive;
+  std::uint32_t what = FP_NONE;  // Drive: the lane; Pick and Drop: the order
+  bool drives() const { return kind == Kind::Drive; }
+  friend bool operator==(const Step&, const Step&) = default;
+};
+constexpr const char* name_of(Step::Kind kind) {
+  switch (kind) {
+    case Step::Kind::Drive:
+      return "driving";
+    case Step::Kind::Pick:
+      return "picking";
+    case Step::Kind::Drop:
+      return "dropping";
+    case Step::Kind::Charge:
+      return "connecting to a charger";
+  }
+  return "?";
+}
+
+// Which way a message is about: an AGV begins one at rest, for one boot of the server and of its own computer.
+struct WayNumber {
+  std::uint32_t server_boot = 0, agv_boot = 0;
+  friend bool operator==(const WayNumber&, const WayNumber&) = default;
+};
+
+struct Order {
+  std::uint32_t id = FP_NONE, from = FP_NONE, to = FP_NONE;  // stations
+  friend bool operator==(const Order&, const Order&) = default;
+};
+
+// From a follower. All numbers of steps and orders count from the beginning of its way.
+struct State {
+  WayNumber way;
+  bool stands = false;        // the way has begun; false: the AGV does not rest yet, or does not know its place
+  std::uint32_t station = 0;  // where the way began, and with which heading
+  Vec heading{1.0, 0.0};
+  std::uint32_t load = FP_NONE;  // the order whose load was on board then
+  std::uint32_t known = 0;       // it has so many steps
+  std::uint32_t done = 0;        // and has left so many behind: its body covers no floor of them alone
+  std::uint32_t number = 0;      // of this message, since the boot
+  double battery = 1.0;
+  bool out_of_order = false;
+  std::uint32_t first_order = 0;  // the number of the first of these
+  std::vector<Order> orders;      // that the server may not have
+};
+
+// From the server. Without steps, it says which boot of the server is the present one, and what has arrived.
+struct Grant {
+  WayNumber way;
+  std::uint32_t first = 0;  // the number of the first of these steps
+  std::vector<Step> steps;
+  std::uint32_t orders = 0;  // the server has so many orders of this way
+};
+
+// No message is longer than FP_MESSAGE_BYTES_MAX.
+inline constexpr std::size_t kMostOrdersInAMessage = 48, kMostStepsInAMessage = 120;
+
+std::vector<std::byte> encode(const State& state);
+std::vector<std::byte> encode(const Grant& grant);
+// The message, if the bytes are exactly one. The caller must check that stations and lanes exist on its map.
+std::optional<State> decode_state(std::span<const std::byte> bytes);
+std::optional<Grant> decode_grant(std::span<const std::byte> bytes);
+
+}  // namespace fleetproof::agents::central

@@ -1,0 +1,106 @@
+#include "core/agents/central/zone_server.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "core/agents/agent_type.hpp"
+#include "core/agents/central/roles.hpp"
+
+namespace fleetproof::agents::central {
+
+ZoneServer::ZoneServer(const fp_host& host, fp_controller* handle, const fp_briefing& briefing)
+    : controller_(host, handle, briefing.boot),
+      settings_(read_settings(briefing.config)),
+      facts_(briefing),
+      map_(facts_.shared()),
+      geometry_(map_, briefing),
+      book_(map_, geometry_, briefing.fleet_count, briefing.boot),
+      planner_(map_, geometry_, book_, settings_),
+      owes_(briefing.fleet_count, briefing.boot > 0),
+      told_(briefing.fleet_count) {
+  if (briefing.boot > 0) controller_.sometimes("restarted");
+}
+
+void ZoneServer::on_event(const fp_event& event) {
+  controller_.set_clock(event.now_ns);
+  if (event.kind == FP_EVENT_MESSAGE) {
+    bool news = false;
+    controller_.drain_inbox(
+        [&](std::uint32_t sender, std::span<const std::byte> bytes) { news = hear(sender, bytes) || news; });
+    if (news) plan();
+  }
+  if (event.kind == FP_EVENT_START || event.kind == FP_EVENT_TIMER) tick();
+}
+
+void ZoneServer::tick() {
+  const double pause_s = kPulse_s * (0.8 + 0.4 * controller_.random(kPulseDraws));
+  controller_.set_timer(kPulseTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
+  plan();
+  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
+    const FloorBook::Way& way = book_.way(agv);
+    const bool repeats = way.joined && way.known < way.granted();
+    if (repeats) controller_.sometimes("retransmission");
+    if (repeats || owes_[agv] || !way.joined) send(agv);
+  }
+  controller_.declare_state(book_.all_joined() ? "planning" : "learning");
+}
+
+// True if there may be something new to grant.
+bool ZoneServer::hear(std::uint32_t sender, std::span<const std::byte> bytes) {
+  const std::optional<State> state = decode_state(bytes);
+  if (!state || !is_possible(sender, *state)) return false;
+  const FloorBook::News news = book_.hear(sender, *state);
+  if (news == FloorBook::News::Joined) {
+    planner_.begin(sender);
+    told_[sender] = 0;
+  }
+  owes_[sender] = owes_[sender] || !state->orders.empty() || state->way != book_.number_of(sender);
+  if (!state->stands || state->way != book_.number_of(sender)) return false;
+  const std::uint32_t orders = planner_.orders_of(sender);
+  planner_.take_orders(sender, state->first_order, state->orders);
+  return news != FloorBook::News::None || planner_.orders_of(sender) != orders;
+}
+
+bool ZoneServer::is_possible(std::uint32_t sender, const State& state) const {
+  const auto exists = [&](std::uint32_t station) { return station < map_.station_count(); };
+  return sender < book_.fleet_count() && exists(state.station) &&
+         std::ranges::all_of(state.orders, [&](const Order& order) { return exists(order.from) && exists(order.to); });
+}
+
+void ZoneServer::plan() {
+  planner_.plan(controller_.now_ns());
+  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
+    if (told_[agv] >= book_.way(agv).granted()) continue;
+    controller_.sometimes("grant");
+    send(agv);
+  }
+}
+
+void ZoneServer::send(std::uint32_t agv) {
+  Grant grant = book_.unknown_steps(agv);
+  grant.orders = planner_.orders_of(agv);
+  owes_[agv] = false;
+  told_[agv] = std::max(told_[agv], static_cast<std::uint32_t>(grant.first + grant.steps.size()));
+  const std::string text = grant.steps.empty() ? std::string("GRANT: nothing new")
+                                               : "GRANT: steps " + std::to_string(grant.first + 1) + " to " +
+                                                     std::to_string(grant.first + grant.steps.size());
+  controller_.describe(text.c_str());
+  controller_.send(encode(grant), agv);
+}
+
+void* create_zone_server(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
+  if (!can_start(*host, controller, *briefing, FP_COMPUTER)) return nullptr;
+  return new ZoneServer(*host, controller, *briefing);
+}
+
+namespace {
+constexpr fp_agent_type serving_computers(fp_agent_type type) {
+  type.flags |= FP_SERVES_COMPUTERS;
+  return type;
+}
+}  // namespace
+
+constinit const fp_agent_type kZoneServer = serving_computers(agent_type<ZoneServer>(
+    "zone-server", "plans for a fleet of followers and grants each the floor that it may use", create_zone_server));
+
+}  // namespace fleetproof::agents::central

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/agents/central/fleet_planner.hpp"
+#include "core/agents/central/floor_book.hpp"
+#include "core/agents/central/messages.hpp"
+#include "core/agents/controller.hpp"
+#include "core/agents/facts.hpp"
+#include "core/agents/hull.hpp"
+#include "core/agents/map_view.hpp"
+#include "core/agents/settings.hpp"
+#include "core/sdk/fleetproof/agent.h"
+
+namespace fleetproof::agents::central {
+
+// The program of the computer of a central fleet: it plans for all followers and grants each its next steps. It keeps
+// the book of the floor (floor_book.hpp), and repeats what an AGV does not seem to have.
+class ZoneServer {
+ public:
+  ZoneServer(const fp_host& host, fp_controller* handle, const fp_briefing& briefing);
+  ZoneServer(const ZoneServer&) = delete;
+  ZoneServer& operator=(const ZoneServer&) = delete;
+
+  void on_event(const fp_event& event);
+
+ private:
+  void tick();
+  bool hear(std::uint32_t sender, std::span<const std::byte> bytes);
+  bool is_possible(std::uint32_t sender, const State& state) const;
+  void plan();
+  void send(std::uint32_t agv);
+
+  Controller controller_;
+  Settings settings_;
+  Facts facts_;
+  MapView map_;
+  HullGeometry geometry_;
+  FloorBook book_;
+  FleetPlanner planner_;
+  std::vector<bool> owes_;           // by AGV: an answer to what it told
+  std::vector<std::uint32_t> told_;  // by AGV: so many steps were sent at least once
+};
+
+// Returns null, and says why, if it is to serve an AGV, or if the plant is too large for paths.
+void* create_zone_server(const fp_host* host, fp_controller* controller, const fp_briefing* briefing);
+
+}  // namespace fleetproof::agents::central
