@@ -58,6 +58,7 @@ std::string place_text(const Vec2& place_m) {
 std::string FilmEvidence::name(EntityId id) const { return printable(body_name(scenario_, id)); }
 
 std::string FilmEvidence::doing(EntityId body, SimTime at) const {
+  if (scenario_.is_computer(body)) return {};
   const Piece* piece = piece_at(bodies_, body, at);
   if (piece == nullptr) return name(body) + " was not on the floor.";
   if (!is_agv(body)) return name(body) + " lay on the floor.";

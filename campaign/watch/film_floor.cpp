@@ -108,7 +108,10 @@ void add_floor(web::Film& film, const Scenario& scenario) {
   for (const Station& station : layout.stations)
     film.stations.push_back({station.name, film_um(station.position_m.x()), film_um(station.position_m.y())});
   for (std::size_t i = 0; i < scenario.entity_count(); ++i) {
-    film.bodies.push_back({body_name(scenario, EntityId{i}), kind_of(scenario, EntityId{i})});
+    web::Body& body = film.bodies.emplace_back(body_name(scenario, EntityId{i}), kind_of(scenario, EntityId{i}));
+    if (!scenario.is_computer(EntityId{i})) continue;
+    if (const auto& at_m = scenario.computer(EntityId{i}).at_m)
+      body.antenna = web::FloorPlace{film_um(at_m->x()), film_um(at_m->y())};
   }
 }
 

@@ -202,7 +202,7 @@ void FilmRecorder::note_waiting(const TraceRecord& record) {
   const AgvId agv = read<traced::WaitingFor>(record).agv;
   const std::size_t body = record.entity.index();
   std::optional<std::size_t> for_whom;
-  if (agv.valid() && agv.index() < scenario_.agvs.size()) for_whom = agv.index();
+  if (agv.valid() && agv.index() < scenario_.participant_count()) for_whom = agv.index();
   const auto [known, fresh] = waits_.emplace(body, std::nullopt);
   if (known->second == for_whom) return;
   known->second = for_whom;

@@ -53,7 +53,10 @@ class Storyteller {
                        static_cast<double>(nearest.at_us / 1000) / 1e3);
   }
   std::string name(EntityId id) const { return printable(body_name(scenario_, id)); }
-  void add(std::string sentence) { film_.story.push_back(std::move(sentence)); }
+  // Of some bodies there is nothing to say.
+  void add(std::string sentence) {
+    if (!sentence.empty()) film_.story.push_back(std::move(sentence));
+  }
   void look_at(SimTime focus, std::int64_t before_us) {
     film_.focus_us = film_us(focus);
     film_.open_us = std::max<std::int64_t>(0, film_.focus_us - before_us);
@@ -205,12 +208,12 @@ class Storyteller {
   void tell_waiting_fleet(SimTime at) {
     std::map<std::size_t, bool> waits;
     for (const web::Waiting& w : film_.waits) {
-      if (w.at_us <= film_us(at)) waits[w.body] = w.for_whom.has_value();
+      if (w.at_us <= film_us(at) && scenario_.is_agv(EntityId{w.body})) waits[w.body] = w.for_whom.has_value();
     }
     const auto waiting = std::ranges::count_if(waits, [](const auto& entry) { return entry.second; });
     if (waiting > 0)
-      add(fmt::format("At {:.3f} s, {} of {} AGVs declared that they waited for another.", in_milliseconds(at), waiting,
-                      scenario_.agvs.size()));
+      add(fmt::format("At {:.3f} s, {} of {} AGVs declared that they waited for another{}.", in_milliseconds(at),
+                      waiting, scenario_.agvs.size(), scenario_.computers.empty() ? "" : " or for a computer"));
   }
 
   void tell_end() {

@@ -11,6 +11,7 @@
 #include "campaign/watch/film_frames.hpp"
 #include "campaign/watch/film_story.hpp"
 #include "core/agents/vocabulary.hpp"
+#include "core/base/outside_text.hpp"
 #include "reports/page/wording.hpp"
 #include "reports/replay_page/message_numbers.hpp"
 #include "reports/replay_page/replay_page.hpp"
@@ -40,6 +41,9 @@ void add_facts(web::Film& film, const Scenario& scenario, const Outcome& outcome
   add("scenario", scenario.name);
   add("layout", scenario.map->layout().name);
   add("AGVs", fmt::format("{}", scenario.agvs.size()));
+  std::vector<std::string> computers;
+  for (const ComputerSetup& computer : scenario.computers) computers.push_back(printable(computer.name));
+  if (!computers.empty()) add("computers", joined(computers));
   add("horizon", fmt::format("{:g} s", to_seconds(scenario.horizon)));
   const std::string deliveries = given_deliveries_text(scenario.deliveries);
   add("loss", percent(scenario.radio.loss) + (deliveries.empty() ? "" : ", but of messages with a given delivery"));

@@ -1,11 +1,12 @@
 // What moves on the floor: bodies with perimeters and hulls, beliefs as ghosts, messages as arrows.
 const shown = {perimeters: true, hulls: true, beliefs: true, messages: true, waits: true, names: true, whose: 'some'};
-let selected = null;  // an AGV
+let selected = null;  // an AGV or a computer
 
-// Those whose beliefs and messages are drawn.
+// Those whose beliefs and messages are drawn. Where nothing went wrong, those of the computers.
 const spotlight = () => {
   if (shown.whose === 'all') return film.bodies.map((body, i) => i);
-  return selected === null ? film.involved : [selected];
+  if (selected !== null) return [selected];
+  return film.involved.length ? film.involved : kComputers;
 };
 
 // All bodies on the floor at an instant.
@@ -97,13 +98,13 @@ const drawBeliefs = (context, agent, all, t_s, label) => {
   }
 };
 
-// From each AGV that says it waits to the one for which it waits.
+// From each AGV that says it waits to the AGV or computer for which it waits.
 const drawWaits = (context, all, t_s) => {
   for (const one of all) {
-    const other = one && waitOf(one.body, t_s) !== null ? all[waitOf(one.body, t_s)] : null;
-    if (!other) continue;
-    const hot = (isInvolved(one.body) && isInvolved(other.body)) || one.body === selected;
-    const x0 = toX(one.box.x_m), y0 = toY(one.box.y_m), x1 = toX(other.box.x_m), y1 = toY(other.box.y_m);
+    const other = one && waitOf(one.body, t_s), end = other === null ? null : spotOf(all, other);
+    if (!end) continue;
+    const hot = (isInvolved(one.body) && isInvolved(other)) || one.body === selected;
+    const x0 = toX(one.box.x_m), y0 = toY(one.box.y_m), [x1, y1] = end;
     const bend = 0.18, cx = (x0 + x1) / 2 - bend * (y1 - y0), cy = (y0 + y1) / 2 + bend * (x1 - x0);
     const out = Math.atan2(y1 - cy, x1 - cx), size = hot ? 13 : 8;
     context.strokeStyle = context.fillStyle = colours.wait;
@@ -142,12 +143,14 @@ const underWay = t_s => {
 };
 const drawMessages = (context, all, t_s, label) => {
   const found = underWay(t_s), crowded = found.length > 24;
+  const isOfFew = shown.whose === 'some' && selected === null && film.involved.length > 0;
+  const matters = body => isInvolved(body) || isComputer(body);
   for (const [a, share] of found) {
-    const from = all[a.sender], to = all[a.receiver];
+    const from = spotOf(all, a.sender), to = spotOf(all, a.receiver);
     if (!from || !to) continue;
-    const lost = a.age_s === null, between = isInvolved(a.sender) && isInvolved(a.receiver);
-    if (crowded && !between && (lost || (shown.whose === 'some' && selected === null))) continue;
-    const x0 = toX(from.pose.x_m), y0 = toY(from.pose.y_m), x1 = toX(to.pose.x_m), y1 = toY(to.pose.y_m);
+    const lost = a.age_s === null, between = film.involved.length > 0 && matters(a.sender) && matters(a.receiver);
+    if (crowded && !between && (lost || isOfFew)) continue;
+    const [x0, y0] = from, [x1, y1] = to;
     const k = lost ? 0.5 : share, x = x0 + k * (x1 - x0), y = y0 + k * (y1 - y0), out = Math.atan2(y1 - y0, x1 - x0);
     context.strokeStyle = context.fillStyle = lost ? colours.bad : colours.message;
     context.globalAlpha = crowded && !between ? 0.35 : 1;
@@ -197,7 +200,7 @@ const isBrokenAt = (body, t_s) =>
 const footprintsOnCanvas = t_s => bodiesAt(t_s).filter(Boolean).map(({box}) => {
   const xs = cornersOf(box).map(p => toX(p[0])), ys = cornersOf(box).map(p => toY(p[1]));
   return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
-});
+}).concat(computerBoxes());
 
 const isOnCanvas = box => toX(box.x_m) > -40 && toX(box.x_m) < floor.clientWidth + 40;
 
@@ -230,6 +233,7 @@ const drawFloor = t_s => {
         label(nameOf(body), toX(box.x_m), toY(box.y_m - reach_m - margin_m) + 13, colours.ink, isInvolved(body));
     }
   }
+  drawComputers(context, t_s, label);
   if (shown.waits) drawWaits(context, all, t_s);
   if (shown.beliefs) spotlight().forEach(agent => drawBeliefs(context, agent, all, t_s, label));
   if (shown.messages) drawMessages(context, all, t_s, label);

@@ -94,6 +94,7 @@ std::string ask_kind(const Film& film, const FilmTalk& talk, const Setting& sett
   if (!talk.has_messages_to_one()) return {};
   const std::int64_t from_us = std::max<std::int64_t>(0, setting.begin.at_us - kRemembered_us);
   for (std::size_t sender = 0; sender < film.bodies.size(); ++sender) {
+    if (film.is_computer(sender)) continue;
     for (const Delivery& d : sent_within(talk.between(setting.body, sender), from_us, setting.begin))
       kinds[d.message->kind].heard += !d.is_lost() && d.arrives < setting.begin ? 1 : 0;
     for (const Delivery& d : sent_within(talk.between(sender, setting.body), from_us, setting.begin)) {

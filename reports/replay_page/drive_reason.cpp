@@ -79,7 +79,7 @@ class ReasonTeller {
     tell_setting_off();
     tell_own_request();
     tell_itself();
-    tell_senders();
+    if (talk_.is_between_agvs() || !has_computers()) tell_senders();
     tell_after();
     reason.lines = std::move(lines_);
     return reason;
@@ -87,6 +87,9 @@ class ReasonTeller {
 
  private:
   std::string name(std::size_t body) const { return film_.bodies[body].name; }
+  bool has_computers() const {
+    return std::ranges::find(film_.bodies, BodyKind::Computer, &Body::kind) != film_.bodies.end();
+  }
   void add(ReasonLine::Rank rank, std::int64_t at_us, std::string text, bool marked = false) {
     lines_.push_back({rank, marked, at_us, std::move(text), static_cast<std::uint8_t>(marked ? 1 : 0)});
   }
@@ -315,7 +318,8 @@ class ReasonTeller {
                      time_text(before.sent.at_us), changes_between(film_, sender, before.sent, answer.sent)));
   }
 
-  // What came before the failure, or before the end of the activity, but too late to be asked.
+  // What came before the failure, or before the end of the activity, but too late to be asked. A computer sends to one
+  // or to all.
   void tell_after() {
     const std::int64_t until_us = std::min(drive_.end_us, film_.focus_us);
     std::vector<std::string> texts;
@@ -324,7 +328,7 @@ class ReasonTeller {
       std::map<std::string, std::pair<const Delivery*, std::size_t>> kinds;
       for (const Delivery& d : sent_within(talk_.between(body, drive_.body), setting_.begin.at_us, {until_us + 1, 0})) {
         const bool counts = d.sent > setting_.begin && !d.is_lost() && d.arrives.at_us <= until_us;
-        if (!counts || (talk_.has_messages_to_one() && !d.is_to_one())) continue;
+        if (!counts || (talk_.has_messages_to_one() && !film_.is_computer(body) && !d.is_to_one())) continue;
         auto& [first, count] = kinds[d.message->kind];
         if (count++ == 0) first = &d;
       }

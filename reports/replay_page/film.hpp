@@ -29,9 +29,13 @@ struct FilmStation {
 };
 
 enum class BodyKind : std::uint8_t { Agv, Obstacle, Load, Computer };
+struct FloorPlace {
+  std::int64_t x_um = 0, y_um = 0;
+};
 struct Body {
   std::string name;
   BodyKind kind = BodyKind::Agv;
+  std::optional<FloorPlace> antenna = std::nullopt;  // of a computer that is not connected everywhere
 };
 
 // The length along the heading, and from the reference point to the centre.
@@ -205,6 +209,7 @@ struct Film {
   std::vector<std::string> left_out;  // what the page does not have of the run, in sentences
   html::FilmStrip strip;
 
+  bool is_computer(std::size_t body) const { return bodies[body].kind == BodyKind::Computer; }
   // Nothing went wrong: the pair that came closest is all there is to show.
   bool is_about_nearest() const { return !failed && involved.empty() && nearest.has_value(); }
   // The bodies that the page is about.

@@ -81,11 +81,16 @@ Kept keep_nearest(Film& film, std::vector<Item>& items, const char* what, std::s
   return tell(film, what, all - gone, all, reach);
 }
 
-// An arrival costs its part of the message, and itself. A message that nobody was in range to receive counts as one.
+// An arrival costs its part of the message, and itself. Of messages of computers the page has the contents, too. A
+// message that nobody was in range to receive counts as one.
 Kept keep_messages(Film& film, const Distance& distance, std::size_t budget_bytes) {
   constexpr std::size_t kMessage = 34, kArrival = 9;
   const auto distance_of = [&](const Message& message, const Arrival& arrival) {
     return distance.of(message.sent_us, distance.is_involved(message.sender) || distance.is_involved(arrival.receiver));
+  };
+  const auto bytes_of = [&](const Message& message) {
+    const bool is_told = film.is_computer(message.sender) || (message.receiver && film.is_computer(*message.receiver));
+    return kMessage + (is_told ? message.content.size() : 0);
   };
   const auto distance_of_unheard = [&](const Message& message) {
     return distance.of(message.sent_us, distance.is_involved(message.sender));
@@ -95,10 +100,10 @@ Kept keep_messages(Film& film, const Distance& distance, std::size_t budget_byte
   for (const Message& message : film.messages) {
     if (message.arrivals.empty()) {
       ++unheard;
-      candidates.push_back({distance_of_unheard(message), kMessage});
+      candidates.push_back({distance_of_unheard(message), bytes_of(message)});
     }
     for (const Arrival& arrival : message.arrivals)
-      candidates.push_back({distance_of(message, arrival), kArrival + kMessage / message.arrivals.size()});
+      candidates.push_back({distance_of(message, arrival), kArrival + bytes_of(message) / message.arrivals.size()});
   }
   const std::size_t all = candidates.size();
   const std::int64_t reach = reach_of(std::move(candidates), budget_bytes);

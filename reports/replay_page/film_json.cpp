@@ -117,8 +117,10 @@ void add_floor(Members& members, const Film& film) {
   });
   constexpr std::array kKinds{"AGV", "obstacle", "load", "computer"};  // of BodyKind
   members.rows("bodies", film.bodies, [&](const Body& body) {
-    return fmt::format("{{\"name\":{},\"kind\":\"{}\"}}", in_json(body.name),
-                       kKinds.at(static_cast<std::size_t>(body.kind)));
+    const std::string antenna =
+        body.antenna ? fmt::format(",\"x_um\":{},\"y_um\":{}", body.antenna->x_um, body.antenna->y_um) : "";
+    return fmt::format("{{\"name\":{},\"kind\":\"{}\"{}}}", in_json(body.name),
+                       kKinds.at(static_cast<std::size_t>(body.kind)), antenna);
   });
   members.rows("outlines_um", film.outlines,
                [](const Outline& o) { return row(o.length_um, o.width_um, o.centre_ahead_um); });
@@ -156,10 +158,12 @@ std::string kept_json(const Film& film, const Kept& kept) {
              until(kept.others_to_us));
 }
 
-// What messages of the bodies involved say, by their numbers: a fleet says too much for all of it.
+// What messages of the bodies involved and of computers say, by their numbers: a fleet says too much for all of it.
 void add_contents(Members& members, const Film& film, Words& words) {
   const std::vector<std::size_t> subject = film.subject();
-  const auto counts = [&](std::size_t body) { return std::ranges::find(subject, body) != subject.end(); };
+  const auto counts = [&](std::size_t body) {
+    return film.is_computer(body) || std::ranges::find(subject, body) != subject.end();
+  };
   std::vector<const Message*> told;
   for (const Message& m : film.messages) {
     if (!m.content.empty() && (counts(m.sender) || (m.receiver && counts(*m.receiver)))) told.push_back(&m);

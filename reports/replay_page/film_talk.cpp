@@ -6,6 +6,14 @@
 #include "reports/replay_page/message_numbers.hpp"
 
 namespace fleetproof::web {
+namespace {
+
+// What an AGV sends to all, it sends to AGVs, too.
+bool is_for_agvs(const Film& film, const Message& message) {
+  return !film.is_computer(message.sender) && !(message.receiver && film.is_computer(*message.receiver));
+}
+
+}  // namespace
 
 FilmTalk::FilmTalk(const Film& film) : sent_by_(film.bodies.size()), restarts_(film.bodies.size()) {
   for (const Happening& h : film.happenings) {
@@ -15,8 +23,11 @@ FilmTalk::FilmTalk(const Film& film) : sent_by_(film.bodies.size()), restarts_(f
   }
   for (const Message& message : film.messages) {
     sent_by_[message.sender].push_back(&message);
-    has_messages_to_one_ = has_messages_to_one_ || message.receiver.has_value();
-    has_numbered_answers_ = has_numbered_answers_ || !numbers_answered(message.content).list.empty();
+    if (is_for_agvs(film, message)) {
+      is_between_agvs_ = true;
+      has_messages_to_one_ = has_messages_to_one_ || message.receiver.has_value();
+      has_numbered_answers_ = has_numbered_answers_ || !numbers_answered(message.content).list.empty();
+    }
     for (const Arrival& arrival : message.arrivals) {
       std::vector<Delivery>& link = links_[{message.sender, arrival.receiver}];
       const Moment arrives{message.sent_us + arrival.after_us, arrival.order};

@@ -31,16 +31,18 @@ class FilmTalk {
   const std::vector<Delivery>& between(std::size_t sender, std::size_t receiver) const;
   // When the agent of the AGV began anew last before a moment, without what it knew.
   std::optional<std::int64_t> restarted_us(std::size_t body, Moment before) const;
-  // Some content says which number it answers.
+  // Some AGV sent a message that was for an AGV. In a central fleet, AGVs may talk with computers alone.
+  bool is_between_agvs() const { return is_between_agvs_; }
+  // Between AGVs, some content says which number it answers.
   bool has_numbered_answers() const { return has_numbered_answers_; }
-  // Some message of the run was for one receiver. If none was, answers are among those to all.
+  // Between AGVs, some message of the run was for one receiver. If none was, answers are among those to all.
   bool has_messages_to_one() const { return has_messages_to_one_; }
 
  private:
   std::vector<std::vector<const Message*>> sent_by_;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Delivery>> links_;
   std::vector<std::vector<Moment>> restarts_;  // by body
-  bool has_messages_to_one_ = false, has_numbered_answers_ = false;
+  bool is_between_agvs_ = false, has_messages_to_one_ = false, has_numbered_answers_ = false;
 };
 
 // The messages of the list that were sent in an interval: [from, until).

@@ -34,8 +34,9 @@ const fitTo = (low, high) => {
                         (floor.clientHeight - 50) / Math.max(1, high[1] - low[1]));
 };
 const wholeFloor = () => {
-  const [x0, y0, x1, y1] = film.floor_um.map(um => um / 1e6);
-  fitTo([x0 - 1, y0 - 1], [x1 + 1, y1 + 1]);
+  const [x0, y0, x1, y1] = film.floor_um, antennas = film.bodies.filter(body => body.x_um !== undefined);
+  const xs = [x0, x1, ...antennas.map(body => body.x_um)], ys = [y0, y1, ...antennas.map(body => body.y_um)];
+  fitTo([Math.min(...xs) / 1e6 - 1, Math.min(...ys) / 1e6 - 1], [Math.max(...xs) / 1e6 + 1, Math.max(...ys) / 1e6 + 1]);
 };
 
 // Names that cover none before them, and no body if there is room beside it. What finds no place is left out.

@@ -85,7 +85,7 @@ class MessageLines {
       if (std::ranges::find(order, delivery) == order.end()) order.push_back(delivery);
     };
     for (const Place& place : places) {
-      const bool is_named = is_subject_[place.receiver] || places.size() <= 4;
+      const bool is_named = is_subject_[place.receiver] || film_.is_computer(place.receiver) || places.size() <= 4;
       const std::string delivery = is_named || !is_plain(place) ? delivery_text(place) : "received";
       note(delivery);
       if (is_named) {

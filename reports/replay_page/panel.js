@@ -1,4 +1,5 @@
-// The words beside the floor: the pair that fails, and the AGV that is selected. Names pass through textContent only.
+// The words beside the floor: the pair that fails, and the AGV or computer that is selected. Names pass through
+// textContent only.
 const panel = document.getElementById('selected'), pairBox = document.getElementById('pair');
 
 const element = (tag, text, className) => {
@@ -42,6 +43,7 @@ const tellPair = (t_s, all) => {
 
 const aboutActivity = (body, t_s) => {
   const row = activityOf(body, t_s);
+  if (isComputer(body)) return faultsOf(body, t_s).join(', ') || 'running';
   return row ? word(row[3]) + ' ' + word(row[4]) + ', until ' + seconds(row[2] / 1e3) : 'idle';
 };
 const aboutBeliefs = (body, t_s, all) => {
@@ -89,6 +91,7 @@ const aboutEvents = (body, t_s) => {
 const tellBody = (body, t_s, all, box) => {
   const one = all[body];
   box.append(element('div', nameOf(body), isInvolved(body) ? 'who bad' : 'who'));
+  if (isComputer(body)) return tellComputer(body, t_s, box);
   if (!one) return void box.append(element('p', 'is not on the floor', 'soft'));
   const speed = one.piece[kManner] === 1 ? speedAt(one.piece, t_s * 1e6) : 0;
   const lines = [['at', place(one.pose) + ', heads ' + heading(one.pose)],
@@ -135,12 +138,12 @@ const placeReasons = () => {
   reasonsBox.hidden = selected !== null && kWide.matches;
 };
 
-// The selected AGV with all details; without one, those involved in short.
+// The selected AGV or computer with all details; without one, those involved in short, or else the computers.
 const tell = (t_s, all) => {
   placeReasons();
   tellPair(t_s, all);
   const box = document.createDocumentFragment();
-  const bodies = selected === null ? film.involved.slice(0, 6) : [selected];
+  const bodies = selected === null ? (film.involved.length ? film.involved : kComputers).slice(0, 6) : [selected];
   for (const body of bodies) {
     tellBody(body, t_s, all, box);
     if (body === selected) tellReason(body, t_s, box);

@@ -94,6 +94,9 @@ const showPair = (instants_s, bodies = kSubject, room_m = 0.8) => {
   const xs = places.map(p => p[0]), ys = places.map(p => p[1]);
   fitTo([Math.min(...xs) - room_m, Math.min(...ys) - room_m], [Math.max(...xs) + room_m, Math.max(...ys) + room_m]);
 };
+const selectComputer = () => {
+  if (kComputers.length) select(kComputers[(kComputers.indexOf(selected) + 1) % kComputers.length]);
+};
 const showFailure = () => showPair([kFocus_s]);
 const zoom = (factor, x = floor.clientWidth / 2, y = floor.clientHeight / 2) => {
   const [x_m, y_m] = toFloor(x, y);
@@ -118,6 +121,7 @@ const kKeys = {
   ',': () => goTo(player.t_s - 0.02),
   w: () => { wholeFloor(); draw(); },
   f: () => { showFailure(); draw(); },
+  c: selectComputer,
   '+': () => zoom(1.25),
   '-': () => zoom(0.8),
   '?': () => byId('help').showModal(),
@@ -161,7 +165,9 @@ floor.addEventListener('pointerup', event => {
   if (moved_px > 5) return;
   const at = toFloor(event.offsetX, event.offsetY);
   const hit = bodiesAt(player.t_s).find(one => one && isInside(at, boxOf(one.piece, one.pose, 0.2)));
-  if (hit) select(hit.body);
+  const computer = computerAt(event.offsetX, event.offsetY);
+  if (computer !== undefined) select(computer);
+  else if (hit) select(hit.body);
 });
 floor.addEventListener('pointercancel', event => fingers.delete(event.pointerId));
 floor.addEventListener('wheel', event => {
@@ -199,13 +205,13 @@ byId('farther').addEventListener('click', kKeys['-']);
 byId('help-button').addEventListener('click', kKeys['?']);
 byId('help-close').addEventListener('click', () => byId('help').close());
 
-// "#t=64.2&agv=2": an instant in seconds, and the number of an AGV, counted from 0, or its name.
+// "#t=64.2&agv=2": an instant in seconds, and the number of an AGV, counted from 0, or the name of an AGV or computer.
 const readAddress = () => {
   const asked = new URLSearchParams(location.hash.slice(1)), agv = asked.get('agv');
   if (asked.has('t') && isFinite(asked.get('t'))) player.t_s = Math.min(Math.max(0, Number(asked.get('t'))), kEnd_s);
   if (agv === null) return;
   const found = film.bodies.findIndex(body => body.name === agv);
-  selected = found >= 0 ? found : kAgvs.includes(Number(agv)) ? Number(agv) : selected;
+  selected = found >= 0 ? found : kOrder.includes(Number(agv)) ? Number(agv) : selected;
 };
 addEventListener('hashchange', () => { readAddress(); drawAll(); });
 addEventListener('resize', drawAll);

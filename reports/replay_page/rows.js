@@ -1,14 +1,17 @@
-// The timeline: a row for each AGV with activities, what its agent says, messages, events and faults.
+// The timeline: a row for each AGV and computer: activities, what its agent says, messages, events and faults.
 const rows = document.getElementById('rows'), rowsBox = document.getElementById('rows-box');
 const playhead = document.getElementById('playhead');
 const kAgvs = film.bodies.map((body, i) => i).filter(i => film.bodies[i].kind === 'AGV');
 const kAxis_px = 20;
-// Those involved stand first.
-const kOrder = [...kAgvs.filter(isInvolved), ...kAgvs.filter(i => !isInvolved(i))];
-// Of many AGVs, only those involved and the selected one have rows with room for what their agents say.
+// Those involved stand first, then the computers.
+const kOrder = [...kAgvs.filter(isInvolved), ...kComputers, ...kAgvs.filter(i => !isInvolved(i))];
+// Of many, only those involved and the selected one have rows with room for what their agents say.
 const kTall = {row_px: 40, bar_px: 15, says_px: 12, font: '11px system-ui, sans-serif', says: true};
 const kFlat = {row_px: 22, bar_px: 11, says_px: 2, font: '9.5px system-ui, sans-serif', says: false};
-const lookOf = body => (kAgvs.length <= 12 || isInvolved(body) || body === selected ? kTall : kFlat);
+const lookOf = body => {
+  const alike = isComputer(body) ? kComputers.length <= 4 : kAgvs.length <= 12;
+  return alike || isInvolved(body) || body === selected ? kTall : kFlat;
+};
 const window_s = {from: 0, to: 1, length: 40};
 const kBarColours = {drive: 'drive', turn: 'turn', pick: 'transfer', drop: 'transfer', charge: 'charge',
                      dock: 'charge'};
@@ -158,7 +161,7 @@ const drawBroken = (context, body, y) => {
 const tellMissing = () => {
   const ends_s = [window_s.from, Math.min(window_s.to - 0.01, kEnd_s)];
   const isWhole = body => ends_s.every(t_s => isKept('messages', body, t_s));
-  const all = kAgvs.every(isWhole), long = window_s.to - window_s.from > 130;
+  const all = kOrder.every(isWhole), long = window_s.to - window_s.from > 130;
   document.getElementById('missing').textContent =
     long ? 'messages: choose 2 min or less' : all ? '' : 'here the page has messages only in part';
 };
@@ -189,7 +192,7 @@ const drawRows = () => {
     context.beginPath();
     context.rect(nameWidth(), y, width, row_px);
     context.clip();
-    drawActivities(context, body, y);
+    (isComputer(body) ? drawSaid : drawActivities)(context, body, y);
     drawStates(context, body, y);
     drawBroken(context, body, y);
     drawFaults(context, body, y);
@@ -208,7 +211,7 @@ const drawRows = () => {
     y += row_px;
   }
 };
-// The AGV whose row is there, if one is.
+// The AGV or computer whose row is there, if one is.
 const rowAt = y => {
   let below = kAxis_px;
   return y < kAxis_px ? undefined : kOrder.find(body => (below += lookOf(body).row_px) > y);

@@ -169,6 +169,72 @@ TEST(ReplayPage, WithoutAViolationItShowsThePairThatCameClosest) {
   EXPECT_THAT(replay_page(small_film()), Not(HasSubstr("this pair came closest of all")));
 }
 
+// A central fleet: the server lets AGV 0 and AGV 2 go. AGV 2 is not involved in the failure.
+Film central_film() {
+  Film film = small_film();
+  film.bodies.push_back({"AGV 2", BodyKind::Agv});
+  film.bodies.push_back({"server", BodyKind::Computer, FloorPlace{5'000'000, -1'000'000}});
+  film.bodies.push_back({"broker", BodyKind::Computer});
+  film.messages.clear();
+  std::uint32_t number = 0;
+  const auto send = [&](std::size_t from, std::size_t to, std::int64_t sent_us, const char* kind) {
+    film.messages.push_back(message(++number, from, to, sent_us, Receipt::Received));
+    film.messages.back().receiver = to;
+    film.messages.back().kind = kind;
+  };
+  send(0, 3, 8'000'000, "ASK");
+  send(3, 0, 9'500'000, "GO");
+  send(2, 3, 10'000'000, "ASK");
+  send(3, 2, 11'500'000, "GO");
+  film.messages[1].content = "the lane A to B is yours";
+  film.messages[3].content = "lease 7";
+  film.happenings.push_back({3, 12'000'000, "fault", "restart", true, false});
+  return film;
+}
+
+TEST(ReplayPage, HasThePlacesOfComputersAndWhatTheySayToEverybody) {
+  const std::string page = replay_page(central_film());
+  const Json data = data_of(page);
+  EXPECT_EQ(data["bodies"][3],
+            Json({{"name", "server"}, {"kind", "computer"}, {"x_um", 5'000'000}, {"y_um", -1'000'000}}));
+  EXPECT_EQ(data["bodies"][4], Json({{"name", "broker"}, {"kind", "computer"}})) << "connected everywhere";
+  std::vector<std::string> contents;
+  for (const Json& content : data["contents"]) contents.push_back(data["words"][content[1].get<std::size_t>()]);
+  EXPECT_THAT(contents, testing::ElementsAre("the lane A to B is yours", "lease 7"));
+  EXPECT_THAT(page, HasSubstr("<span class=\"whose\">server</span><span class=\"what\">fault</span>"))
+      << "faults of all stand in the event log";
+}
+
+// Whose answers count is inferred of AGVs alone. In this fleet they do not talk with each other at all.
+TEST(ReplayPage, BlamesNoAgvForSilenceIfAllTalkWithAServer) {
+  const auto reasons_text = [](const Film& film) {
+    std::string text;
+    const Json data = data_of(replay_page(film));
+    for (const Json& reason : data["reasons"]) {
+      for (const Json& line : reason["lines_us"]) text += line[2].get<std::string>() + "\n";
+    }
+    return text;
+  };
+  const std::string told = reasons_text(central_film());
+  EXPECT_THAT(told, HasSubstr("AGV 0 had sent ASK once (8.000 s)."));
+  for (const char* word : {"Answers in time", "had sent nothing to", "no ASK"}) EXPECT_THAT(told, Not(HasSubstr(word)));
+  Film mixed = central_film();
+  mixed.messages.push_back(message(9, 1, 0, 12'000'000, Receipt::Received));
+  EXPECT_THAT(reasons_text(mixed), HasSubstr("Answers in time: GRANT from AGV 1.")) << "to all is as good as to one";
+}
+
+TEST(ReplayPage, NamesComputersAmongThoseWhoReceive) {
+  Film film = central_film();
+  Message& to_all = film.messages.emplace_back(message(9, 0, 1, 12'000'000, Receipt::Received));
+  for (const std::size_t receiver : {2U, 3U, 4U}) to_all.arrivals.push_back({receiver, Receipt::Received, 1'500'000});
+  for (std::size_t i = 0; i < 3; ++i) {
+    to_all.arrivals.push_back({film.bodies.size(), Receipt::Received, 1'500'000});
+    film.bodies.push_back({fmt::format("AGV {}", i + 3), BodyKind::Agv});
+  }
+  const std::string page = replay_page(film);
+  EXPECT_THAT(page, HasSubstr("AGV 1, server, broker received 13.500 s; 4 AGVs received"));
+}
+
 // What a fleet of 50 does in ten minutes with a protocol that floods the radio.
 Film flooded_film() {
   Film film = small_film();

@@ -78,6 +78,34 @@ TEST_F(CentralFleet, StandsStillIfItsServerIsDeaf) {
   EXPECT_THAT(run("replay c.db 0").out, HasSubstr("transports 0 of"));
 }
 
+// The page has the server, its place, what it said to whom, and its faults; the words infer nothing from its silence.
+TEST_F(CentralFleet, IsShownByTheReplayPage) {
+  campaign(central("late"), "[[computers]]\nname = \"server\"\nat_m = [4, 21]\n", 1);
+  run("run c.toml --db c.db");
+  run("replay c.db 0 --scenario s.json");
+  std::string scenario = read(path("s.json"));
+  scenario.insert(scenario.rfind('}'),
+                  R"(, "faults": [{"agv": "server", "kind": "restart", "at_s": 50.5, "lasts_s": 5}])");
+  write("s.json", scenario);
+  EXPECT_TRUE(test::has_verdict(run("simulate s.json --plugin " + kCentral + " --html p.html")));
+  const std::string page = read(path("p.html"));
+  EXPECT_THAT(page, HasSubstr(R"({"name":"server","kind":"computer","x_um":4000000,"y_um":21000000})"));
+  EXPECT_THAT(page, HasSubstr("you may drive"));
+  EXPECT_THAT(page, HasSubstr("<dt>computers</dt><dd>server</dd>"));
+  for (const char* word : {"Answers in time", "had sent nothing to", "not on the floor."})
+    EXPECT_THAT(page, Not(HasSubstr(word)));
+  if (shell("command -v chromium").exit_code != 0) GTEST_SKIP() << "there is no chromium";
+  const test::Finished shown = shell(
+      "timeout 120 chromium --headless=new --no-sandbox --disable-gpu --user-data-dir=\"$PWD/profile\" "
+      "--enable-logging=stderr --dump-dom \"file://$PWD/p.html#t=52&agv=server\"");
+  EXPECT_THAT(shown.out, HasSubstr("data-ready=\"yes\""));
+  EXPECT_THAT(shown.err, Not(HasSubstr("Uncaught")));
+  const std::string panel = shown.out.substr(shown.out.find("<div class=\"who\">server</div>"));
+  EXPECT_THAT(panel, HasSubstr("<td>(4.00, 21.00) m</td>"));
+  EXPECT_THAT(panel, HasSubstr("<td class=\"soft\">fault under way</td><td class=\"bad\">restart</td>"));
+  EXPECT_THAT(panel, HasSubstr("<h3>last sent to each</h3><table><tbody><tr><td>AGV 0</td><td>GO: you may drive</td>"));
+}
+
 // An agent that runs on board alone has the same worlds and the same radio beside a central one.
 TEST_F(CentralFleet, ChangesNothingForOthers) {
   campaign("\"reckless\"");
