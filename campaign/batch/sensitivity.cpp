@@ -1,10 +1,13 @@
 #include "campaign/batch/sensitivity.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "campaign/batch/task_pool.hpp"
+#include "campaign/run/agent_programs.hpp"
 #include "campaign/run/run_one.hpp"
 #include "core/agents/agents.h"
 #include "core/base/error.hpp"
@@ -17,12 +20,52 @@ constexpr const char* kSoundAgent = "hull-lock";
 constexpr double kConfidence = 0.95;
 constexpr std::uint64_t kRunsAhead = 256;
 
+std::vector<const fp_agent_type*> faulty_agents() {
+  std::vector<const fp_agent_type*> agents;
+  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_faulty_agent(i); ++i) agents.push_back(agent);
+  return agents;
+}
+
+bool is_sound_original(const std::string& program) {
+  return std::ranges::any_of(faulty_agents(),
+                             [&](const fp_agent_type* faulty) { return program == fp_sound_agent(faulty)->name; });
+}
+
+// What the faulty agents are compared with: the plan's first fleet software with computers of which each program has
+// faulty copies; else hull-lock, with the parameters that the plan has for it.
+AgentFactor sound_of(const CampaignPlan& plan) {
+  AgentFactor sound(kSoundAgent);
+  const auto is_central = [](const AgentFactor& agent) {
+    return !agent.computers.empty() &&
+           std::ranges::all_of(agent.parts(), [](const ProgramPart* part) { return is_sound_original(part->program); });
+  };
+  auto found = std::ranges::find_if(plan.agents, is_central);
+  if (found == plan.agents.end())
+    found = std::ranges::find_if(plan.agents, [](const AgentFactor& known) { return known.program == kSoundAgent; });
+  if (found != plan.agents.end()) sound = *found;
+  sound.role = AgentRole::ByOrigin;
+  sound.name = name_of_parts(sound);
+  return sound;
+}
+
+// The same with the faulty agent in the place of its original. None: it is a copy of nothing there.
+std::optional<AgentFactor> with_fault(AgentFactor agent, const fp_agent_type& faulty) {
+  const std::string original = fp_sound_agent(&faulty)->name;
+  bool replaced = false;
+  const auto replace = [&](ProgramPart& part) {
+    if (part.program != original) return;
+    part.program = faulty.name;
+    replaced = true;
+  };
+  replace(agent);
+  for (ComputerPart& part : agent.computers) replace(part);
+  agent.name = faulty.name;
+  return replaced ? std::optional(agent) : std::nullopt;
+}
+
 // The worlds of the plan, with this agent alone in them.
-CampaignPlan with_agent(CampaignPlan plan, const std::string& agent) {
-  const auto sound =
-      std::ranges::find_if(plan.agents, [](const AgentFactor& known) { return known.program == kSoundAgent; });
-  plan.agent_config = sound != plan.agents.end() ? plan.config_of(*sound) : std::string();
-  plan.agents = {AgentFactor(agent)};
+CampaignPlan with_agent(CampaignPlan plan, const AgentFactor& agent) {
+  plan.agents = {agent};
   plan.gates.clear();
   return plan;
 }
@@ -107,24 +150,33 @@ std::uint64_t Sensitivity::detected() const {
       std::ranges::count_if(faults, [](const FaultDetection& finding) { return !finding.seen_as.empty(); }));
 }
 
-std::vector<std::string> faulty_agent_names() {
+std::vector<std::string> faulty_agent_names(const CampaignPlan& plan) {
+  const AgentFactor sound = sound_of(plan);
   std::vector<std::string> names;
-  for (std::uint32_t i = 0; const fp_agent_type* agent = fp_faulty_agent(i); ++i) names.emplace_back(agent->name);
+  for (const fp_agent_type* faulty : faulty_agents()) {
+    if (with_fault(sound, *faulty)) names.emplace_back(faulty->name);
+  }
   return names;
 }
 
 Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& programs,
                                 const SensitivityOptions& options,
                                 const std::function<void(const FaultDetection&)>& told) {
-  const std::vector<std::string> faulty = faulty_agent_names();
+  const AgentFactor sound = sound_of(plan);
+  const std::vector<std::string> known = faulty_agent_names(plan);
   for (const std::string& agent : options.agents) {
-    if (std::ranges::find(faulty, agent) == faulty.end())
-      throw InputError("--agent", in_quotes(agent) + " is not an agent with a planted fault: fleetproof list agents");
+    if (std::ranges::find(known, agent) == known.end())
+      throw InputError("--agent", fmt::format("{} is not an agent with a planted fault of {}: fleetproof list agents",
+                                              in_quotes(agent), sound.name));
   }
   Sensitivity result;
-  result.sound = tally_of(with_agent(plan, kSoundAgent), programs, options, false);
-  for (const std::string& agent : options.agents.empty() ? faulty : options.agents) {
-    const CampaignPlan worlds = with_agent(plan, agent);
+  result.sound = tally_of(with_agent(plan, sound), programs, options, false);
+  for (const fp_agent_type* faulty : faulty_agents()) {
+    const auto agent = with_fault(sound, *faulty);
+    const bool asked_for =
+        options.agents.empty() || std::ranges::find(options.agents, faulty->name) != options.agents.end();
+    if (!agent || !asked_for) continue;
+    const CampaignPlan worlds = with_agent(plan, *agent);
     const bool until_violation = result.sound.all.with(kAccusedOfViolation) == 0;
     AgentTally tally = tally_of(worlds, programs, options, until_violation);
     if (is_over(options)) break;  // not all of its runs are there

@@ -41,7 +41,9 @@ struct SensitivityOptions {
   const TimeLimit* limit = nullptr;  // when it is over, the result has the faults that were measured; null: none
 };
 
-// Runs the sound agent and the faulty agents in the worlds of `plan`, whatever its agents are, and stores nothing.
+// Runs a sound agent and its faulty copies in the worlds of `plan`, and stores nothing. If the plan has fleet software
+// with computers of which copies exist, the copies have one faulty program each, and else sound ones; if not, the sound
+// agent is hull-lock, whatever the agents of the plan are.
 // A fault is detected by its first violation, if the sound agent has none in all its runs; then its other runs are not
 // simulated. Otherwise a fault is detected if the laws accuse it of something in more runs than the sound agent, over
 // all runs or with one of the radios of the plan: the lower bound of one rate lies above the upper bound of the other,
@@ -51,7 +53,7 @@ Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& p
                                 const SensitivityOptions& options,
                                 const std::function<void(const FaultDetection&)>& told = {});
 
-// The names of the faulty agents, in the order of the catalogue.
-std::vector<std::string> faulty_agent_names();
+// The names of the faulty agents that are tried in the worlds of this plan, in the order of the catalogue.
+std::vector<std::string> faulty_agent_names(const CampaignPlan& plan);
 
 }  // namespace fleetproof

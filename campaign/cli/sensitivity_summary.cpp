@@ -92,7 +92,7 @@ SensitivityRecord summary_of(const CampaignPlan& plan, const AgentPrograms& prog
   record.engine_version = engine_identity().version;
   record.program_sha256 = engine_identity().program_sha256;
   record.sound_agent = measured.front().found.sound.agent;
-  record.known_faults = faulty_agent_names().size();
+  record.known_faults = faulty_agent_names(plan).size();
   for (const auto& [seed, found] : measured) {
     record.seeds.push_back(seed);
     record.runs = std::max(record.runs, found.sound.all.runs);

@@ -28,13 +28,20 @@ const fp_agent_type* fp_reference_agent(uint32_t number) {
 }
 
 const fp_agent_type* fp_faulty_agent(uint32_t number) {
-  return number < kFaultyAgents.size() ? &kFaultyAgents[number] : nullptr;
+  return number < kFaultyAgents.size() ? &kFaultyAgents[number].type : nullptr;
+}
+
+const fp_agent_type* fp_sound_agent(const fp_agent_type* faulty) {
+  for (const FaultyAgent& known : kFaultyAgents) {
+    if (&known.type == faulty) return known.sound;
+  }
+  return nullptr;
 }
 
 uint32_t fp_reference_agent_limit(const fp_agent_type* agent) {
   for (const ReferenceAgent& known : kWithoutPlantedFault) {
     if (known.type == agent) return known.most_of_each;
   }
-  return kNumbersOnTheWire;  // hull-lock with a planted fault
+  return kNumbersOnTheWire;  // one with a planted fault
 }
 }

@@ -10,8 +10,10 @@ extern "C" {
 
 /* The reference agents by number, from 0 on; those with a planted fault come last. Null after the last. */
 const fp_agent_type* fp_reference_agent(uint32_t number);
-/* Those that are hull-lock with a planted fault, from 0 on. Null after the last. */
+/* Those with a planted fault, from 0 on. Null after the last. */
 const fp_agent_type* fp_faulty_agent(uint32_t number);
+/* What a faulty agent is but for its fault: hull-lock, or a program of the central fleet. Null for agents without. */
+const fp_agent_type* fp_sound_agent(const fp_agent_type* faulty);
 
 /* With how many stations, drives (lanes) and AGVs, each, a reference agent can start at most, because its messages name
  * no more. FP_NONE: with any number. */

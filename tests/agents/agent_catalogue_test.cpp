@@ -85,8 +85,9 @@ TEST(FaultyAgents, NameTheirFaultInTheirTableAndOnThePage) {
     const std::string name = agent->name;
     EXPECT_THAT(page, ::testing::HasSubstr("| `" + name + "` |"));
     // The fault, in one or two lines, directly above the entry.
-    EXPECT_THAT(table, ::testing::ContainsRegex(
-                           "// FAULT: [^\n]+\n( +// [^\n]+\n)? +faulty_hull_lock<[^\n]*>\\(\n? *\"" + name + "\""));
+    EXPECT_THAT(table,
+                ::testing::ContainsRegex(
+                    "// FAULT: [^\n]+\n( +// [^\n]+\n)? +(lock|server|follower)_with<[^\n]*>\\(\n? *\"" + name + "\""));
   }
   EXPECT_GE(agents, 34U);
 }

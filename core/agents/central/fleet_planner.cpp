@@ -39,11 +39,13 @@ FleetPlanner::Model::Model(const MapView& map, const HullGeometry& geometry, std
       prices(map, rules, lane_costs_s(geometry.parts(), agv), geometry.parts().facts().fleet_count),
       number(of) {}
 
-FleetPlanner::FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook& book, const Settings& settings)
+FleetPlanner::FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook& book, const Settings& settings,
+                           const ServerOptions& options)
     : map_(map),
       geometry_(geometry),
       book_(book),
       settings_(settings),
+      options_(options),
       places_(map, geometry),
       tasks_(book.fleet_count()),
       pushed_(book.fleet_count()) {
@@ -217,6 +219,7 @@ struct FleetPlanner::Walk {
   Section::End here, least;
   std::uint32_t least_burden = ~0U;
   double length_m = 0.0;
+  bool ends_anywhere = false;  // of a faulty server: wherever it waits, it blocks nobody
 
   Path end() const { return end_of(planner.map_, section.path); }
   bool is_done() const { return !section.ends.empty() && (length_m >= kSection_m || here.goals > 0); }
@@ -250,7 +253,7 @@ struct FleetPlanner::Walk {
   void note_end() {
     here.steps = static_cast<std::uint32_t>(section.steps.size());
     if (here.lanes == 0) return;
-    const std::uint32_t burden = planner.burden_at(agv, end());
+    const std::uint32_t burden = ends_anywhere ? 0 : planner.burden_at(agv, end());
     if (burden <= least_burden) least = here, least_burden = burden;
     if (burden > 0) return;
     if (!section.ends.empty() && section.ends.back().lanes == here.lanes) section.ends.pop_back();
@@ -270,6 +273,8 @@ Section FleetPlanner::towards_goals(std::uint32_t agv) {
   bool loaded = carries_load(agv);
   price(model, agv, loaded, 0.0);
   Walk walk(*this, agv);
+  walk.ends_anywhere =
+      !options_.ways_to_chargers_are_whole && tasks_[agv].goals.front().step.kind == Step::Kind::Charge;
   for (const Goal& goal : tasks_[agv].goals) {
     const Path here = walk.end();
     if (here.station != goal.station || !map_.may_stay(here.station, here.heading)) {
@@ -277,7 +282,7 @@ Section FleetPlanner::towards_goals(std::uint32_t agv) {
       if (!walk.follow(model.routes.lanes(goal.station))) return walk.take();
     }
     walk.transfer(goal);
-    if (goal.step.kind == Step::Kind::Charge) {  // it stays there, and nothing is behind it
+    if (goal.step.kind == Step::Kind::Charge && !walk.ends_anywhere) {  // it stays there, and nothing is behind it
       walk.section.ends.assign(1, walk.here);
       return walk.take();
     }
@@ -354,7 +359,8 @@ bool FleetPlanner::extend(std::uint32_t agv, const Section& section) {
 std::uint32_t FleetPlanner::free_lanes(std::uint32_t agv, const Path& path) {
   Path part = path;
   const auto shorten = [&](std::uint32_t other, const Path& of_other) {
-    if (other == agv || part.empty() || !geometry_.conflict(agv, part, other, of_other)) return;
+    if (other == agv || part.empty() || !book_.holds_floor(other) || !geometry_.conflict(agv, part, other, of_other))
+      return;
     std::uint32_t free = 0, taken = part.count;
     while (free + 1 < taken) {
       part.count = (free + taken) / 2;

@@ -11,6 +11,7 @@
 
 #include "core/agents/central/floor_book.hpp"
 #include "core/agents/central/messages.hpp"
+#include "core/agents/central/zone_options.hpp"
 #include "core/agents/drive_rules.hpp"
 #include "core/agents/hull.hpp"
 #include "core/agents/lane_prices.hpp"
@@ -70,7 +71,8 @@ struct Task {
 // way, it makes way. Requires: all that is passed outlives the object.
 class FleetPlanner {
  public:
-  FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook& book, const Settings& settings);
+  FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook& book, const Settings& settings,
+               const ServerOptions& options = {});
 
   // The AGV has begun a way: nothing is known of its work.
   void begin(std::uint32_t agv);
@@ -121,6 +123,7 @@ class FleetPlanner {
   HullGeometry& geometry_;
   FloorBook& book_;
   const Settings& settings_;
+  ServerOptions options_;
   WaitingPlaces places_;
   std::map<std::uint32_t, std::unique_ptr<Model>> models_;
   std::vector<Model*> model_of_;  // by AGV

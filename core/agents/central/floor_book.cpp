@@ -6,9 +6,13 @@ namespace fleetproof::agents::central {
 
 FloorBook::News FloorBook::hear(std::uint32_t agv, const State& state) {
   Way& way = ways_[agv];
+  const bool fails_early = state.out_of_order && state.known < way.granted();
+  const bool starts_again = way.is_waiting() && state.way.agv_boot > way.boot && !state.stands;
+  way.lost = (fails_early && !options_.failures_keep_floor) || (starts_again && !options_.restarts_keep_floor);
   if (state.way.server_boot != server_boot_ || !state.stands) return News::None;
   if (way.joined && state.way.agv_boot < way.boot) return News::None;
   const bool joins = !way.joined || state.way.agv_boot > way.boot;
+  if (joins && !options_.restarts_are_believed && !way.steps.empty()) return News::None;
   if (joins) begin(way, state);
   if (joins || state.number > way.newest) {
     way.newest = state.number;

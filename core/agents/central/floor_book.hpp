@@ -41,6 +41,7 @@
 #include <vector>
 
 #include "core/agents/central/messages.hpp"
+#include "core/agents/central/zone_options.hpp"
 #include "core/agents/hull.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/path.hpp"
@@ -52,6 +53,7 @@ class FloorBook {
  public:
   struct Way {
     bool joined = false;
+    bool lost = false;             // a faulty server takes its floor for free, until it hears of it again
     std::uint32_t boot = 0;        // of the AGV
     Path held;                     // from the last station that the AGV has told
     std::deque<Step> steps;        // granted, and not known to be done
@@ -68,22 +70,26 @@ class FloorBook {
   };
   enum class News : std::uint8_t { None, Progress, Joined };
 
-  FloorBook(const MapView& map, HullGeometry& geometry, std::uint32_t fleet_count, std::uint32_t server_boot)
-      : map_(map), geometry_(geometry), server_boot_(server_boot), ways_(fleet_count) {}
+  FloorBook(const MapView& map, HullGeometry& geometry, std::uint32_t fleet_count, std::uint32_t server_boot,
+            const ServerOptions& options = {})
+      : map_(map), geometry_(geometry), server_boot_(server_boot), options_(options), ways_(fleet_count) {}
 
   std::uint32_t fleet_count() const { return static_cast<std::uint32_t>(ways_.size()); }
   const Way& way(std::uint32_t agv) const { return ways_[agv]; }
-  bool all_joined() const { return joined_ == ways_.size(); }
+  bool all_joined() const { return joined_ == ways_.size() || !options_.all_join_first; }
   WayNumber number_of(std::uint32_t agv) const { return {server_boot_, ways_[agv].boot}; }
   Path end_of_way(std::uint32_t agv) const { return end_of(map_, ways_[agv].held); }
 
   // Requires: the station exists.
   News hear(std::uint32_t agv, const State& state);
+  bool holds_floor(std::uint32_t agv) const { return ways_[agv].joined && !ways_[agv].lost; }
   // Whether another AGV holds floor of this path.
   bool is_held_by(std::uint32_t other, std::uint32_t agv, const Path& path) {
-    return other != agv && geometry_.conflict(agv, path, other, ways_[other].held);
+    return other != agv && holds_floor(other) && geometry_.conflict(agv, path, other, ways_[other].held);
   }
   bool is_free(std::uint32_t agv, const Path& path);
+  // A faulty server does this to an AGV.
+  void lose(std::uint32_t agv) { ways_[agv].lost = true; }
   // The AGV may use these steps from now on. False, and nothing has changed, if they are not its to use: they do not
   // continue its way, another AGV holds floor of them, an AGV has not joined, or the way is too long.
   bool grant(std::uint32_t agv, std::span<const Step> steps);
@@ -97,6 +103,7 @@ class FloorBook {
   const MapView& map_;
   HullGeometry& geometry_;
   std::uint32_t server_boot_;
+  ServerOptions options_;
   std::vector<Way> ways_;  // by AGV
   std::uint32_t joined_ = 0;
 };

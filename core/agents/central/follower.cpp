@@ -13,8 +13,10 @@ constexpr double kWrongClock = 1.02;  // clocks may run wrong by up to 1 %
 
 }  // namespace
 
-Follower::Follower(const fp_host& host, fp_controller* handle, const fp_briefing& briefing)
-    : controller_(host, handle, briefing.boot),
+Follower::Follower(const fp_host& host, fp_controller* handle, const fp_briefing& briefing,
+                   const FollowerOptions& options)
+    : options_(options),
+      controller_(host, handle, briefing.boot),
       facts_(briefing),
       map_(facts_.shared()),
       settings_(read_settings(briefing.config)),
@@ -77,6 +79,7 @@ void Follower::tick() {
   const double pause_s = kPulse_s * (0.8 + 0.4 * controller_.random(kPulseDraws));
   controller_.set_timer(kPulseTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
   if (phase_ == Phase::Lost) find_place();
+  if (options_.patience_ns > 0) lose_patience();
   report();
 }
 
@@ -98,6 +101,17 @@ void Follower::find_place() {
   begin_way();
 }
 
+// Of a faulty follower: it takes the request for lost, and what answers it later for an answer to something else.
+void Follower::lose_patience() {
+  if (phase_ != Phase::OnWay || !steps_.empty()) {
+    waits_from_ns_ = controller_.now_ns();
+  } else if (controller_.now_ns() - waits_from_ns_ > options_.patience_ns) {
+    waits_from_ns_ = controller_.now_ns();
+    ++way_.way.agv_boot;
+    begin_way();
+  }
+}
+
 // Requires: the AGV rests, and the held path says where.
 void Follower::begin_way() {
   phase_ = Phase::OnWay;
@@ -114,7 +128,8 @@ void Follower::obey(std::span<const std::byte> bytes) {
   const std::optional<Grant> grant = decode_grant(bytes);
   if (!grant) return;
   if (grant->way.server_boot > way_.way.server_boot) follow_boot(grant->way.server_boot);
-  if (phase_ != Phase::OnWay || grant->way != way_.way) return controller_.sometimes("grant-of-another-way");
+  if (phase_ != Phase::OnWay || (options_.ways_count && grant->way != way_.way))
+    return controller_.sometimes("grant-of-another-way");
   orders_told_ = std::clamp(grant->orders, orders_told_, static_cast<std::uint32_t>(orders_.size()));
   take_steps(*grant);
 }
@@ -124,20 +139,21 @@ void Follower::follow_boot(std::uint32_t server_boot) {
   controller_.sometimes("server-restarted");
   way_.way.server_boot = server_boot;
   if (phase_ == Phase::Lost) return;
-  steps_.resize(under_way_);
+  if (options_.former_steps_end) steps_.resize(under_way_);
   held_.count = std::min(
       held_.count, static_cast<std::uint32_t>(std::ranges::count_if(steps_, [](const Step& s) { return s.drives(); })));
   phase_ = Phase::Ending;
   way_.stands = false;
-  if (under_way_ == 0) begin_way();
+  if (under_way_ == 0 || !options_.ways_begin_at_rest) begin_way();
 }
 
 // The first steps of the message may be known already; if others are missing before them, it waits for these.
 void Follower::take_steps(const Grant& grant) {
-  if (grant.first > way_.known) return controller_.sometimes("grant-lost");
-  const auto last = static_cast<std::uint32_t>(grant.first + grant.steps.size());
+  const std::uint32_t first = options_.numbers_count ? grant.first : way_.known;
+  if (first > way_.known) return controller_.sometimes("grant-lost");
+  const auto last = static_cast<std::uint32_t>(first + grant.steps.size());
   if (last <= way_.known) return;
-  for (std::uint32_t i = way_.known - grant.first; i < grant.steps.size(); ++i) {
+  for (std::uint32_t i = way_.known - first; i < grant.steps.size(); ++i) {
     const Step& step = grant.steps[i];
     if (step.drives()) {
       Path longer = held_;
@@ -225,6 +241,7 @@ void Follower::report() {
   State state = way_;
   state.battery = controller_.battery_level();
   state.out_of_order = controller_.out_of_order();
+  state.done += !options_.lanes_to_their_end && under_way_ == 2 ? 1 : 0;
   state.first_order = orders_told_;
   for (std::size_t i = orders_told_; i < orders_.size() && state.orders.size() < kMostOrdersInAMessage; ++i)
     state.orders.push_back(orders_[i].order);
@@ -239,12 +256,13 @@ const char* Follower::activity() const {
   return orders_.empty() || orders_.back().done ? "idle" : "waiting";
 }
 
-void* create_follower(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
+void* create_follower(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
+                      const FollowerOptions& options) {
   if (!can_start(*host, controller, *briefing, FP_AGV)) return nullptr;
-  return new Follower(*host, controller, *briefing);
+  return new Follower(*host, controller, *briefing, options);
 }
 
 constinit const fp_agent_type kFollower =
-    agent_type<Follower>("follower", "drives as its zone-server grants, and stops where that ends", create_follower);
+    faulty_follower<FollowerOptions{}>("follower", "drives as its zone-server grants, and stops where that ends");
 
 }  // namespace fleetproof::agents::central

@@ -7,6 +7,7 @@
 
 #include "core/agents/agent_type.hpp"
 #include "core/agents/central/messages.hpp"
+#include "core/agents/central/zone_options.hpp"
 #include "core/agents/controller.hpp"
 #include "core/agents/facts.hpp"
 #include "core/agents/map_view.hpp"
@@ -21,7 +22,8 @@ namespace fleetproof::agents::central {
 // it promises and why this is enough. The first computer of the fleet is its server.
 class Follower {
  public:
-  Follower(const fp_host& host, fp_controller* handle, const fp_briefing& briefing);
+  Follower(const fp_host& host, fp_controller* handle, const fp_briefing& briefing,
+           const FollowerOptions& options = {});
   Follower(const Follower&) = delete;
   Follower& operator=(const Follower&) = delete;
 
@@ -39,6 +41,7 @@ class Follower {
   void start();
   void tick();
   void find_place();
+  void lose_patience();
   void begin_way();
   void obey(std::span<const std::byte> bytes);
   void follow_boot(std::uint32_t server_boot);
@@ -54,6 +57,7 @@ class Follower {
   void report();
   const char* activity() const;
 
+  FollowerOptions options_;
   Controller controller_;
   Facts facts_;
   MapView map_;
@@ -68,10 +72,21 @@ class Follower {
   std::deque<Step> steps_;          // not done
   std::uint32_t under_way_ = 0;     // of these: the first one, and perhaps the move that has been given to follow it
   std::vector<OwnOrder> orders_;
-  std::uint32_t orders_told_ = 0;  // the server has so many of them
+  std::uint32_t orders_told_ = 0;   // the server has so many of them
+  std::int64_t waits_from_ns_ = 0;  // since then, it has waited for a Grant; only the impatient look
 };
 
 // Returns null, and says why, if there is no server, or if the plant is too large for paths.
-void* create_follower(const fp_host* host, fp_controller* controller, const fp_briefing* briefing);
+void* create_follower(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
+                      const FollowerOptions& options);
+
+// The follower with a fault. Requires: `options` differ from the defaults in one member.
+template <FollowerOptions options>
+constexpr fp_agent_type faulty_follower(const char* name, const char* description) {
+  return agent_type<Follower>(name, description,
+                              [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
+                                return create_follower(host, controller, briefing, options);
+                              });
+}
 
 }  // namespace fleetproof::agents::central

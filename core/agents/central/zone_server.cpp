@@ -8,16 +8,19 @@
 
 namespace fleetproof::agents::central {
 
-ZoneServer::ZoneServer(const fp_host& host, fp_controller* handle, const fp_briefing& briefing)
-    : controller_(host, handle, briefing.boot),
+ZoneServer::ZoneServer(const fp_host& host, fp_controller* handle, const fp_briefing& briefing,
+                       const ServerOptions& options)
+    : options_(options),
+      controller_(host, handle, briefing.boot),
       settings_(read_settings(briefing.config)),
       facts_(briefing),
       map_(facts_.shared()),
       geometry_(map_, briefing),
-      book_(map_, geometry_, briefing.fleet_count, briefing.boot),
-      planner_(map_, geometry_, book_, settings_),
+      book_(map_, geometry_, briefing.fleet_count, briefing.boot, options),
+      planner_(map_, geometry_, book_, settings_, options),
       owes_(briefing.fleet_count, briefing.boot > 0),
-      told_(briefing.fleet_count) {
+      told_(briefing.fleet_count),
+      heard_ns_(briefing.fleet_count) {
   if (briefing.boot > 0) controller_.sometimes("restarted");
 }
 
@@ -35,6 +38,7 @@ void ZoneServer::on_event(const fp_event& event) {
 void ZoneServer::tick() {
   const double pause_s = kPulse_s * (0.8 + 0.4 * controller_.random(kPulseDraws));
   controller_.set_timer(kPulseTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
+  if (options_.silence_frees_after_ns > 0) lose_the_silent();
   plan();
   for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
     const FloorBook::Way& way = book_.way(agv);
@@ -45,10 +49,18 @@ void ZoneServer::tick() {
   controller_.declare_state(book_.all_joined() ? "planning" : "learning");
 }
 
+// Of a faulty server.
+void ZoneServer::lose_the_silent() {
+  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
+    if (controller_.now_ns() - heard_ns_[agv] > options_.silence_frees_after_ns) book_.lose(agv);
+  }
+}
+
 // True if there may be something new to grant.
 bool ZoneServer::hear(std::uint32_t sender, std::span<const std::byte> bytes) {
   const std::optional<State> state = decode_state(bytes);
   if (!state || !is_possible(sender, *state)) return false;
+  heard_ns_[sender] = controller_.now_ns();
   const FloorBook::News news = book_.hear(sender, *state);
   if (news == FloorBook::News::Joined) {
     planner_.begin(sender);
@@ -78,6 +90,7 @@ void ZoneServer::plan() {
 
 void ZoneServer::send(std::uint32_t agv) {
   Grant grant = book_.unknown_steps(agv);
+  if (!options_.repeats_grants && grant.first + grant.steps.size() <= told_[agv]) grant.steps.clear();
   grant.orders = planner_.orders_of(agv);
   owes_[agv] = false;
   told_[agv] = std::max(told_[agv], static_cast<std::uint32_t>(grant.first + grant.steps.size()));
@@ -88,19 +101,13 @@ void ZoneServer::send(std::uint32_t agv) {
   controller_.send(encode(grant), agv);
 }
 
-void* create_zone_server(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
+void* create_zone_server(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
+                         const ServerOptions& options) {
   if (!can_start(*host, controller, *briefing, FP_COMPUTER)) return nullptr;
-  return new ZoneServer(*host, controller, *briefing);
+  return new ZoneServer(*host, controller, *briefing, options);
 }
 
-namespace {
-constexpr fp_agent_type serving_computers(fp_agent_type type) {
-  type.flags |= FP_SERVES_COMPUTERS;
-  return type;
-}
-}  // namespace
-
-constinit const fp_agent_type kZoneServer = serving_computers(agent_type<ZoneServer>(
-    "zone-server", "plans for a fleet of followers and grants each the floor that it may use", create_zone_server));
+constinit const fp_agent_type kZoneServer = faulty_zone_server<ServerOptions{}>(
+    "zone-server", "plans for a fleet of followers and grants each the floor that it may use");
 
 }  // namespace fleetproof::agents::central

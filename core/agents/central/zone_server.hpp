@@ -4,9 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "core/agents/agent_type.hpp"
 #include "core/agents/central/fleet_planner.hpp"
 #include "core/agents/central/floor_book.hpp"
 #include "core/agents/central/messages.hpp"
+#include "core/agents/central/zone_options.hpp"
 #include "core/agents/controller.hpp"
 #include "core/agents/facts.hpp"
 #include "core/agents/hull.hpp"
@@ -20,7 +22,8 @@ namespace fleetproof::agents::central {
 // the book of the floor (floor_book.hpp), and repeats what an AGV does not seem to have.
 class ZoneServer {
  public:
-  ZoneServer(const fp_host& host, fp_controller* handle, const fp_briefing& briefing);
+  ZoneServer(const fp_host& host, fp_controller* handle, const fp_briefing& briefing,
+             const ServerOptions& options = {});
   ZoneServer(const ZoneServer&) = delete;
   ZoneServer& operator=(const ZoneServer&) = delete;
 
@@ -28,11 +31,13 @@ class ZoneServer {
 
  private:
   void tick();
+  void lose_the_silent();
   bool hear(std::uint32_t sender, std::span<const std::byte> bytes);
   bool is_possible(std::uint32_t sender, const State& state) const;
   void plan();
   void send(std::uint32_t agv);
 
+  ServerOptions options_;
   Controller controller_;
   Settings settings_;
   Facts facts_;
@@ -40,11 +45,24 @@ class ZoneServer {
   HullGeometry geometry_;
   FloorBook book_;
   FleetPlanner planner_;
-  std::vector<bool> owes_;           // by AGV: an answer to what it told
-  std::vector<std::uint32_t> told_;  // by AGV: so many steps were sent at least once
+  std::vector<bool> owes_;              // by AGV: an answer to what it told
+  std::vector<std::uint32_t> told_;     // by AGV: so many steps were sent at least once
+  std::vector<std::int64_t> heard_ns_;  // by AGV: when; only a faulty server looks
 };
 
 // Returns null, and says why, if it is to serve an AGV, or if the plant is too large for paths.
-void* create_zone_server(const fp_host* host, fp_controller* controller, const fp_briefing* briefing);
+void* create_zone_server(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
+                         const ServerOptions& options);
+
+// The zone-server with a fault. Requires: `options` differ from the defaults in one member.
+template <ServerOptions options>
+constexpr fp_agent_type faulty_zone_server(const char* name, const char* description) {
+  fp_agent_type type = agent_type<ZoneServer>(
+      name, description, [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
+        return create_zone_server(host, controller, briefing, options);
+      });
+  type.flags |= FP_SERVES_COMPUTERS;
+  return type;
+}
 
 }  // namespace fleetproof::agents::central

@@ -6,7 +6,12 @@
 
 namespace fleetproof::agents {
 
-// hull-lock with one planted fault each. The fault stands above its line of the table.
-extern const std::span<const fp_agent_type> kFaultyAgents;
+struct FaultyAgent {
+  const fp_agent_type* sound;  // what it is but for its fault
+  fp_agent_type type;
+};
+
+// Each with one planted fault, which stands above its line of the table.
+extern const std::span<const FaultyAgent> kFaultyAgents;
 
 }  // namespace fleetproof::agents

@@ -115,6 +115,22 @@ TEST_F(Sensitive, SaysWhatItDetectsAndWhatItMisses) {
               HasSubstr("\"stale-grant\" is given twice; name each agent once"));
 }
 
+TEST_F(Sensitive, OfACentralFleetTriesFaultsOfItsOwnPrograms) {
+  std::string campaign = kCorridor;
+  campaign.replace(campaign.find("\"reckless\""), std::string_view("\"reckless\"").size(),
+                   "{ vehicle = \"follower\", computer = \"zone-server\" }");
+  write("a.toml", campaign);
+  const auto finished = run("sensitivity a.toml --agent takes-steps-twice --agent waits-for-former-self");
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("  takes-steps-twice        contact after "));
+  EXPECT_THAT(finished.out, HasSubstr("  waits-for-former-self    never tried")) << "no AGV restarts here";
+  EXPECT_THAT(finished.out, HasSubstr("zone-server+follower in 10 runs"));
+  EXPECT_THAT(finished.out, HasSubstr("11 more were not measured"));
+  const auto unknown = run("sensitivity a.toml --agent stale-grant -o other.json");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("\"stale-grant\" is not an agent with a planted fault of zone-server+follower"));
+}
+
 TEST_F(Sensitive, FewerFaultsDoNotTakeThePlaceOfMore) {
   write("a.toml", kCorridor);
   const std::string two = "sensitivity a.toml --runs 1 --agent grants-for-good --agent wraps-at-256";
