@@ -41,7 +41,7 @@ class ContainmentLaw final : public Law {
   LawResults findings() const override;
 
  private:
-  // `owner` is the AGV of the load's transport.
+  // `owner` is the AGV of the load's transport; invalid: it is open, and no AGV carries it.
   void appears(EntityId owner, LoadId number, TrackedLoad& load, const Holder& where, SimTime at);
   void moves(EntityId owner, LoadId number, TrackedLoad& load, const Holder& to, SimTime at);
   void check_put_down(EntityId owner, LoadId number, TrackedLoad& load, StationId station, SimTime at);
@@ -110,13 +110,15 @@ void ContainmentLaw::moves(EntityId owner, LoadId number, TrackedLoad& load, con
   load.misplaced.reset();
   const Holder from = std::exchange(load.holder, to);
   const EntityId agv{to.kind == Holder::Kind::Agv ? to.index : from.index};
-  if (to.kind == Holder::Kind::Agv && from.kind == Holder::Kind::Agv) {
+  if (to.kind == Holder::Kind::Withdrawn) {
+    if (from.kind != Holder::Kind::Station) accuse(IncidentKind::LoadMovedByNobody, owner, {}, at, number);
+  } else if (to.kind == Holder::Kind::Agv && from.kind == Holder::Kind::Agv) {
     accuse(IncidentKind::LoadHeldByTwo, EntityId{from.index}, EntityId{to.index}, at, number);
   } else if (to.kind == Holder::Kind::Floor || to.kind == Holder::Kind::ClearedAway) {
     // It falls from an AGV, and is cleared away from the floor.
     const auto must_come_from = to.kind == Holder::Kind::Floor ? Holder::Kind::Agv : Holder::Kind::Floor;
     if (from.kind != must_come_from) accuse(IncidentKind::LoadMovedByNobody, owner, {}, at, number);
-  } else if (to.kind == from.kind || from.kind == Holder::Kind::Floor || from.kind == Holder::Kind::ClearedAway) {
+  } else if (to.kind == from.kind || from.kind == Holder::Kind::Floor || from.is_gone()) {
     accuse(IncidentKind::LoadMovedByNobody, owner, {}, at, number);
   } else {
     const bool taken = to.kind == Holder::Kind::Agv;
@@ -128,8 +130,8 @@ void ContainmentLaw::moves(EntityId owner, LoadId number, TrackedLoad& load, con
   if (to.kind == Holder::Kind::Agv && carries_another(agv, number))
     accuse(IncidentKind::LoadPickedByFullAgv, agv, {}, at, number);
   if (to.kind == Holder::Kind::Station) check_put_down(owner, number, load, StationId{to.index}, at);
-  if (const auto handling = handling_.find(agv); handling != handling_.end() && handling->second.load == number)
-    handling->second.moved = true;
+  // Of two AGVs that pick it, one gets it; of a load that is withdrawn, none does.
+  for (auto& [handler, handling] : handling_) handling.moved = handling.moved || handling.load == number;
 }
 
 void ContainmentLaw::check_put_down(EntityId owner, LoadId number, TrackedLoad& load, StationId station, SimTime at) {

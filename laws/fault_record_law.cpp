@@ -175,6 +175,7 @@ class FaultRecordLaw final : public Law {
           agv.script, [&](Duration at) { return late(at) || !plays_scripts_; }, &ScriptedCall::at);
       counts[EntityId{i}] = orders + calls;
     }
+    counts[EntityId{}] = std::ranges::count_if(scenario_.open_orders, late, &TransportOrder::release);
     for (std::size_t i = 0; i < scenario_.faults.size(); ++i)
       counts[scenario_.faults[i].agv] += decided_.contains(i) ? 0 : 1;
     for (EntityId body = first_obstacle_; body < first_load_; ++body.value) {

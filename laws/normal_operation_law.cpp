@@ -113,8 +113,7 @@ void NormalOperationLaw::happened(const TraceRecord& record) {
       ++done_;
       break;
     case TraceKind::LoadMoves:
-      if (read<traced::LoadMoves>(record).to.kind == Holder::Kind::ClearedAway)
-        open_ -= open_ > 0 ? 1 : 0;  // no AGV can carry it out any more
+      if (read<traced::LoadMoves>(record).to.is_gone()) open_ -= open_ > 0 ? 1 : 0;  // no AGV can carry it out any more
       break;
     default:
       break;

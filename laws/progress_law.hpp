@@ -20,6 +20,13 @@ namespace fleetproof {
 //   goal meanwhile. The goal is that of its load, or of its oldest open transport.
 // - Starvation: one AGV has picked or delivered nothing for twice stuck_after, while the other AGVs have finished two
 //   transports each, on average.
+// - An order that is not taken: no AGV has taken up the load of an open transport for twice stuck_after, while the
+//   fleet has finished later ones, two for each AGV on average.
+//
+// The transports of an AGV are those that the scenario gives it, the open one whose load it carries, and the open one
+// on which it works, as is declared. If open transports wait and nothing is declared, only the fleet as a whole can
+// stand still: then a deadlock without an AGV is filed. While open transports wait, every AGV that moves may be at work
+// on one.
 //
 // The law does not see why an AGV waits, nor a circle that only passes through AGVs that still move.
 std::unique_ptr<Law> make_progress_law(const Scenario& scenario);

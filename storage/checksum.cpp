@@ -13,7 +13,8 @@ namespace {
 
 std::uint32_t outcome_encoding(std::int32_t schema) {
   if (schema < kFirstWithNormalSpeed) return kEncodingWithoutNormalSpeed;
-  return schema < kFirstJudged ? kEncodingWithoutProcessorChanges : kEncodingVersion;
+  if (schema < kFirstJudged) return kEncodingWithoutProcessorChanges;
+  return schema < kFirstWithWithdrawn ? kEncodingWithoutWithdrawn : kEncodingVersion;
 }
 
 // The length of every text comes before the text, so that no two different records have the same bytes.

@@ -296,7 +296,9 @@ std::string counter_list(const std::string& prefix) {
 // The same, as a file of this schema has them.
 std::string counter_values(std::int32_t schema) {
   std::string list;
-  const std::size_t known = schema < kFirstJudged ? kCountersBeforeProcessor : kCounters.size();
+  const std::size_t known = schema < kFirstJudged          ? kCountersBeforeProcessor
+                            : schema < kFirstWithWithdrawn ? kCountersBeforeWithdrawn
+                                                           : kCounters.size();
   for (std::size_t i = 0; i < kCounters.size(); ++i)
     list += fmt::format("{}{}{}", list.empty() ? "" : ", ", i < known ? "" : "0 AS ", kCounters[i].name);
   return list;

@@ -11,8 +11,9 @@ inline constexpr std::int32_t kApplicationId = 0x464C5046;  // "FLPF": marks an 
 // cost as a factor, 6 the seal, 7 audits, recordings and chunks, 8 gates with their method and tables, 9 the normal
 // speed of violations, 10 gates on cells of a fleet size or of values of the factors, 11 folded runs, 12 what runs and
 // audits say about the end points, which folded runs repeat others, agents that declare that they are deterministic,
-// 13 how runs are judged in every view, the dictionary of the views, and the commit of the program's sources.
-inline constexpr std::int32_t kSchemaVersion = 13;
+// 13 how runs are judged in every view, the dictionary of the views, and the commit of the program's sources,
+// 14 transports that are withdrawn.
+inline constexpr std::int32_t kSchemaVersion = 14;
 inline constexpr std::int32_t kOldestReadable = 4;
 inline constexpr std::int32_t kFirstSealed = 6;  // a published file of an earlier schema has the digest of its rows
 inline constexpr std::int32_t kFirstChunked = 7;
@@ -22,6 +23,7 @@ inline constexpr std::int32_t kFirstOfOneCell = 10;       // gates of an earlier
 inline constexpr std::int32_t kFirstFolded = 11;
 inline constexpr std::int32_t kFirstJudged = 12;  // gates of AGV-hours of an earlier schema count microseconds
 inline constexpr std::int32_t kFirstWithCommit = 13;
+inline constexpr std::int32_t kFirstWithWithdrawn = 14;  // 0 in runs of an earlier schema
 inline constexpr std::int32_t kPageSize = 4096;
 // A live file is written from end to end: few large pages need fewer system calls.
 inline constexpr std::int32_t kLivePageSize = 32768;

@@ -9,6 +9,7 @@ bool avoids(const CaseRun& run, const FailingCase& failing, const FailurePattern
 }
 
 std::string name_of_body(const Scenario& scenario, EntityId body) {
+  if (!body.valid()) return "an AGV";  // that picks an open transport
   if (body < scenario.first_obstacle()) return scenario.name_of(body);
   if (body < scenario.first_fallen_load()) return scenario.obstacle(body).name;
   return "a fallen load";

@@ -14,6 +14,7 @@
 #include "campaign/shrink/shrink.hpp"
 #include "campaign/shrink/surgery.hpp"
 #include "core/scenario/canonical_bytes.hpp"
+#include "core/scenario/order_table.hpp"
 
 namespace fleetproof {
 namespace {
@@ -178,11 +179,13 @@ std::vector<Without> things_of(const Scenario& scenario) {
     things.push_back({scenario.agvs[i].name, [=](const Scenario& s) { return with_agvs(s, but(i)); }});
   for (std::size_t i = 0; i < scenario.computers.size(); ++i)
     things.push_back({scenario.computers[i].name, [=](const Scenario& s) { return with_computers(s, but(i)); }});
-  const auto transports = transports_of(scenario);
-  for (std::size_t i = 0; i < transports.size(); ++i) {
-    const AgvSetup& agv = scenario.agvs[transports[i].agv];
-    const TransportOrder& order = agv.transports[transports[i].number];
-    things.push_back({fmt::format("the order of {} from {} to {}", agv.name, scenario.map->station(order.from).name,
+  const OrderTable orders(scenario);
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const TransportId transport{i};
+    const TransportOrder& order = orders.order(transport);
+    const std::string whose =
+        orders.is_open(transport) ? "the open order" : "the order of " + scenario.name_of(orders.agv_of(transport));
+    things.push_back({fmt::format("{} from {} to {}", whose, scenario.map->station(order.from).name,
                                   scenario.map->station(order.to).name),
                       [=](const Scenario& s) { return with_transports(s, but(i)); }});
   }

@@ -29,14 +29,22 @@ class Dice {
   std::uint32_t number_, drawn_ = 0;
 };
 
-// One shift for each AGV: what belongs together stays together.
+// One shift for each AGV, and one for the open transports: what belongs together stays together.
 Scenario shifted(Scenario scenario, Dice& dice) {
   const auto later = [](Duration at, Duration by) { return std::max(Duration::zero(), at + by); };
+  const auto shift = [&](std::vector<TransportOrder>& orders, Duration by) {
+    for (TransportOrder& order : orders) {
+      order.release = later(order.release, by);
+      if (order.withdrawn != kLongestDuration) order.withdrawn = later(order.withdrawn, by);
+    }
+  };
   std::vector<Duration> shifts;
   for (AgvSetup& agv : scenario.agvs) {
     shifts.push_back(seconds(to_seconds(kShift) * (2.0 * dice.next() - 1.0)));
-    for (TransportOrder& order : agv.transports) order.release = later(order.release, shifts.back());
+    shift(agv.transports, shifts.back());
   }
+  if (!scenario.open_orders.empty())
+    shift(scenario.open_orders, seconds(to_seconds(kShift) * (2.0 * dice.next() - 1.0)));
   for (Fault& fault : scenario.faults) {
     if (!fault.transport && scenario.is_agv(fault.agv)) fault.at = later(fault.at, shifts[fault.agv.index()]);
   }

@@ -20,13 +20,21 @@ double length_m(const LogicalMap& map, StationId from, StationId to) {
   return shortest_ways(map, from, to).back().length_m;
 }
 
+// Open transports as if the AGVs took them in turn.
+Scenario with_orders_given_out(Scenario scenario) {
+  for (std::size_t i = 0; i < scenario.open_orders.size(); ++i)
+    scenario.agvs[i % scenario.agvs.size()].transports.push_back(scenario.open_orders[i]);
+  scenario.open_orders.clear();
+  return scenario;
+}
+
 // The time of a transport for an AGV that has the warehouse to itself, drives at full speed all the time and always has
 // an order: the mean over the AGVs and orders of the first world of each layout and fleet. None without orders.
 std::optional<double> undisturbed_transport_s(const CampaignPlan& plan) {
   const ScenarioSource scenarios(plan);
   double busy_s = 0.0, transports = 0.0;
   for (std::uint64_t index = 0; index < plan.cell_count(); index += plan.cells_per_world()) {
-    const Scenario scenario = scenarios.scenario(index);
+    const Scenario scenario = with_orders_given_out(scenarios.scenario(index));
     for (const AgvSetup& agv : scenario.agvs) {
       const VehicleType& type = scenario.type_of(agv);
       StationId at = agv.start;

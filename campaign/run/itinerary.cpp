@@ -25,8 +25,7 @@ Vec2 take_vector(ByteSource& source) {
 void ItineraryKeeper::record(const TraceRecord& record, std::string_view) {
   if (record.kind == TraceKind::ActivityBegins || record.kind == TraceKind::ActivityEnds) turned(record);
   if (record.kind != TraceKind::TransportDone) return;
-  const TransportId transport = read<traced::TransportDone>(record).transport;
-  found_.done.push_back({record.entity, orders_.own_number(transport), record.at});
+  found_.done.push_back({record.entity, read<traced::TransportDone>(record).transport, record.at});
 }
 
 void ItineraryKeeper::turned(const TraceRecord& record) {
@@ -98,7 +97,7 @@ void put(ByteSink& sink, const Itinerary& itinerary) {
   sink.u32(static_cast<std::uint32_t>(itinerary.done.size()));
   for (const auto& [agv, transport, at] : itinerary.done) {
     sink.u32(agv.value);
-    sink.u32(transport);
+    sink.u32(transport.value);
     sink.i64(to_ns(at));
   }
 }
@@ -110,7 +109,7 @@ Itinerary take_itinerary(ByteSource& source) {
   itinerary.done.resize(source.count(kDoneBytes));
   for (auto& [agv, transport, at] : itinerary.done) {
     agv.value = source.u32();
-    transport = source.u32();
+    transport = TransportId{source.u32()};
     at = at_ns(source.i64());
   }
   return itinerary;

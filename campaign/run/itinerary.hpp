@@ -7,7 +7,6 @@
 
 #include "core/base/byte_text.hpp"
 #include "core/outcome/trace.hpp"
-#include "core/scenario/order_table.hpp"
 #include "core/scenario/scenario.hpp"
 
 namespace fleetproof {
@@ -22,7 +21,7 @@ struct Departure {
 // A load is where it was to be brought.
 struct DoneTransport {
   AgvId agv;
-  std::uint32_t transport = 0;  // its number among those of the AGV
+  TransportId transport;
   SimTime at{};
 };
 
@@ -38,7 +37,7 @@ Itinerary take_itinerary(ByteSource& source);
 // Keeps them while the run goes on. Requires: the scenario outlives the object.
 class ItineraryKeeper final : public TraceSink {
  public:
-  explicit ItineraryKeeper(const Scenario& scenario) : scenario_(scenario), orders_(scenario) {}
+  explicit ItineraryKeeper(const Scenario& scenario) : scenario_(scenario) {}
   void record(const TraceRecord& record, std::string_view text) override;
   void piece_started(const Piece& piece) override;
   Itinerary take() { return std::move(found_); }
@@ -47,7 +46,6 @@ class ItineraryKeeper final : public TraceSink {
   void turned(const TraceRecord& record);
 
   const Scenario& scenario_;
-  OrderTable orders_;
   Itinerary found_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "campaign/shrink/number_edits.hpp"
 #include "campaign/shrink/surgery.hpp"
+#include "core/scenario/order_table.hpp"
 
 namespace fleetproof {
 namespace {
@@ -26,12 +27,13 @@ void place(AgvSetup& setup, AgvId agv, const Itinerary& itinerary, SimTime t, Be
   }
 }
 
+// Without transports that were delivered or withdrawn by then.
 Scenario without_delivered(const Scenario& scenario, const Itinerary& itinerary, SimTime t) {
-  const auto transports = transports_of(scenario);
+  const OrderTable orders(scenario);
   return with_transports(scenario, [&](std::size_t i) {
-    return std::ranges::none_of(itinerary.done, [&](const DoneTransport& one) {
-      return one.at <= t && one.agv.index() == transports[i].agv && one.transport == transports[i].number;
-    });
+    if (kStart + orders.order(TransportId{i}).withdrawn <= t) return false;
+    return std::ranges::none_of(
+        itinerary.done, [&](const DoneTransport& one) { return one.at <= t && one.transport == TransportId{i}; });
   });
 }
 

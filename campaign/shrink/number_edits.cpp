@@ -31,20 +31,26 @@ void add_of_type(std::vector<NumberEdit>& edits, std::size_t i) {
   edits.push_back({"size of loads", [i](Scenario& s) { s.vehicle_types[i].loaded = {}; }});
 }
 
+// `order`: finds it in a scenario.
+template <class OrderIn>
+void add_of_order(std::vector<NumberEdit>& edits, OrderIn order) {
+  const auto release = [&](auto to) {
+    edits.push_back({"release of an order", [order, to](Scenario& s) {
+                       Duration& time = order(s).release;
+                       time = to(time);
+                     }});
+  };
+  release([](Duration) { return Duration::zero(); });
+  release([](Duration time) { return rounded_down(time, std::chrono::seconds(10)); });
+  release([](Duration time) { return rounded_down(time, std::chrono::seconds(1)); });
+  edits.push_back({"withdrawal of an order", [order](Scenario& s) { order(s).withdrawn = kLongestDuration; }});
+}
+
 void add_of_agv(std::vector<NumberEdit>& edits, const AgvSetup& agv, std::size_t i) {
   edits.push_back({"sensing", [i](Scenario& s) { s.agvs[i].sensing = {}; }});
   edits.push_back({"battery", [i](Scenario& s) { s.agvs[i].battery = 1.0; }});
-  for (std::size_t k = 0; k < agv.transports.size(); ++k) {
-    const auto release = [&](auto to) {
-      edits.push_back({"release of an order", [i, k, to](Scenario& s) {
-                         Duration& time = s.agvs[i].transports[k].release;
-                         time = to(time);
-                       }});
-    };
-    release([](Duration) { return Duration::zero(); });
-    release([](Duration time) { return rounded_down(time, std::chrono::seconds(10)); });
-    release([](Duration time) { return rounded_down(time, std::chrono::seconds(1)); });
-  }
+  for (std::size_t k = 0; k < agv.transports.size(); ++k)
+    add_of_order(edits, [i, k](Scenario& s) -> TransportOrder& { return s.agvs[i].transports[k]; });
 }
 
 void add_of_fault(std::vector<NumberEdit>& edits, std::size_t i) {
@@ -60,8 +66,15 @@ void add_of_fault(std::vector<NumberEdit>& edits, std::size_t i) {
 
 template <class Visit>
 void visit_instants(Scenario& scenario, Visit visit) {
+  const auto visit_orders = [&](std::vector<TransportOrder>& orders) {
+    for (TransportOrder& order : orders) {
+      visit(order.release);
+      if (order.withdrawn != kLongestDuration) visit(order.withdrawn);
+    }
+  };
+  visit_orders(scenario.open_orders);
   for (AgvSetup& agv : scenario.agvs) {
-    for (TransportOrder& order : agv.transports) visit(order.release);
+    visit_orders(agv.transports);
     for (ScriptedCall& call : agv.script) visit(call.at);
   }
   for (Fault& fault : scenario.faults) {
@@ -81,6 +94,8 @@ std::vector<NumberEdit> number_edits(const Scenario& scenario) {
   add_switches(edits);
   for (std::size_t i = 0; i < scenario.vehicle_types.size(); ++i) add_of_type(edits, i);
   for (std::size_t i = 0; i < scenario.agvs.size(); ++i) add_of_agv(edits, scenario.agvs[i], i);
+  for (std::size_t i = 0; i < scenario.open_orders.size(); ++i)
+    add_of_order(edits, [i](Scenario& s) -> TransportOrder& { return s.open_orders[i]; });
   for (std::size_t i = 0; i < scenario.faults.size(); ++i) add_of_fault(edits, i);
   return edits;
 }

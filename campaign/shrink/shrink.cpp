@@ -11,6 +11,7 @@
 #include "campaign/shrink/shrinker.hpp"
 #include "campaign/shrink/sparse_losses.hpp"
 #include "campaign/shrink/surgery.hpp"
+#include "core/scenario/order_table.hpp"
 
 namespace fleetproof {
 
@@ -20,7 +21,7 @@ CaseSize CaseSize::of(const Scenario& scenario) {
                           radio.sources.empty() && radio.trace == nullptr && !radio.contention.interference;
   return {.agvs = scenario.agvs.size(),
           .computers = scenario.computers.size(),
-          .transports = transports_of(scenario).size(),
+          .transports = OrderTable(scenario).size(),
           .faults = scenario.faults.size(),
           .obstacles = scenario.obstacles.size(),
           .segments = scenario.map->segment_count(),

@@ -8,6 +8,7 @@
 #include "campaign/shrink/later_start.hpp"
 #include "campaign/shrink/other_draws.hpp"
 #include "core/scenario/canonical_bytes.hpp"
+#include "core/scenario/order_table.hpp"
 
 namespace fleetproof {
 namespace {
@@ -227,7 +228,7 @@ bool Shrinker::take_out_things() {
   bool smaller = take_out("fewer AGVs", list(&Scenario::agvs).first, with_agvs);
   smaller |= take_out("fewer computers", list(&Scenario::computers).first, with_computers);
   smaller |= take_out(
-      "fewer transports", [](const Scenario& s) { return transports_of(s).size(); }, with_transports);
+      "fewer transports", [](const Scenario& s) { return OrderTable(s).size(); }, with_transports);
   const auto [fault_count, fewer_faults] = list(&Scenario::faults);
   smaller |= take_out("fewer faults", fault_count, fewer_faults);
   const auto [obstacle_count, fewer_obstacles] = list(&Scenario::obstacles);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/scenario/draw_numbers.hpp"
+#include "core/scenario/order_table.hpp"
 #include "generators/map/layout_check.hpp"
 
 namespace fleetproof {
@@ -31,8 +32,10 @@ class Places {
 
 // What refers to participants that are gone goes, and the rest gets their new ids.
 void forget_others(Scenario& less, const Places& places) {
-  std::erase_if(less.faults, [&](const Fault& fault) { return !places.has(fault.agv.index()); });
-  for (Fault& fault : less.faults) places.renumber(fault.agv);
+  std::erase_if(less.faults, [&](const Fault& fault) { return fault.agv.valid() && !places.has(fault.agv.index()); });
+  for (Fault& fault : less.faults) {
+    if (fault.agv.valid()) places.renumber(fault.agv);
+  }
   std::erase_if(less.deliveries, [&](const GivenDelivery& delivery) {
     return !places.has(delivery.sender.index()) || !places.has(delivery.receiver.index());
   });
@@ -83,31 +86,22 @@ Scenario with_fleet_renumbered(const Scenario& scenario, std::size_t first) {
   return other;
 }
 
-std::vector<TransportPlace> transports_of(const Scenario& scenario) {
-  std::vector<TransportPlace> places;
-  for (std::size_t agv = 0; agv < scenario.agvs.size(); ++agv) {
-    for (std::size_t i = 0; i < scenario.agvs[agv].transports.size(); ++i) places.push_back({agv, i});
-  }
-  return places;
-}
-
 Scenario with_transports(const Scenario& scenario, const Keeps& keeps) {
+  const OrderTable orders(scenario);
   Scenario less = scenario;
-  std::size_t first = 0;
-  for (std::size_t agv = 0; agv < less.agvs.size(); ++agv) {
-    const std::size_t count = scenario.agvs[agv].transports.size();
-    const auto stays = [&](std::size_t i) { return keeps(first + i); };
-    const Places places(count, stays);
-    less.agvs[agv].transports = kept(scenario.agvs[agv].transports, stays);
-    const auto goes = [&](const Fault& fault) {
-      return fault.transport && fault.agv == AgvId{agv} && !places.has(*fault.transport);
-    };
-    std::erase_if(less.faults, goes);
+  // Of one AGV; of an invalid one, the open ones.
+  const auto keep = [&](AgvId agv, std::vector<TransportOrder>& list) {
+    const auto stays = [&](std::size_t i) { return keeps(orders.at(agv, i).index()); };
+    const Places places(list.size(), stays);
+    list = kept(list, stays);
+    const auto is_of_list = [&](const Fault& fault) { return fault.transport && fault.agv == agv; };
+    std::erase_if(less.faults, [&](const Fault& fault) { return is_of_list(fault) && !places.has(*fault.transport); });
     for (Fault& fault : less.faults) {
-      if (fault.transport && fault.agv == AgvId{agv}) fault.transport = places[*fault.transport];
+      if (is_of_list(fault)) fault.transport = places[*fault.transport];
     }
-    first += count;
-  }
+  };
+  for (std::size_t i = 0; i < less.agvs.size(); ++i) keep(AgvId{i}, less.agvs[i].transports);
+  keep({}, less.open_orders);
   return less;
 }
 
@@ -118,6 +112,7 @@ Scenario with_segments(const Scenario& scenario, const Keeps& keeps) {
     needed[agv.start.index()] = true;
     for (const TransportOrder& order : agv.transports) needed[order.from.index()] = needed[order.to.index()] = true;
   }
+  for (const TransportOrder& order : scenario.open_orders) needed[order.from.index()] = needed[order.to.index()] = true;
   const Places segments(layout.segments.size(), keeps);
   layout.segments = kept(layout.segments, keeps);
   for (const Segment& segment : layout.segments) needed[segment.from.index()] = needed[segment.to.index()] = true;
@@ -130,12 +125,16 @@ Scenario with_segments(const Scenario& scenario, const Keeps& keeps) {
   }
   Scenario less = scenario;
   less.map = std::make_shared<const LogicalMap>(layout);
-  for (AgvSetup& agv : less.agvs) {
-    stations.renumber(agv.start);
-    for (TransportOrder& order : agv.transports) {
+  const auto renumber = [&](std::vector<TransportOrder>& orders) {
+    for (TransportOrder& order : orders) {
       stations.renumber(order.from);
       stations.renumber(order.to);
     }
+  };
+  renumber(less.open_orders);
+  for (AgvSetup& agv : less.agvs) {
+    stations.renumber(agv.start);
+    renumber(agv.transports);
     for (ScriptedCall& call : agv.script) {
       if (call.segment.valid()) segments.renumber(call.segment);
     }

@@ -23,12 +23,7 @@ Scenario with_computers(const Scenario& scenario, const Keeps& keeps);
 // Requires: there is such an AGV.
 Scenario with_fleet_renumbered(const Scenario& scenario, std::size_t first);
 
-// A transport of the fleet: the AGV and its number there.
-struct TransportPlace {
-  std::size_t agv = 0, number = 0;
-};
-std::vector<TransportPlace> transports_of(const Scenario& scenario);
-// `keeps` counts them as transports_of does. Faults at a transport go with it.
+// `keeps` counts transports as OrderTable does. Faults at a transport go with it.
 Scenario with_transports(const Scenario& scenario, const Keeps& keeps);
 
 // Segments, and the stations that are left without a segment and without an AGV or an order there. Blocks stay.

@@ -228,18 +228,27 @@ void FilmRecorder::note_order(const TraceRecord& record) {
       released ? read<traced::OrderReleased>(record).transport : read<traced::TransportDone>(record).transport;
   const TransportOrder& order = OrderTable(scenario_).order(transport);
   const std::string from = scenario_.map->station(order.from).name, to = scenario_.map->station(order.to).name;
+  const std::size_t body = teller_of(record).index();
   if (released && !order_of_.contains(transport.index())) {
     order_of_[transport.index()] = film_.orders.size();
-    film_.orders.push_back({record.entity.index(), transport.value, from, to, film_us(record.at), {}});
+    film_.orders.push_back({body, transport.value, from, to, film_us(record.at), {}});
   }
   const auto known = order_of_.find(transport.index());
-  if (!released && known != order_of_.end()) film_.orders[known->second].done_us = film_us(record.at);
-  film_.happenings.push_back({record.entity.index(), film_us(record.at), released ? "order" : "transport done",
+  if (!released && known != order_of_.end()) {
+    film_.orders[known->second].body = body;
+    film_.orders[known->second].done_us = film_us(record.at);
+  }
+  film_.happenings.push_back({body, film_us(record.at), released ? "order" : "transport done",
                               fmt::format("{}: {} to {}", transport.value, from, to), false, false, order_});
 }
 
+EntityId FilmRecorder::teller_of(const TraceRecord& record) const {
+  if (record.entity.valid()) return record.entity;
+  return scenario_.computers.empty() ? EntityId{0U} : scenario_.first_computer();
+}
+
 void FilmRecorder::note_happening(const TraceRecord& record, std::string_view text) {
-  web::Happening happening{record.entity.index(), film_us(record.at), name_of(record.kind),
+  web::Happening happening{teller_of(record).index(), film_us(record.at), name_of(record.kind),
                            printable(trace_details(record, text, context_), kLongestText)};
   happening.is_fault = is_fault(record.kind);
   happening.is_note = is_note(record.kind);

@@ -38,6 +38,8 @@ class FilmRecorder final : public TraceSink {
   void note_waiting(const TraceRecord& record);
   void note_load(const TraceRecord& record);
   void note_order(const TraceRecord& record);
+  // Of a record about an open transport that no AGV has: who is told of it first.
+  EntityId teller_of(const TraceRecord& record) const;
   void note_happening(const TraceRecord& record, std::string_view text);
   void note_command(const TraceRecord& record);
   void set_command(web::ActivityBar& bar, SegmentId driven);

@@ -28,6 +28,7 @@ std::string counters_text(const Outcome& outcome) {
   std::string text = fmt::format("  {} drives, {} turns, {:.0f} m; transports {} of {} done", c.drives, c.turns,
                                  static_cast<double>(c.distance_um) / 1e6, c.transports_done, c.transports_released);
   if (hours > 0.0) text += fmt::format(" ({:.2f} per AGV-hour)", transports_per_agv_hour(c.transports_done, hours));
+  if (c.transports_withdrawn > 0) text += fmt::format(", {} withdrawn", c.transports_withdrawn);
   const double lost =
       c.receptions == 0 ? 0.0 : 100.0 * static_cast<double>(c.receptions_lost) / static_cast<double>(c.receptions);
   const double delay =
@@ -69,12 +70,14 @@ std::string value_text(const Incident& incident) {
 std::string shown_name(const Scenario& scenario, EntityId id) { return printable(body_name(scenario, id)); }
 
 std::string body_name(const Scenario& scenario, EntityId id, std::string_view load_of) {
+  if (!id.valid()) return "the fleet";
   if (id < scenario.first_obstacle()) return scenario.name_of(id);
   if (id < scenario.first_fallen_load()) return scenario.obstacle(id).name;
   std::size_t number = id.index() - scenario.first_fallen_load().index();
   for (const Fault& fault : scenario.faults) {
     if (fault.kind == Fault::Kind::LoadDrop && number-- == 0)
-      return std::string(load_of) + scenario.agvs[fault.agv.index()].name;
+      return std::string(load_of) +
+             (fault.agv.valid() ? scenario.name_of(fault.agv) : fmt::format("order {}", *fault.transport));
   }
   return "?";
 }

@@ -35,6 +35,8 @@ std::string holder_text(const Scenario& scenario, const Holder& holder) {
       return "on the floor";
     case Holder::Kind::ClearedAway:
       return "cleared away";
+    case Holder::Kind::Withdrawn:
+      return "gone: its transport was withdrawn";
   }
   return "?";
 }
@@ -61,6 +63,15 @@ std::string refused_text(const traced::CallRefused& refused, const Scenario& sce
   return refused.segment.valid() && refused.segment.index() < scenario.map->segment_count()
              ? call + " " + scenario.map->segment(refused.segment).name
              : call;
+}
+
+std::string order_text(const TraceRecord& record) {
+  const auto number = [](TransportId transport) { return std::to_string(transport.value); };
+  if (record.kind == TraceKind::OrderReleased) return number(read<traced::OrderReleased>(record).transport);
+  if (record.kind == TraceKind::TransportDone) return number(read<traced::TransportDone>(record).transport);
+  if (record.kind == TraceKind::OrderWithdrawn) return number(read<traced::OrderWithdrawn>(record).transport);
+  const TransportId work = read<traced::WorksOn>(record).transport;
+  return work.valid() ? number(work) : "nothing";
 }
 
 std::string message_details(const TraceRecord& record, const TraceContext& context) {
@@ -117,9 +128,10 @@ std::string trace_details(const TraceRecord& record, std::string_view text, cons
     case TraceKind::ActivityEnds:
       return ended_text(read<traced::ActivityEnds>(record), record.entity, context);
     case TraceKind::OrderReleased:
-      return std::to_string(read<traced::OrderReleased>(record).transport.value);
     case TraceKind::TransportDone:
-      return std::to_string(read<traced::TransportDone>(record).transport.value);
+    case TraceKind::OrderWithdrawn:
+    case TraceKind::WorksOn:
+      return order_text(record);
     case TraceKind::Sent:
     case TraceKind::Lost:
     case TraceKind::LostInOutage:

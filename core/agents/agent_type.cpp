@@ -1,5 +1,6 @@
 #include "core/agents/agent_type.hpp"
 
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -21,6 +22,15 @@ bool has_numbers_for_all(const fp_host& host, fp_controller* controller, const f
   if (text.empty()) return true;
   text += ", and a message can name " + std::to_string(kNumbersOnTheWire) + " of each";
   return cannot_start(host, controller, text.c_str());
+}
+
+bool gets_own_transports(const fp_host& host, fp_controller* controller, const fp_briefing& briefing) {
+  const bool tells_orders = briefing.struct_size >= offsetof(fp_briefing, orders) + sizeof(briefing.orders);
+  if (!tells_orders || briefing.orders != FP_ORDERS_OPEN || briefing.computer_count > 0) return true;
+  return cannot_start(
+      host, controller,
+      "it carries out assigned transports only; those of this run are open, and no computer distributes "
+      "them");
 }
 
 }  // namespace fleetproof::agents

@@ -28,6 +28,9 @@ inline constexpr std::uint32_t kNumbersOnTheWire = 0xffff;
 bool has_numbers_for_all(const fp_host& host, fp_controller* controller, const fp_briefing& briefing);
 // For `create`: the sentence goes to hosts that hear it (minor 4). Returns false.
 bool cannot_start(const fp_host& host, fp_controller* controller, const char* why);
+// Whether an agent that is on board alone gets transports of its own. If all are open, each AGV would go to every load:
+// then it says why it cannot start.
+bool gets_own_transports(const fp_host& host, fp_controller* controller, const fp_briefing& briefing);
 
 extern const fp_agent_type kHullLock;
 extern const fp_agent_type kReckless;

@@ -388,6 +388,7 @@ void HullLock::reconsider() {
 void* create_hull_lock(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
                        const LockOptions& options) {
   if (!has_numbers_for_all(*host, controller, *briefing)) return nullptr;
+  if (!gets_own_transports(*host, controller, *briefing)) return nullptr;
   return new HullLock(*host, controller, *briefing, options);
 }
 

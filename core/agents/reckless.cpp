@@ -115,6 +115,7 @@ class Reckless {
 constinit const fp_agent_type kReckless =
     agent_type<Reckless>("reckless", "carries out its transports by the quickest ways and asks no other AGV",
                          [](const fp_host* host, fp_controller* controller, const fp_briefing* briefing) -> void* {
+                           if (!gets_own_transports(*host, controller, *briefing)) return nullptr;
                            return new Reckless(*host, controller, *briefing);
                          });
 

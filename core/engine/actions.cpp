@@ -53,6 +53,12 @@ const Lane* called_lane(const LogicalMap& map, std::uint32_t segment, StationId 
   return map.lane(SegmentId{segment}, from);
 }
 
+// The load that the agent has named may be gone by now, if its transport is open or was withdrawn.
+LoadId load_to_pick(const World& world, AgvId agv, StationId station, LoadId named) {
+  if (!named.valid()) return world.waiting_load(agv, station);
+  return world.is_waiting(named, agv, station) ? named : LoadId{};
+}
+
 }  // namespace
 
 Actions::Actions(RunContext& run, const Ports& ports) : run_(run), ports_(ports), agv_states_(run.agvs.size()) {}
@@ -71,8 +77,7 @@ bool Actions::accept(AgvId agv, fp_call call, std::uint32_t segment, LoadId load
   return true;
 }
 
-// A second action may follow a move that is under way, if it leaves the station where that move ends. A load that waits
-// for this AGV stays where it is: no action in between takes it.
+// A second action may follow a move that is under way, if it leaves the station where that move ends.
 bool Actions::is_possible(AgvId agv, fp_call call, std::uint32_t segment, LoadId load) const {
   const AgvState& agv_state = agv_states_[agv.index()];
   const AgvStatus& status = run_.status(agv);
@@ -223,8 +228,8 @@ void Actions::begin_transfer(AgvId agv, ActivityKind kind) {
   const bool pick = kind == ActivityKind::Pick;
   ContainmentEvolution evolution;
   const LoadId carried = run_.world.carried_load(agv);
-  const LoadId named = agv_states_[agv.index()].plan.load;
-  if (pick && !carried.valid()) evolution.load = named.valid() ? named : run_.world.waiting_load(agv, station);
+  if (pick && !carried.valid())
+    evolution.load = load_to_pick(run_.world, agv, station, agv_states_[agv.index()].plan.load);
   if (!pick) evolution.load = carried;
   evolution.to = pick ? Holder{Holder::Kind::Agv, agv.value} : Holder{Holder::Kind::Station, station.value};
   const bool at_storage = run_.scenario.map->station(station).purposes.has(Purpose::Storage);

@@ -86,11 +86,13 @@ void Activities::transfer(AgvId agv, const ContainmentEvolution& evolution) {
   const Load& load = run_.world.load(evolution.load);
   const bool is_drop = evolution.to.kind == Holder::Kind::Station;
   if (is_drop && load.holder != Holder{Holder::Kind::Agv, agv.value}) return;  // it fell off meanwhile
+  // Another AGV has taken it up meanwhile, or it was withdrawn.
+  if (!is_drop && !run_.world.is_waiting(evolution.load, agv, run_.status(agv).station)) return;
   run_.move_load(evolution.load, evolution.to);
   if (run_.type_of(agv).loaded != LoadEffect{}) stand(agv, run_.pose_now(agv));  // the body has grown or shrunk
   if (!is_drop) {
     ports_.faults.load_taken_up(agv, load.transport);
-  } else if (evolution.to == Holder{Holder::Kind::Station, load.destination.value}) {
+  } else if (load.is_delivered()) {
     ++run_.counters.transports_done;
     run_.trace(agv, traced::TransportDone{load.transport});
   }

@@ -15,6 +15,12 @@ constexpr std::uint64_t kActivationsPerRun = 2'000'000, kActivationsPerSecond = 
 
 constexpr std::size_t kLongestMessage = 200;  // characters: an agent may throw any text
 
+// Nobody is told that a transport was withdrawn of which it has not been told.
+void forget_withdrawal(std::deque<fp_event>& events, std::uint32_t order) {
+  std::erase_if(events,
+                [order](const fp_event& event) { return event.kind == FP_EVENT_WITHDRAWN && event.order_id == order; });
+}
+
 bool is_usable(const ToldPlant* plant, const Scenario& scenario) { return plant != nullptr && plant->fits(scenario); }
 
 }  // namespace
@@ -77,8 +83,10 @@ void AgentHost::becomes_free(AgvId agv) {
   if (run_.now < agv_state.free_at) return wake(agv, agv_state);  // frozen since
   fp_event event = agv_state.waiting_events.front();
   agv_state.waiting_events.pop_front();
-  if (event.kind == FP_EVENT_ORDER && is_over(TransportId{event.order_id}))
-    return wake(agv, agv_state);  // done meanwhile
+  if (event.kind == FP_EVENT_ORDER && run_.is_over(TransportId{event.order_id})) {  // done or withdrawn meanwhile
+    forget_withdrawal(agv_state.waiting_events, event.order_id);
+    return wake(agv, agv_state);
+  }
   event.now_ns = ports_.timers.now_ns(agv);
   activate(agv, agv_state, event);
 }
@@ -165,12 +173,26 @@ void AgentHost::start(AgvId agv) {
 
 void AgentHost::order_released(TransportId transport) {
   const TransportOrder& order = run_.orders.order(transport);
-  const AgvId agv = run_.orders.agv_of(transport);
   ++run_.counters.transports_released;
-  const LoadId load = run_.world.add_load(transport, agv, order.from, order.to);
-  run_.trace(agv, traced::OrderReleased{transport});
-  run_.trace_load(load);
-  tell_order(agv, transport, order.from, order.to);
+  run_.add_load(transport);
+  const auto [first, end] = run_.audience_of(transport);
+  for (std::uint32_t id = first; id < end; ++id) tell_order(EntityId{id}, transport, order.from, order.to);
+}
+
+void AgentHost::order_withdrawn(TransportId transport) {
+  const LoadId id = run_.world.load_of(transport);
+  const Load load = run_.world.load(id);
+  if (load.is_over()) return;
+  run_.trace(load.carrier, traced::OrderWithdrawn{transport});
+  if (!load.was_taken_up) {
+    ++run_.counters.transports_withdrawn;
+    run_.move_load(id, {Holder::Kind::Withdrawn, 0});
+  }
+  fp_event event{};
+  event.kind = FP_EVENT_WITHDRAWN;
+  event.order_id = transport.value;
+  const auto [first, end] = run_.audience_of(transport);
+  for (std::uint32_t told = first; told < end; ++told) tell(EntityId{told}, event);
 }
 
 void AgentHost::tell_order(AgvId agv, TransportId transport, StationId from, StationId to) {
@@ -204,19 +226,21 @@ void AgentHost::comes_back(AgvId agv) {
 // are handed out again, that of the load on board first, and before all that has arrived since.
 [[gnu::noinline]] void AgentHost::tell_open_orders(AgvId agv) {
   auto& waiting = agv_states_[agv.index()].waiting_events;
-  std::erase_if(waiting, [](const fp_event& event) { return event.kind == FP_EVENT_ORDER; });
+  std::erase_if(waiting, [&](const fp_event& event) {
+    return event.kind == FP_EVENT_ORDER ||
+           (event.kind == FP_EVENT_WITHDRAWN && run_.is_over(TransportId{event.order_id}));
+  });
   const auto arrived = std::exchange(waiting, {});
   const auto loads = run_.world.loads();
   const LoadId on_board = run_.scenario.is_agv(agv) ? run_.world.carried_load(agv) : LoadId{};
-  if (on_board.valid()) tell_again(agv, loads[on_board.index()]);
+  const auto is_told = [&](LoadId load) {
+    return run_.audience_of(loads[load.index()].transport).has(agv) && !loads[load.index()].is_over();
+  };
+  if (on_board.valid() && is_told(on_board)) tell_again(agv, loads[on_board.index()]);
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    if (loads[i].carrier == agv && !loads[i].is_over() && LoadId{i} != on_board) tell_again(agv, loads[i]);
+    if (LoadId{i} != on_board && is_told(LoadId{i})) tell_again(agv, loads[i]);
   }
   if (!agv_states_[agv.index()].failed) waiting.insert(waiting.end(), arrived.begin(), arrived.end());
-}
-
-bool AgentHost::is_over(TransportId transport) const {
-  return run_.world.loads()[run_.world.load_of(transport).index()].is_over();
 }
 
 void AgentHost::tell_again(AgvId agv, const Load& load) {

@@ -64,6 +64,8 @@ class AgentHost {
   void tell(AgvId agv, fp_event event);
   void start(AgvId agv);
   void order_released(TransportId transport);
+  // Nothing happens if it has been delivered.
+  void order_withdrawn(TransportId transport);
   // The event. The agent may have been frozen since.
   void becomes_free(AgvId agv);
 
@@ -105,7 +107,6 @@ class AgentHost {
   void tell_order(AgvId agv, TransportId transport, StationId from, StationId to);
   void tell_open_orders(AgvId agv);
   void tell_again(AgvId agv, const Load& load);
-  bool is_over(TransportId transport) const;
   void renew_briefing(AgvId agv);
   void destroy(AgvId agv);
 

@@ -16,6 +16,11 @@ void add(std::uint64_t count, std::uint64_t& sum) {
   sum += std::min(count, kLargest - std::min(kLargest, sum));
 }
 
+// Whether this participant may make declarations about an AGV with this number.
+bool may_speak_for(const Scenario& scenario, EntityId speaker, std::uint32_t agv) {
+  return agv < scenario.agvs.size() && (speaker.value == agv || scenario.is_computer(speaker));
+}
+
 }  // namespace
 
 AgvController::AgvController(RunContext& run, const Ports& ports)
@@ -99,7 +104,9 @@ inline void AgvController::carry_out(AgvId agv, const PendingCall& call) {
     case PendingCall::Kind::SafeMode:
       return ports_.declarations.set_safe_mode(agv, call.what != 0);
     case PendingCall::Kind::WaitingFor:
-      return ports_.declarations.set_waiting_for(agv, AgvId{call.what});
+      return ports_.declarations.set_waiting_for(call.about, AgvId{call.what}, agv);
+    case PendingCall::Kind::WorksOn:
+      return ports_.declarations.set_work(call.about, TransportId{call.what}, agv);
     case PendingCall::Kind::Timer:
       return ports_.timers.set(agv, call.what, call.instant_ns);
     case PendingCall::Kind::Nothing:
@@ -140,7 +147,8 @@ std::int32_t AgvController::act(AgvId agv, fp_call call, std::uint32_t segment, 
 
 std::int32_t AgvController::pick_load(AgvId agv, std::uint32_t segment, std::uint32_t order) {
   const LoadId load = run_.world.load_of(TransportId{order});
-  if (!load.valid() || run_.world.load(load).carrier != agv) return FP_INVALID;
+  if (!load.valid()) return FP_INVALID;
+  if (const Load& named = run_.world.load(load); named.carrier != agv && !named.is_open) return FP_INVALID;
   return act(agv, FP_CALL_PICK, segment, load);
 }
 
@@ -179,9 +187,19 @@ std::int32_t AgvController::declare_safe_mode(AgvId agv, bool on) {
   return take_effect(agv, {.kind = PendingCall::Kind::SafeMode, .what = on ? 1U : 0U});
 }
 
-std::int32_t AgvController::declare_waiting(AgvId agv, std::uint32_t other) {
-  if (other != FP_NONE && other >= run_.agvs.size()) return FP_INVALID;
-  return take_effect(agv, {.kind = PendingCall::Kind::WaitingFor, .what = other});
+std::int32_t AgvController::declare_waiting(EntityId speaker, std::uint32_t agv, std::uint32_t other) {
+  if (!may_speak_for(run_.scenario, speaker, agv) || (other != FP_NONE && other >= run_.agvs.size())) return FP_INVALID;
+  return take_effect(speaker, {.kind = PendingCall::Kind::WaitingFor, .what = other, .about = AgvId{agv}});
+}
+
+std::int32_t AgvController::works_on(EntityId speaker, std::uint32_t agv, std::uint32_t order) {
+  if (!may_speak_for(run_.scenario, speaker, agv)) return FP_INVALID;
+  if (order != FP_NONE) {
+    const TransportId transport{order};
+    if (!run_.world.load_of(transport).valid()) return FP_INVALID;
+    if (!run_.orders.is_open(transport) && run_.orders.agv_of(transport).value != agv) return FP_INVALID;
+  }
+  return take_effect(speaker, {.kind = PendingCall::Kind::WorksOn, .what = order, .about = AgvId{agv}});
 }
 
 std::int32_t AgvController::declare_cost(AgvId agv, std::int64_t cost_ns) {

@@ -84,21 +84,32 @@ class AgvController {
   std::int32_t send(AgvId agv, std::string_view bytes, std::uint32_t receiver);
   std::int32_t set_timer(AgvId agv, std::uint32_t number, std::int64_t at_ns);
   std::int32_t declare_safe_mode(AgvId agv, bool on);
-  std::int32_t declare_waiting(AgvId agv, std::uint32_t other);
+  // Of an AGV, by its own agent or by the program of a computer.
+  std::int32_t declare_waiting(EntityId speaker, std::uint32_t agv, std::uint32_t other);
+  std::int32_t works_on(EntityId speaker, std::uint32_t agv, std::uint32_t order);
   std::int32_t declare_cost(AgvId agv, std::int64_t cost_ns);
   // Perceptions and notes are passed on as they are.
   const Ports& ports() const { return ports_; }
-  bool is_loaded(AgvId agv) const { return run_.is_loaded(agv); }
   std::uint32_t order_on_board(AgvId agv) const;  // FP_NONE: no load
   std::uint64_t random(AgvId agv, std::uint32_t purpose, std::uint64_t index) const;
 
  private:
   struct PendingCall {
-    enum class Kind : std::uint8_t { Action, Stop, Send, SafeMode, WaitingFor, Timer, Nothing } kind = Kind::Action;
-    std::uint32_t what = 0;  // fp_call, receiver, flag, AGV or timer number
+    enum class Kind : std::uint8_t {
+      Action,
+      Stop,
+      Send,
+      SafeMode,
+      WaitingFor,
+      WorksOn,
+      Timer,
+      Nothing
+    } kind = Kind::Action;
+    std::uint32_t what = 0;  // fp_call, receiver, flag, AGV, order or timer number
     std::uint32_t segment = FP_NONE;
     LoadId load{};
     std::uint32_t message = 0;  // slot
+    AgvId about{};              // of a declaration that a computer may make, too
     std::int64_t instant_ns = 0;
   };
   struct AgvState {

@@ -47,6 +47,7 @@ fp_briefing Briefings::common(const Scenario& scenario, const ToldPlant& plant, 
   briefing.start_segment = FP_NONE;
   briefing.next_segment = FP_NONE;
   briefing.facts = &facts;
+  briefing.orders = scenario.open_orders.empty() ? FP_ORDERS_ASSIGNED : FP_ORDERS_OPEN;
   briefing.computer_count = static_cast<std::uint32_t>(computers_.size());
   briefing.computer_stride = sizeof(fp_computer);
   briefing.computers = computers_.data();

@@ -53,6 +53,9 @@ enum class TapeItem : std::uint8_t {
   NotesLeftOut,  // count: so many notes beyond kNotesMax
   // What else happened during the call.
   ProcessorChanged,  // it left another state of the processor behind
+  // Controller calls.
+  WorksOn,
+  DeclareWaiting,
 };
 
 inline constexpr std::uint8_t kTapeVersion = 1;

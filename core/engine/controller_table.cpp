@@ -85,7 +85,7 @@ std::int32_t get_battery_level(fp_controller* controller, double* out) {
 std::int32_t is_loaded(fp_controller* controller, std::uint32_t* out) {
   return admitted_on_board(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
     if (out == nullptr) return FP_INVALID;
-    *out = part.is_loaded(agv) ? 1 : 0;
+    *out = part.order_on_board(agv) != FP_NONE ? 1 : 0;
     return FP_OK;
   });
 }
@@ -133,7 +133,17 @@ std::int32_t safe_mode(fp_controller* controller, std::uint32_t on) {
 
 std::int32_t waiting_for(fp_controller* controller, std::uint32_t other) {
   return admitted_on_board(controller,
-                           [&](AgvController& part, AgvId agv) { return part.declare_waiting(agv, other); });
+                           [&](AgvController& part, AgvId agv) { return part.declare_waiting(agv, agv.value, other); });
+}
+
+std::int32_t works_on(fp_controller* controller, std::uint32_t agv, std::uint32_t order) {
+  return admitted(controller,
+                  [&](AgvController& part, EntityId speaker) { return part.works_on(speaker, agv, order); });
+}
+
+std::int32_t declare_waiting(fp_controller* controller, std::uint32_t agv, std::uint32_t other) {
+  return admitted(controller,
+                  [&](AgvController& part, EntityId speaker) { return part.declare_waiting(speaker, agv, other); });
 }
 
 template <TraceKind kKind>
@@ -213,6 +223,8 @@ const fp_host kHost = {
     declare_state,
     believe,
     cannot_start,
+    works_on,
+    declare_waiting,
 };
 
 }  // namespace fleetproof

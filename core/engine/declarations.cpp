@@ -16,7 +16,21 @@ void Declarations::set_safe_mode(AgvId agv, bool on) {
   run_.trace(agv, traced::SafeMode{on});
 }
 
-void Declarations::set_waiting_for(AgvId agv, AgvId other) { run_.trace(agv, traced::WaitingFor{other}); }
+void Declarations::set_waiting_for(AgvId agv, AgvId other, EntityId speaker) {
+  agv_states_[agv.index()].says_waiting = speaker;
+  run_.trace(agv, traced::WaitingFor{other});
+}
+
+void Declarations::set_work(AgvId agv, TransportId transport, EntityId speaker) {
+  agv_states_[agv.index()].says_work = speaker;
+  run_.trace(agv, traced::WorksOn{transport});
+}
+
+void Declarations::take_back(AgvId agv, EntityId speaker) {
+  const AgvState& agv_state = agv_states_[agv.index()];
+  if (agv_state.says_waiting == speaker) set_waiting_for(agv, {}, {});
+  if (agv_state.says_work == speaker) set_work(agv, {}, {});
+}
 
 void Declarations::note(AgvId agv, TraceKind kind, std::string_view text) {
   const std::uint64_t hash = name_hash(text);
@@ -28,7 +42,11 @@ void Declarations::note(AgvId agv, TraceKind kind, std::string_view text) {
 void Declarations::forget(AgvId agv) {
   if (run_.scenario.is_agv(agv)) {
     set_safe_mode(agv, false);
-    set_waiting_for(agv, {});
+    // Its own agent counts as having said last for whom it waits, unless the program of a computer has.
+    if (!agv_states_[agv.index()].says_waiting.valid()) agv_states_[agv.index()].says_waiting = agv;
+    take_back(agv, agv);
+  } else {
+    for (std::size_t i = 0; i < run_.agvs.size(); ++i) take_back(AgvId{i}, agv);
   }
   set_state(agv, {});
 }

@@ -22,11 +22,14 @@ class Declarations {
         has_spared_(run.scenario.radio.adverse.spared_kinds.size()) {}
 
   void set_safe_mode(AgvId agv, bool on);
-  // Invalid: it waits for no AGV.
-  void set_waiting_for(AgvId agv, AgvId other);
+  // Invalid: it waits for no AGV. `speaker`: its own agent, or the program of a computer.
+  void set_waiting_for(AgvId agv, AgvId other, EntityId speaker);
+  // Invalid: it works on no transport.
+  void set_work(AgvId agv, TransportId transport, EntityId speaker);
   // `kind`: Probe or Log.
   void note(AgvId agv, TraceKind kind, std::string_view text);
-  // The AGV's computer goes down: its safe mode, its waiting and its state are over.
+  // The computer of the AGV, or this one, goes down: its safe mode and its state are over, and what it has declared
+  // about AGVs.
   void forget(AgvId agv);
 
   // ---- notes, of one activation at a time. `leave_out` counts notes that are too many.
@@ -52,7 +55,9 @@ class Declarations {
     std::uint64_t notes = 0;  // in this activation
     std::string described;    // what the next message is; empty: not known
     std::string state;
+    EntityId says_waiting, says_work;  // who has declared for whom the AGV waits, and on what it works
   };
+  void take_back(AgvId agv, EntityId speaker);
 
   RunContext& run_;
   ProbeTally probes_;

@@ -80,18 +80,26 @@ inline void Engine::goes_on_until(SimTime at) {
   for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
     const AgvId agv{i};
     run_.queue.push(kStart, agv, Event::Kind::Start);
-    const auto& transports = run_.setup(agv).transports;
-    for (std::size_t own = 0; own < transports.size(); ++own)
-      run_.queue.push(kStart + transports[own].release, agv, Event::Kind::OrderReleased,
-                      run_.orders.of_agv(agv, own).value);
+    announce_orders(agv, run_.setup(agv).transports);
     parts_.contacts.predict(agv);
     parts_.battery.predict_empty(agv);
   }
   for (std::size_t i = 0; i < run_.scenario.computers.size(); ++i)
     run_.queue.push(kStart, EntityId{run_.scenario.first_computer().index() + i}, Event::Kind::Start);
+  announce_orders({}, run_.scenario.open_orders);
   // Faults and the operator concern the whole fleet and come last: this order is part of the digest.
   parts_.faults.schedule();
   if (run_.scenario.operator_help.on) run_.queue.push(kStart, EntityId{}, Event::Kind::OperatorLooks);
+}
+
+// Of one AGV; of an invalid one, the open ones. Those come after all else of their instant.
+void Engine::announce_orders(AgvId agv, const std::vector<TransportOrder>& orders) {
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const std::uint64_t transport = run_.orders.at(agv, i).value;
+    run_.queue.push(kStart + orders[i].release, agv, Event::Kind::OrderReleased, transport);
+    if (orders[i].withdrawn < run_.scenario.horizon)
+      run_.queue.push(kStart + orders[i].withdrawn, agv, Event::Kind::OrderWithdrawn, transport);
+  }
 }
 
 [[gnu::noinline]] void Engine::handle(const Event& event) {
@@ -101,6 +109,8 @@ inline void Engine::goes_on_until(SimTime at) {
       return parts_.agents.start(id);
     case Event::Kind::OrderReleased:
       return parts_.agents.order_released(TransportId{static_cast<std::uint32_t>(event.payload)});
+    case Event::Kind::OrderWithdrawn:
+      return parts_.agents.order_withdrawn(TransportId{static_cast<std::uint32_t>(event.payload)});
     case Event::Kind::ActivityEnds:
       if (parts_.activities.is_current(id, event.stamp)) parts_.actions.activity_ends(id);
       return;

@@ -62,6 +62,7 @@ class Engine {
 
  private:
   void start();
+  void announce_orders(AgvId agv, const std::vector<TransportOrder>& orders);
   void goes_on_until(SimTime at);
   void handle(const Event& event);
   bool is_stuck() const;

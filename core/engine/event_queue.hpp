@@ -121,6 +121,7 @@ struct Event {
   enum class Kind : std::uint8_t {
     Start,
     OrderReleased,
+    OrderWithdrawn,
     ActivityEnds,
     CallTakesEffect,
     MessageArrives,

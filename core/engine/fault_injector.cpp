@@ -34,8 +34,7 @@ void FaultInjector::schedule() {
 void FaultInjector::load_taken_up(AgvId agv, TransportId transport) {
   for (std::size_t i = 0; i < fault_states_.size(); ++i) {
     const Fault& fault = run_.scenario.faults[i];
-    if (fault.agv != agv || !fault.transport || fault_states_[i].came) continue;
-    if (*fault.transport != run_.orders.own_number(transport)) continue;
+    if (!is_of(fault, transport) || fault_states_[i].came) continue;
     fault_states_[i].came = true;  // the first time that the load is taken up
     run_.queue.push(run_.now + fault.at, agv, Event::Kind::FaultStrikes, i);
   }
@@ -55,7 +54,10 @@ void FaultInjector::strikes(AgvId agv, std::uint64_t number) {
   if (const auto why = denial_of(agv, number)) return run_.deny(agv, *why, number);
   ++run_.counters.faults;
   run_.trace(agv, traced::FaultStrikes{fault.kind, number});
-  if (holds(fault)) fault_states_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
+  if (holds(agv, fault.kind)) {
+    fault_states_[number].halt = ports_.halts.begin(agv, halt_of(fault.kind));
+    fault_states_[number].agv = agv;
+  }
   if (stops_computer(fault.kind)) ports_.agents.goes_away(agv);
   if (fault.kind == Fault::Kind::Freeze) ports_.agents.freeze_until(agv, run_.now + fault.lasts);
   run_.queue.push(run_.now + fault.lasts, agv, Event::Kind::FaultOver, number);
@@ -64,7 +66,7 @@ void FaultInjector::strikes(AgvId agv, std::uint64_t number) {
 void FaultInjector::ends(AgvId agv, std::uint64_t number) {
   const Fault& fault = run_.scenario.faults[number];
   const Fault::Kind kind = fault.kind;
-  if (holds(fault)) {
+  if (holds(agv, kind)) {
     halt_ends(agv, number);
   } else {
     run_.trace(agv, traced::FaultOver{kind, number});
@@ -74,7 +76,7 @@ void FaultInjector::ends(AgvId agv, std::uint64_t number) {
 
 void FaultInjector::end_halts_of(AgvId agv) {
   for (std::size_t i = 0; i < fault_states_.size(); ++i) {
-    if (run_.scenario.faults[i].agv == agv) halt_ends(agv, i);
+    if (fault_states_[i].agv == agv) halt_ends(agv, i);
   }
 }
 
@@ -126,7 +128,7 @@ std::optional<Denial> FaultInjector::load_drops(AgvId agv, std::uint64_t number)
   const Fault& fault = run_.scenario.faults[number];
   const LoadId load = run_.world.carried_load(agv);
   if (!load.valid()) return Denial::NoSuchLoad;
-  if (fault.transport && run_.orders.own_number(run_.world.load(load).transport) != *fault.transport)
+  if (fault.transport && !is_of(fault, run_.world.load(load).transport))
     return Denial::NoSuchLoad;  // the fault belongs to another transport
   const OrientedRectangle from = run_.world.body(agv).piece.body_at(run_.now);
   const Pose pose{from.centre_m + fault.ahead_m * from.heading + fault.left_m * left_of(from.heading), from.heading};

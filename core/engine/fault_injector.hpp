@@ -37,10 +37,16 @@ class FaultInjector {
  private:
   struct FaultState {
     std::uint64_t halt = 0;  // that the fault caused, while it lasts
+    AgvId agv{};             // that it holds
     bool came = false;       // of a fault that counts from a pick: it has been set
   };
   // Of an AGV: a computer has nothing that could brake.
-  bool holds(const Fault& fault) const { return holds_agv(fault.kind) && run_.scenario.is_agv(fault.agv); }
+  bool holds(EntityId agv, Fault::Kind kind) const { return holds_agv(kind) && run_.scenario.is_agv(agv); }
+  // Whether the fault counts from the pick of this transport.
+  bool is_of(const Fault& fault, TransportId transport) const {
+    return fault.transport && fault.agv == run_.orders.agv_of(transport) &&
+           *fault.transport == run_.orders.place_of(transport);
+  }
   void halt_ends(AgvId agv, std::uint64_t number);
   // Absent: the fault strikes. A load that can fall falls.
   std::optional<Denial> denial_of(AgvId agv, std::uint64_t number);

@@ -136,6 +136,8 @@ const fp_host kForeignHost = {
     guarded<&fp_host::declare_state, TapeItem::DeclareState>,
     guarded<&fp_host::believe, TapeItem::Believe>,
     guarded<&fp_host::cannot_start, TapeItem::NoEffect>,
+    guarded<&fp_host::works_on, TapeItem::WorksOn>,
+    guarded<&fp_host::declare_waiting, TapeItem::DeclareWaiting>,
 };
 
 }  // namespace fleetproof

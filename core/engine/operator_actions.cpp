@@ -169,9 +169,11 @@ void OperatorActions::set_down(AgvId agv, StationId station) {
 
 // ---- at a standstill
 
-bool OperatorActions::has_open_transport(AgvId agv) const {
-  return std::ranges::any_of(run_.world.loads(),
-                             [&](const Load& load) { return load.carrier == agv && !load.is_over(); });
+// Its own transport is open, or one that no AGV has.
+bool OperatorActions::may_have_work(AgvId agv) const {
+  return std::ranges::any_of(run_.world.loads(), [&](const Load& load) {
+    return (load.carrier == agv || !load.carrier.valid()) && !load.is_over();
+  });
 }
 
 // No AGV works, and no AGV is held by something that ends without its agent, with or without the operator.
@@ -187,14 +189,27 @@ bool OperatorActions::stands_still() const {
 
 void OperatorActions::looks() {
   run_.queue.push(run_.now + kBodyTriesAgain, EntityId{}, Event::Kind::OperatorLooks);  // the last event of its instant
-  if (!stands_still()) still_since_ = run_.now;
+  if (!stands_still()) {
+    still_since_ = run_.now;
+    computers_restarted_ = false;
+  }
   if (standstill_called_ || run_.now - std::max(still_since_, run_.last_progress) < run_.scenario.stuck_after) return;
-  const AgvId agv = longest_idle();
-  if (!agv.valid()) return;
+  const EntityId first = to_restart();
+  if (!first.valid()) return;
   standstill_called_ = true;
-  const Duration until = until_help_comes(agv, kStandstillTopic, standstills_++);
-  run_.queue.push(run_.now + until, agv, Event::Kind::OperatorComes, static_cast<std::uint64_t>(Assist::Standstill),
+  const Duration until = until_help_comes(first, kStandstillTopic, standstills_++);
+  run_.queue.push(run_.now + until, first, Event::Kind::OperatorComes, static_cast<std::uint64_t>(Assist::Standstill),
                   standstill_began_ns());
+}
+
+// The first computer that is up stands for all of them. Invalid if nothing can be restarted.
+EntityId OperatorActions::to_restart() const {
+  const Scenario& scenario = run_.scenario;
+  for (EntityId computer = scenario.first_computer(); !computers_restarted_ && scenario.is_computer(computer);
+       ++computer.value) {
+    if (ports_.agents.is_up(computer)) return computer;
+  }
+  return longest_idle();
 }
 
 // The AGV that has been idle longest, of the AGVs whose agent could be the cause. Invalid if there is none.
@@ -203,7 +218,7 @@ AgvId OperatorActions::longest_idle() const {
   for (std::size_t i = 0; i < run_.agvs.size(); ++i) {
     const AgvId agv{i};
     const AgvStatus& status = run_.status(agv);
-    if (!ports_.agents.is_up(agv) || status.activity || !has_open_transport(agv)) continue;
+    if (!ports_.agents.is_up(agv) || status.activity || !may_have_work(agv)) continue;
     if (!longest.valid() || status.last_progress < run_.status(longest).last_progress) longest = agv;
   }
   return longest;
@@ -214,13 +229,24 @@ std::uint64_t OperatorActions::standstill_began_ns() const {
   return static_cast<std::uint64_t>(to_ns(std::max(still_since_, run_.last_progress)));
 }
 
-void OperatorActions::help_at_standstill(AgvId agv, std::uint64_t began_ns) {
+void OperatorActions::help_at_standstill(EntityId first, std::uint64_t began_ns) {
   standstill_called_ = false;
-  if (began_ns != standstill_began_ns() || !stands_still() || !ports_.agents.is_up(agv)) return;
-  assisted(agv, Assist::Standstill);
-  run_.status(agv).last_progress = still_since_ = run_.now;
-  ports_.agents.goes_away(agv);
-  ports_.agents.comes_back(agv);
+  if (began_ns != standstill_began_ns() || !stands_still() || !ports_.agents.is_up(first)) return;
+  still_since_ = run_.now;
+  if (run_.scenario.is_agv(first)) {
+    run_.status(first).last_progress = run_.now;
+    return restart(first);
+  }
+  computers_restarted_ = true;
+  for (EntityId computer = first; run_.scenario.is_computer(computer); ++computer.value) {
+    if (ports_.agents.is_up(computer)) restart(computer);
+  }
+}
+
+void OperatorActions::restart(EntityId participant) {
+  assisted(participant, Assist::Standstill);
+  ports_.agents.goes_away(participant);
+  ports_.agents.comes_back(participant);
 }
 
 }  // namespace fleetproof

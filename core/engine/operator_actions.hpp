@@ -61,18 +61,21 @@ class OperatorActions {
   void set_down(AgvId agv, StationId station);
   bool is_on_the_way(const OrientedRectangle& place, double margin_m) const;
   bool passes(AgvId agv, const Lane* lane, const Box& place, double margin_m) const;
-  bool has_open_transport(AgvId agv) const;
+  bool may_have_work(AgvId agv) const;
   bool stands_still() const;
   AgvId longest_idle() const;
+  EntityId to_restart() const;
   std::uint64_t standstill_began_ns() const;
-  void help_at_standstill(AgvId agv, std::uint64_t began_ns);
+  void help_at_standstill(EntityId first, std::uint64_t began_ns);
+  void restart(EntityId participant);
 
   RunContext& run_;
   Ports ports_;
   std::vector<std::uint32_t> calls_;  // by AGV: for something else than a standstill
   SimTime still_since_ = kStart;      // when the operator last saw work under way, or restarted an agent
   bool standstill_called_ = false;
-  std::uint32_t standstills_ = 0;  // for which the operator was called
+  bool computers_restarted_ = false;  // since work was last under way
+  std::uint32_t standstills_ = 0;     // for which the operator was called
 };
 
 }  // namespace fleetproof

@@ -30,14 +30,29 @@ double RunContext::motion_draw(MotionTopic topic, AgvId agv, std::uint32_t numbe
 
 bool RunContext::transports_are_open() const { return open_transports(counters) > 0; }
 
-void RunContext::move_load(LoadId load, Holder to) {
-  world.move_load(load, to);
-  trace_load(load);
+// An open transport is told to every computer; without computers, to every AGV.
+RunContext::Audience RunContext::audience_of(TransportId transport) const {
+  const AgvId agv = orders.agv_of(transport);
+  if (agv.valid()) return {agv.value, agv.value + 1};
+  const auto fleet = static_cast<std::uint32_t>(agvs.size()),
+             all = static_cast<std::uint32_t>(scenario.participant_count());
+  return fleet < all ? Audience{fleet, all} : Audience{0, fleet};
 }
 
-void RunContext::trace_load(LoadId id) {
-  const auto& [transport, carrier, holder, destination] = world.load(id);
-  trace(carrier, traced::LoadMoves{id, holder});
+LoadId RunContext::add_load(TransportId transport) {
+  const TransportOrder& order = orders.order(transport);
+  const LoadId load = world.add_load(transport, orders.agv_of(transport), order.from, order.to);
+  trace(orders.agv_of(transport), traced::OrderReleased{transport});
+  trace(orders.agv_of(transport), traced::LoadMoves{load, world.load(load).holder});
+  return load;
+}
+
+// The record is about the AGV of the transport. If an open transport loses its AGV here, that AGV is named.
+void RunContext::move_load(LoadId id, Holder to) {
+  const AgvId before = world.load(id).carrier;
+  world.move_load(id, to);
+  const AgvId now_of = world.load(id).carrier;
+  trace(now_of.valid() ? now_of : before, traced::LoadMoves{id, to});
 }
 
 }  // namespace fleetproof

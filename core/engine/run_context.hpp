@@ -62,8 +62,17 @@ struct RunContext {
   void progressed(AgvId agv) { last_progress = status(agv).last_progress = now; }
 
   bool transports_are_open() const;
+  // The participants that are told of a transport: these ids, the last one excluded.
+  struct Audience {
+    std::uint32_t first, end;
+    bool has(EntityId participant) const { return first <= participant.value && participant.value < end; }
+  };
+  Audience audience_of(TransportId transport) const;
+  // Requires: it was released.
+  bool is_over(TransportId transport) const { return world.load(world.load_of(transport)).is_over(); }
+  // The load of a transport that is released appears.
+  LoadId add_load(TransportId transport);
   void move_load(LoadId load, Holder to);
-  void trace_load(LoadId load);
 
   // `what` is one of the structs in traced (core/outcome/trace_records.hpp); `text` as TraceWriter has it.
   template <class What>

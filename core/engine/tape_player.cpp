@@ -84,6 +84,14 @@ void TapePlayer::play_controller_call(TapeItem item, fp_controller* c) {
       return void(kHost.safe_mode(c, id()));
     case TapeItem::WaitingFor:
       return void(kHost.waiting_for(c, id()));
+    case TapeItem::WorksOn: {
+      const std::uint32_t agv = id();
+      return void(kHost.works_on(c, agv, id()));
+    }
+    case TapeItem::DeclareWaiting: {
+      const std::uint32_t agv = id();
+      return void(kHost.declare_waiting(c, agv, id()));
+    }
     case TapeItem::Sometimes:
     case TapeItem::Log: {
       const auto note = item == TapeItem::Log ? kHost.log : kHost.sometimes;

@@ -145,30 +145,36 @@ void World::finish(SimTime end) {
 
 LoadId World::add_load(TransportId transport, AgvId carrier, StationId at, StationId destination) {
   const LoadId load{loads_.size()};
-  loads_.push_back({transport, carrier, {Holder::Kind::Station, at.value}, destination});
-  loads_of_[carrier.index()].push_back(load);
+  const bool is_open = !carrier.valid();
+  loads_.push_back({transport, carrier, {Holder::Kind::Station, at.value}, destination, is_open});
+  (is_open ? open_loads_ : loads_of_[carrier.index()]).push_back(load);
   if (load_of_.size() <= transport.index()) load_of_.resize(transport.index() + 1);
   load_of_[transport.index()] = load;
   return load;
 }
 
 void World::move_load(LoadId id, Holder to) {
-  Holder& holder = loads_[id.index()].holder;
-  if (holder.kind == Holder::Kind::Agv) carried_[holder.index] = {};
-  holder = to;
-  if (holder.kind == Holder::Kind::Agv) carried_[holder.index] = id;
+  Load& load = loads_[id.index()];
+  if (load.holder.kind == Holder::Kind::Agv) carried_[load.holder.index] = {};
+  load.holder = to;
+  if (to.kind == Holder::Kind::Agv) {
+    carried_[to.index] = id;
+    load.was_taken_up = true;
+  }
+  if (load.is_open && !load.is_delivered()) load.carrier = to.kind == Holder::Kind::Agv ? AgvId{to.index} : AgvId{};
 }
 
 LoadId World::waiting_load(AgvId agv, StationId station) const {
-  for (const LoadId load : loads_of_[agv.index()]) {
-    if (is_waiting(load, agv, station)) return load;
+  for (const auto* loads : {&loads_of_[agv.index()], &open_loads_}) {
+    const auto found = std::ranges::find_if(*loads, [&](LoadId load) { return is_waiting(load, agv, station); });
+    if (found != loads->end()) return *found;
   }
   return {};
 }
 
 bool World::is_waiting(LoadId id, AgvId agv, StationId station) const {
   const Load& load = loads_[id.index()];
-  return load.carrier == agv && load.holder == Holder{Holder::Kind::Station, station.value} &&
+  return (load.carrier == agv || load.is_open) && load.holder == Holder{Holder::Kind::Station, station.value} &&
          load.destination != station;
 }
 

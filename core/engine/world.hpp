@@ -21,13 +21,16 @@ struct Body {
 
 struct Load {
   TransportId transport;
-  AgvId carrier;  // the AGV that has to carry out the transport
+  // The AGV that has to carry out the transport. Of an open one: that which has taken the load up, until the load
+  // leaves it elsewhere than at its destination; else invalid.
+  AgvId carrier;
   Holder holder;
   StationId destination;
+  bool is_open = false;       // the scenario gives the transport to no AGV
+  bool was_taken_up = false;  // by an AGV, ever
+  bool is_delivered() const { return holder == Holder{Holder::Kind::Station, destination.value}; }
   // The transport is over: the load is at its destination, or out of the warehouse.
-  bool is_over() const {
-    return holder == Holder{Holder::Kind::Station, destination.value} || holder.kind == Holder::Kind::ClearedAway;
-  }
+  bool is_over() const { return is_delivered() || holder.is_gone(); }
 };
 
 struct TouchPrediction {
@@ -65,11 +68,14 @@ class World {
   void finish(SimTime end);
 
   std::span<const Load> loads() const { return loads_; }
+  // Without a valid carrier, the transport is open.
   LoadId add_load(TransportId transport, AgvId carrier, StationId at, StationId destination);
   const Load& load(LoadId id) const { return loads_[id.index()]; }
   void move_load(LoadId load, Holder to);
-  // The oldest load that `agv` has to fetch at `station`; invalid if there is none.
+  // The oldest load that `agv` has to fetch at `station`, or else that of the oldest open transport there; invalid if
+  // there is none.
   LoadId waiting_load(AgvId agv, StationId station) const;
+  // Whether the AGV may take it up there.
   bool is_waiting(LoadId load, AgvId agv, StationId station) const;
   LoadId carried_load(AgvId agv) const { return carried_[agv.index()]; }
   // Invalid if the transport has not been released.
@@ -91,6 +97,7 @@ class World {
   std::vector<Load> loads_;
   std::vector<LoadId> carried_;                 // by AGV; invalid: none
   std::vector<std::vector<LoadId>> loads_of_;   // by AGV: those of its transports, oldest first
+  std::vector<LoadId> open_loads_;              // those of open transports, oldest first
   std::vector<LoadId> load_of_;                 // by transport; invalid: not released
   std::vector<std::vector<EntityId>> touched_;  // by body
   std::uint64_t pieces_ = 0;

@@ -14,11 +14,12 @@ namespace fleetproof {
 enum class ActivityKind : std::uint8_t { Drive = 1, Turn, Transmit, Pick, Drop, Park, Charge, Settle, Dock };
 const char* name_of(ActivityKind kind);
 
-// Where a load is: the containment relation (Sect. 3.2). A load on the floor is a body. A load that is cleared away has
-// left the warehouse for good.
+// Where a load is: the containment relation (Sect. 3.2). A load on the floor is a body. A load that is cleared away, or
+// whose transport is withdrawn before an AGV takes the load up, has left the warehouse for good.
 struct Holder {
-  enum class Kind : std::uint8_t { Station, Agv, Floor, ClearedAway } kind = Kind::Station;
+  enum class Kind : std::uint8_t { Station, Agv, Floor, ClearedAway, Withdrawn } kind = Kind::Station;
   std::uint32_t index = 0;  // of the station, the AGV, or the body
+  constexpr bool is_gone() const { return kind == Kind::ClearedAway || kind == Kind::Withdrawn; }
   friend bool operator==(const Holder&, const Holder&) = default;
 };
 

@@ -49,6 +49,7 @@ struct Counters {
   std::uint64_t duplicates = 0;
   std::uint64_t lost_to_sources = 0;
   std::uint64_t processor_changes = 0;
+  std::uint64_t transports_withdrawn = 0;
 
   friend bool operator==(const Counters&, const Counters&) = default;
 };
@@ -78,7 +79,8 @@ inline constexpr auto kCounters = std::to_array<CounterInfo>({
     {"drives", &Counters::drives, "drives", "begun"},
     {"turns", &Counters::turns, "turns", "begun"},
     {"refused_calls", &Counters::refused_calls, "calls", "for an action that was not possible at that moment"},
-    {"transports_released", &Counters::transports_released, "transports", "released to their AGVs"},
+    {"transports_released", &Counters::transports_released, "transports",
+     "released to their AGVs, or open to the computers of the fleet"},
     {"transports_done", &Counters::transports_done, "transports", "whose load was put down at its destination"},
     {"distance_um", &Counters::distance_um, "um", "driven by the whole fleet"},
     {"safe_mode_ns", &Counters::safe_mode_ns, "ns", "in safe mode, added up over the fleet"},
@@ -111,10 +113,14 @@ inline constexpr auto kCounters = std::to_array<CounterInfo>({
     {"lost_to_sources", &Counters::lost_to_sources, "receptions", "lost to external sources alone"},
     {"processor_changes", &Counters::processor_changes, "calls",
      "of agents that left another rounding, other exceptions or denormals behind: they were set back"},
+    {"transports_withdrawn", &Counters::transports_withdrawn, "transports",
+     "withdrawn before an AGV had taken their loads up"},
 });
 
-// So many of them stand in encodings up to version 4 and in archives up to schema 11.
-inline constexpr std::size_t kCountersBeforeProcessor = kCounters.size() - 1;
+// So many of them stand in encodings up to version 4 and in archives up to schema 11; and up to version 5 and
+// schema 13.
+inline constexpr std::size_t kCountersBeforeProcessor = kCounters.size() - 2,
+                             kCountersBeforeWithdrawn = kCounters.size() - 1;
 
 // A counter that stands in the list twice would hide that another one is missing.
 consteval bool every_counter_is_listed_once() {

@@ -55,7 +55,7 @@ constexpr auto kKinds = std::to_array<IncidentKindInfo>({
     {LoadMovedByNobody, Accusation, EndPoint::WrongLoad, "load-moved-by-nobody", "load",
      "a load moved although no AGV at its place was picking or dropping it"},
     {Deadlock, Accusation, EndPoint::Deadlock, "deadlock", "AGVs in the circle; 0: no circle known",
-     "AGVs with open transports waited for each other"},
+     "AGVs with open transports waited for each other; without an AGV: a fleet with open transports stood still"},
     {WaitsDeclared, Link, std::nullopt, "waits", "1: in the circle",
      "an AGV of a deadlock declared that it waited for another AGV"},
     {WaitsInferred, Link, std::nullopt, "waits-inferred", "1: in the circle",
@@ -91,6 +91,8 @@ constexpr auto kKinds = std::to_array<IncidentKindInfo>({
      "messages of the scenario were never sent: with a given delivery, or of a kind that the radio spares"},
     {CallWithoutEffect, Denied, std::nullopt, "call-without-effect", "place of the call in the script, from 0",
      "a pick or drop of the scenario's script found no load to move"},
+    {OrderNotTaken, Accusation, EndPoint::Starvation, "order-not-taken", "transport",
+     "no AGV took the load of an open transport up while later ones were finished"},
 });
 
 static_assert([] {
@@ -132,7 +134,8 @@ bool is_fallen_load(const Incident& incident) {
 }
 
 SimTime surely_began(const Incident& incident) {
-  const bool slow = incident.kind == IncidentKind::Livelock || incident.kind == IncidentKind::Starvation;
+  const bool slow = incident.kind == IncidentKind::Livelock || incident.kind == IncidentKind::Starvation ||
+                    incident.kind == IncidentKind::OrderNotTaken;
   return slow ? incident.last : incident.first;
 }
 

@@ -39,6 +39,7 @@ enum class IncidentKind : std::uint32_t {
   NotReached = 24,
   MessageNotSent = 25,
   CallWithoutEffect = 26,
+  OrderNotTaken = 27,
 };
 
 // What an incident says about the fleet.

@@ -151,8 +151,9 @@ void encode(const Outcome& outcome, ByteSink& sink, std::uint32_t version) {
   if (outcome.min_clearance_um) sink.i64(*outcome.min_clearance_um);
   std::array<std::uint64_t, kCounters.size()> counters{};
   for (std::size_t i = 0; i < counters.size(); ++i) counters[i] = outcome.counters.*kCounters[i].member;
-  const bool all = version > kEncodingWithoutProcessorChanges;
-  sink.u64s(std::span(counters).first(all ? counters.size() : kCountersBeforeProcessor));
+  sink.u64s(std::span(counters).first(version > kEncodingWithoutWithdrawn          ? counters.size()
+                                      : version > kEncodingWithoutProcessorChanges ? kCountersBeforeWithdrawn
+                                                                                   : kCountersBeforeProcessor));
   sink.u64(outcome.simulated_ns);
   sink.u32(outcome.agv_count);
   sink.u64(outcome.digest);

@@ -110,7 +110,8 @@ const RunEnd* find_run_end(OutcomeClass id);
 
 // The one canonical byte encoding (little-endian, version first): what a pipe carries and what a row's checksum covers.
 // An earlier version has fewer fields; the checksums of older archives are over it.
-inline constexpr std::uint32_t kEncodingVersion = 5;
+inline constexpr std::uint32_t kEncodingVersion = 6;
+inline constexpr std::uint32_t kEncodingWithoutWithdrawn = 5;
 inline constexpr std::uint32_t kEncodingWithoutProcessorChanges = 4;
 inline constexpr std::uint32_t kEncodingWithoutNormalSpeed = 3;
 std::string encode(const Outcome& outcome, std::uint32_t version = kEncodingVersion);

@@ -24,6 +24,13 @@ const char* name_of_note(TraceKind kind) {
                                            : "delivery";
 }
 
+const char* name_of_loss(TraceKind kind) {
+  return kind == TraceKind::Lost                 ? "lost"
+         : kind == TraceKind::LostInOutage       ? "lost in an outage"
+         : kind == TraceKind::LostByInterference ? "lost by interference"
+                                                 : "lost to an external source";
+}
+
 // A block that nobody keeps. Each thread has some that are used again and again: they are so large that the allocator
 // takes long for them, and laws keep all of a run.
 std::shared_ptr<TraceBlock> free_block() {
@@ -57,8 +64,6 @@ const char* name_of(TraceKind kind) {
       return "transport done";
     case TraceKind::Sent:
       return "sent";
-    case TraceKind::Lost:
-      return "lost";
     case TraceKind::Received:
       return "received";
     case TraceKind::TimerWentOff:
@@ -76,9 +81,8 @@ const char* name_of(TraceKind kind) {
     case TraceKind::Log:
       return "log";
     case TraceKind::AgentCrashed:
-      return "agent crashed";
     case TraceKind::AgentHung:
-      return "agent hung";
+      return kind == TraceKind::AgentHung ? "agent hung" : "agent crashed";
     case TraceKind::LoadMoves:
       return "load moves";
     case TraceKind::BatteryEmpty:
@@ -97,12 +101,15 @@ const char* name_of(TraceKind kind) {
       return "leaves";
     case TraceKind::StoppedByAgent:
       return "stop by agent";
+    case TraceKind::OrderWithdrawn:
+      return "order withdrawn";
+    case TraceKind::WorksOn:
+      return "works on";
+    case TraceKind::Lost:
     case TraceKind::LostInOutage:
-      return "lost in an outage";
     case TraceKind::LostByInterference:
-      return "lost by interference";
     case TraceKind::LostToSource:
-      return "lost to an external source";
+      return name_of_loss(kind);
     case TraceKind::Denied:
       return "denied";
     case TraceKind::Described:

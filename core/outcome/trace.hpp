@@ -40,9 +40,11 @@ enum class TraceKind : std::uint32_t {
   FaultOver = 20,
   ScannerStops = 21,
   OperatorAssists = 22,
-  Appears = 23,             // a body comes onto the floor
-  Leaves = 24,              // a body is taken off the floor
-  StoppedByAgent = 25,      // begins or ends
+  Appears = 23,         // a body comes onto the floor
+  Leaves = 24,          // a body is taken off the floor
+  StoppedByAgent = 25,  // begins or ends
+  OrderWithdrawn = 26,
+  WorksOn = 27,             // an agent declares the transport that an AGV works on
   LostInOutage = 32,        // as Lost, while the link or place was in an outage
   LostByInterference = 33,  // as Lost, at the end of the transmission: another transmission was in the air
   LostToSource = 34,        // as Lost, to an external source near the receiver; otherwise it would have arrived

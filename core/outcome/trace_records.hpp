@@ -71,7 +71,7 @@ inline ActivityKind activity_of(const TraceRecord& record) {
   return static_cast<ActivityKind>(record.a);
 }
 
-// The entity is the AGV of the transport.
+// The entity is the AGV of the transport; invalid: the transport is open.
 struct OrderReleased {
   static constexpr TraceKind kKind = TraceKind::OrderReleased;
   TransportId transport;
@@ -84,6 +84,22 @@ struct TransportDone {
   TransportId transport;
   constexpr void put(TraceRecord& r) const { r.a = transport.value; }
   static constexpr TransportDone of(const TraceRecord& r) { return {id_in<TransportId>(r.a)}; }
+};
+
+// The entity is the AGV of the transport, or that which carries the load; invalid: no AGV does.
+struct OrderWithdrawn {
+  static constexpr TraceKind kKind = TraceKind::OrderWithdrawn;
+  TransportId transport;
+  constexpr void put(TraceRecord& r) const { r.a = transport.value; }
+  static constexpr OrderWithdrawn of(const TraceRecord& r) { return {id_in<TransportId>(r.a)}; }
+};
+
+// The entity is the AGV that works on the transport. Its own agent says so, or the program of a computer.
+struct WorksOn {
+  static constexpr TraceKind kKind = TraceKind::WorksOn;
+  TransportId transport;  // invalid: none
+  constexpr void put(TraceRecord& r) const { r.a = transport.value; }
+  static constexpr WorksOn of(const TraceRecord& r) { return {id_in<TransportId>(r.a)}; }
 };
 
 // The entity is the sender.

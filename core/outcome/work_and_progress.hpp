@@ -51,9 +51,10 @@ constexpr bool is_progress(ActivityKind ended, bool as_planned, Duration lasted,
   return ended == ActivityKind::Charge && (as_planned || lasted >= stuck_after);
 }
 
-// Transports that were released and are neither done nor impossible because their load was cleared away.
+// Transports that were released and are neither done, nor withdrawn, nor impossible because their load was cleared
+// away.
 constexpr std::uint64_t open_transports(const Counters& counters) {
-  const std::uint64_t over = counters.transports_done + counters.loads_cleared;
+  const std::uint64_t over = counters.transports_done + counters.loads_cleared + counters.transports_withdrawn;
   return over < counters.transports_released ? counters.transports_released - over : 0;
 }
 

@@ -14,7 +14,11 @@ void visit_fields(Given& fault, Visit&& visit) {
   auto& [length_m, width_m, centre_ahead_m] = load;
   const bool no_load = kind != Fault::Kind::LoadDrop;
   visit(Field{.key = "kind", .text = "what goes wrong", .lenient = kOfScenarios, .needed = true}, kind);
-  visit(Field{.key = "agv", .text = "name of the AGV or computer", .lenient = kOfScenarios, .needed = true}, agv);
+  visit(Field{.key = "agv",
+              .text = "name of the AGV or computer; left out: the AGV that picks the open transport",
+              .lenient = kOfScenarios,
+              .left_out = !agv.valid()},
+        agv);
   visit(Field{.key = "at_s",
               .text = "when: since the start of the run, or since the AGV took up the load of `transport`",
               .lenient = kOfScenarios,
@@ -22,7 +26,7 @@ void visit_fields(Given& fault, Visit&& visit) {
               .needed = true},
         at);
   visit(Field{.key = "transport",
-              .text = "number among the AGV's own transports, from 0",
+              .text = "number among the AGV's own transports, from 0; without agv, among the open ones",
               .lenient = kOfScenarios,
               .high = 4294967295.0,
               .left_out = !transport},

@@ -26,9 +26,9 @@ struct Fault {
     PowerFailure = 6,
   };
   Kind kind = Kind::Breakdown;
-  EntityId agv;   // or a computer, where the kind strikes computers
+  EntityId agv;   // or a computer, where the kind strikes computers; invalid: the AGV that picks an open transport
   Duration at{};  // since the start of the run, or since the AGV picked the load of `transport`
-  std::optional<std::uint32_t> transport;  // the number of a transport of this AGV
+  std::optional<std::uint32_t> transport;  // the number of a transport of this AGV, or of an open one
   Duration lasts{};
   // LoadDrop only: the load on the floor. It is aligned with the AGV. Its centre is `ahead_m` and `left_m` from the
   // centre of the AGV.
@@ -116,17 +116,18 @@ enum class Assist : std::uint8_t {
   Jam = 2,         // a scanner has held its AGV for long; the operator mutes the field until it is clear
   Contact = 3,     // the AGV is out of order after a contact; the operator takes it off the floor and sets it
                    // down at a station (core/engine/operator_actions.hpp)
-  Standstill = 4,  // transports are open, and no AGV works or has worked for `stuck_after`; one agent is restarted
+  Standstill = 4,  // transports are open, and no AGV works or has worked for `stuck_after`; a program is restarted
 };
 
 // The operator helps AGVs; for each call, an operator is available. After a contact, the operator takes the AGV off the
 // floor, ends its halts and changes an empty battery. It sets the AGV down with its load when the place is clear of all
 // bodies and their present pieces by the safety distance, and of the lanes that AGVs drive now or next; it tries every
 // second. The agent then starts with the next boot number, and open orders are sent again. The contact still counts. At
-// a standstill, the operator restarts the agent of the AGV that has begun and ended nothing for the longest time (of
-// equals, the first). That AGV has an open transport, no activity under way, and no halt but one of its agent. If no
-// work begins or ends for another `stuck_after`, the operator is called again. A restart is not an action and does not
-// change whether the run ends stuck.
+// a standstill, the operator first restarts the programs of all computers. If there are none, or if no work begins or
+// ends for another `stuck_after`, the operator is called again and restarts the agent of the AGV that has begun and
+// ended nothing for the longest time (of equals, the first). That AGV has an open transport, or there is one that no
+// AGV is given; it has no activity under way, and no halt but one of its agent. And so on, until work begins. A restart
+// is not an action and does not change whether the run ends stuck.
 struct OperatorSetup {
   bool on = false;
   double least_s = 60.0, most_s = 300.0;  // from the call to the help, uniform

@@ -21,6 +21,8 @@ namespace fleetproof {
 struct TransportOrder {
   StationId from, to;
   Duration release{};
+  // When it is withdrawn. The transport is over then, unless an AGV has taken its load up before.
+  Duration withdrawn = kLongestDuration;
 };
 
 // A controller call at a fixed time, for the `scripted` agent.
@@ -123,6 +125,9 @@ struct Scenario {
   std::shared_ptr<const LogicalMap> map;  // shared: the runs on one layout read the same curves
   std::vector<VehicleType> vehicle_types{VehicleType{}};
   std::vector<AgvSetup> agvs;
+  // Transports that no AGV is given. Each is released to the computers, or to all AGVs if there are no computers; the
+  // AGV that takes the load up carries it out.
+  std::vector<TransportOrder> open_orders;
   std::vector<ComputerSetup> computers;
   WireSetup wire;
   std::vector<ObstacleSetup> obstacles;

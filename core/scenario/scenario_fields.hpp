@@ -69,7 +69,7 @@ void visit_fields(Sensing& sensing, Visit&& visit) {
 
 template <FieldsOf<TransportOrder> Order, class Visit>
 void visit_fields(Order& order, Visit&& visit) {
-  auto& [from, to, release] = order;
+  auto& [from, to, release, withdrawn] = order;
   visit(Field{.key = "from", .text = "station where the load is", .lenient = kOfScenarios, .needed = true}, from);
   visit(Field{.key = "to", .text = "station where the load goes", .lenient = kOfScenarios, .needed = true}, to);
   visit(Field{.key = "release_s",
@@ -78,6 +78,13 @@ void visit_fields(Order& order, Visit&& visit) {
               .high = kLongest_s,
               .needed = true},
         release);
+  visit(Field{.key = "withdrawn_s",
+              .text = "when it is withdrawn; it is over then, unless its load was taken up before; left out: never",
+              .lenient = kOfScenarios,
+              .high = kLongest_s,
+              .left_out = withdrawn == kLongestDuration,
+              .is_later = true},
+        withdrawn);
 }
 
 template <FieldsOf<ScriptedCall> Call, class Visit>
@@ -294,11 +301,17 @@ void visit_fields(Expected& expected, Visit&& visit) {
         digest);
 }
 
+inline constexpr Field kOpenTransports{
+    .key = "transports",
+    .text = "open transports: the computers hear of them, or without computers all AGVs",
+    .lenient = kOfScenarios,
+    .is_later = true};
+
 template <FieldsOf<Scenario> Given, class Visit>
 void visit_fields(Given& scenario, Visit&& visit) {
-  auto& [name, map, vehicle_types, agvs, computers, wire, obstacles, faults, scanner, operator_help, radio, deliveries,
-         agent_clock, law, contact_stops, horizon, stuck_after, seed, stream_seeds, agent, agent_config, expected] =
-      scenario;
+  auto& [name, map, vehicle_types, agvs, open_orders, computers, wire, obstacles, faults, scanner, operator_help, radio,
+         deliveries, agent_clock, law, contact_stops, horizon, stuck_after, seed, stream_seeds, agent, agent_config,
+         expected] = scenario;
   visit(Field{.key = "name", .text = "name of the scenario", .lenient = kIsName}, name);
   visit(kSeed, seed);
   visit(Field{.key = "stream_seeds",
@@ -330,6 +343,7 @@ void visit_fields(Given& scenario, Visit&& visit) {
   visit(Field{.key = "law", .text = "what the laws ask", .lenient = kIsTable}, law);
   visit(Field{.key = "vehicle_types", .text = "kinds of AGVs", .lenient = kIsTable}, vehicle_types);
   visit(Field{.key = "agvs", .text = "the fleet", .lenient = kOfScenarios, .needed = true}, agvs);
+  visit(kOpenTransports.left_out_if(open_orders.empty()), open_orders);
   visit(Field{.key = "computers",
               .text = "participants without a body: servers, brokers",
               .lenient = kOfScenarios,

@@ -16,6 +16,7 @@ class Requests {
 
   std::vector<UnmetRequest> run() {
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) agv(i);
+    late_things("/transports", "open transports", scenario_.open_orders, &TransportOrder::release);
     for (std::size_t i = 0; i < scenario_.faults.size(); ++i) fault(i);
     for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) obstacle(i);
     late_things("/fates", "messages with a given delivery", scenario_.deliveries, &GivenDelivery::sent);
@@ -68,15 +69,18 @@ class Requests {
     const Fault& fault = scenario_.faults[i];
     const std::string place = fmt::format("/faults/{}", i);
     const bool counts_from_pick = fault.transport.has_value();
-    const Duration earliest =
-        fault.at +
-        (counts_from_pick ? scenario_.agvs[fault.agv.index()].transports[*fault.transport].release : Duration{});
+    const auto& orders = fault.agv.valid() && scenario_.is_agv(fault.agv) ? scenario_.agvs[fault.agv.index()].transports
+                                                                          : scenario_.open_orders;
+    const Duration earliest = fault.at + (counts_from_pick ? orders[*fault.transport].release : Duration{});
+    const std::string whose = fault.agv.valid() ? in_quotes(scenario_.name_of(fault.agv))
+                                                : fmt::format("open transport {}", fault.transport.value_or(0));
     if (is_late(earliest))
-      add(place + "/at_s", fmt::format("the {} of {} comes {}at {:g} s, {}", name_of(fault.kind),
-                                       in_quotes(scenario_.name_of(fault.agv)),
+      add(place + "/at_s", fmt::format("the {} of {} comes {}at {:g} s, {}", name_of(fault.kind), whose,
                                        counts_from_pick ? "at the earliest " : "", to_seconds(earliest), after()));
-    if (fault.kind == Fault::Kind::LoadDrop)
+    if (fault.kind == Fault::Kind::LoadDrop && fault.agv.valid())
       load_drop(place, fault, scenario_.agvs[fault.agv.index()]);
+    else if (fault.kind == Fault::Kind::LoadDrop)
+      return;  // how large the AGV is that picks the load is not known
     else if (describes_load(fault))
       add(place,
           fmt::format("a {} has no load, so length_m, width_m, ahead_m and left_m change nothing; leave them out",
@@ -88,7 +92,7 @@ class Requests {
   }
 
   void load_drop(const std::string& place, const Fault& fault, const AgvSetup& agv) {
-    if (agv.transports.empty())
+    if (agv.transports.empty() && scenario_.open_orders.empty())
       return add(place + "/agv", fmt::format("{} has no transports, so it never carries a load that could fall; give "
                                              "it one, or leave the fault out",
                                              in_quotes(agv.name)));

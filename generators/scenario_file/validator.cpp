@@ -200,6 +200,8 @@ class MeaningCheck {
     if (scenario_.agvs.empty()) add(ProblemKind::EmptyFleet, "/agvs", "a scenario needs at least one AGV");
     names("/agvs", scenario_.agvs);
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) agv(i);
+    for (std::size_t k = 0; k < scenario_.open_orders.size(); ++k)
+      transport(fmt::format("/transports/{}", k), scenario_.open_orders[k]);
     computers();
     names("/obstacles", scenario_.obstacles);
     for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) {
@@ -243,6 +245,7 @@ class MeaningCheck {
 
   void fault(std::size_t i) {
     const Fault& f = scenario_.faults[i];
+    if (!f.agv.valid()) return fault_of_open_order(i);
     if (f.agv >= scenario_.first_obstacle())
       return add(ProblemKind::UnknownReference, fmt::format("/faults/{}/agv", i), "there is no such AGV or computer");
     if (scenario_.is_computer(f.agv)) return fault_of_computer(i);
@@ -250,6 +253,16 @@ class MeaningCheck {
     if (!f.transport || *f.transport < agv.transports.size()) return;
     add(ProblemKind::UnknownReference, fmt::format("/faults/{}/transport", i),
         fmt::format("{} has {} transports; they count from 0", in_quotes(agv.name), agv.transports.size()));
+  }
+
+  void fault_of_open_order(std::size_t i) {
+    const Fault& f = scenario_.faults[i];
+    if (!f.transport)
+      return add(ProblemKind::UnknownReference, fmt::format("/faults/{}/agv", i),
+                 "a fault names an AGV, a computer or an open transport; give it agv or transport");
+    if (*f.transport < scenario_.open_orders.size()) return;
+    add(ProblemKind::UnknownReference, fmt::format("/faults/{}/transport", i),
+        fmt::format("there are {} open transports; they count from 0", scenario_.open_orders.size()));
   }
 
   void fault_of_computer(std::size_t i) {
@@ -347,17 +360,22 @@ class MeaningCheck {
     };
     if (a.type >= scenario_.vehicle_types.size()) unknown("type", "there is no such vehicle type");
     if (!has_station(a.start)) unknown("start", "there is no such station");
-    for (std::size_t k = 0; k < a.transports.size(); ++k) transport(i, k, a.transports[k]);
+    for (std::size_t k = 0; k < a.transports.size(); ++k)
+      transport(fmt::format("/agvs/{}/transports/{}", i, k), a.transports[k]);
     check_script(scenario_, i, problems_);
   }
 
-  void transport(std::size_t i, std::size_t k, const TransportOrder& order) {
+  void transport(const std::string& place, const TransportOrder& order) {
     const auto unknown = [&](std::string_view key, const char* sentence) {
-      add(ProblemKind::UnknownReference, fmt::format("/agvs/{}/transports/{}/{}", i, k, key), sentence);
+      add(ProblemKind::UnknownReference, fmt::format("{}/{}", place, key), sentence);
     };
     if (!has_station(order.from)) unknown("from", "there is no such station");
     if (!has_station(order.to)) unknown("to", "there is no such station");
     if (order.from == order.to) unknown("to", "a transport leads to another station than it comes from");
+    if (order.withdrawn < order.release)
+      add(ProblemKind::NumberOutOfRange, place + "/withdrawn_ns",
+          fmt::format("{:g} s: a transport is withdrawn after its release, which is at {:g} s",
+                      to_seconds(order.withdrawn), to_seconds(order.release)));
   }
 
   const Scenario& scenario_;
@@ -379,6 +397,7 @@ class WorldCheck {
     }
     starts();
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) transports(i);
+    open_transports();
     return std::move(problems_);
   }
 
@@ -492,6 +511,24 @@ class WorldCheck {
       need(agv.start, order.from, "/from", false);
       need(order.from, order.to, "/to", true);
       need(order.to, order.from, "/from", false);
+    }
+  }
+
+  // Some AGV must be able to carry it out.
+  void open_transports() {
+    const auto carries_out = [&](const AgvSetup& agv, const TransportOrder& order) {
+      return reachability_.reaches(agv.start, order.from, false, agv.type) &&
+             reachability_.reaches(order.from, order.to, true, agv.type) &&
+             reachability_.reaches(order.to, order.from, false, agv.type);
+    };
+    for (std::size_t k = 0; k < scenario_.open_orders.size(); ++k) {
+      const TransportOrder& order = scenario_.open_orders[k];
+      if (std::ranges::any_of(scenario_.agvs, [&](const AgvSetup& agv) { return carries_out(agv, order); })) continue;
+      add(ProblemKind::Unreachable, fmt::format("/transports/{}/from", k),
+          fmt::format("no AGV of the fleet can fetch the load at {} and bring it to {}{}; choose other stations",
+                      in_quotes(scenario_.map->station(order.from).name),
+                      in_quotes(scenario_.map->station(order.to).name),
+                      foreign_types_hint(scenario_.map->layout(), types_of(scenario_))));
     }
   }
 

@@ -33,7 +33,7 @@ std::string failure_text(const GateRecord& gate, std::optional<double> safety_di
     case EndPoint::Livelock:
       return "moved without a result (livelock)";
     case EndPoint::Starvation:
-      return "left an AGV without progress (starvation)";
+      return "left an AGV or an order without progress (starvation)";
     case EndPoint::Standstill:
       return "stood still while the radio kept its contract";
     case EndPoint::WrongLoad:

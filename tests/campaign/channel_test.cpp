@@ -112,7 +112,7 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   message.on_its_way = Duration{8};
   const Departure departure{AgvId{1U}, at_ns(8), at_ns(9), StationId{2U}, StationId{3U}, {0.6, 0.8}, {-1.0, 0.0}};
   answer.run.itinerary.departures = {departure};
-  answer.run.itinerary.done = {{AgvId{2U}, 4, at_ns(10)}};
+  answer.run.itinerary.done = {{AgvId{2U}, TransportId{4U}, at_ns(10)}};
   const std::string bytes = encode(answer);
   const RunAnswer decoded = decode_answer(bytes);
   EXPECT_TRUE(decoded.failed && decoded.machine);

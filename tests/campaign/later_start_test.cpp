@@ -74,7 +74,9 @@ TEST(LaterStart, TakesTheTimeBeforeOutOfAllInstants) {
     night.scenario.faults.push_back(
         {.kind = Fault::Kind::Breakdown, .agv = AgvId{agv}, .at = at, .transport = {}, .lasts = seconds(5)});
   Itinerary known;
-  known.done = {{AgvId{1U}, 0, kStart + seconds(9)}, {AgvId{2U}, 0, kStart + seconds(11)}};
+  const OrderTable orders(night.scenario);
+  known.done = {{AgvId{1U}, orders.at(AgvId{1U}, 0), kStart + seconds(9)},
+                {AgvId{2U}, orders.at(AgvId{2U}, 0), kStart + seconds(11)}};
   const Scenario later = with_later_start(night.scenario, known, seconds(10), Between::Behind);
   EXPECT_EQ(later.horizon, night.scenario.horizon - seconds(10));
   ASSERT_EQ(later.faults.size(), 2U) << "one was over";

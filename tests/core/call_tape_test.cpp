@@ -82,6 +82,8 @@ TEST(CallTape, PlaysEveryKindOfCall) {
       host.safe_mode(c, 7);
       host.waiting_for(c, 0);
       host.waiting_for(c, FP_NONE);
+      host.declare_waiting(c, 1, 0);
+      host.works_on(c, 1, FP_NONE);
       host.charge(c, FP_HERE);
     }
     fp_message message{};
@@ -148,12 +150,14 @@ TEST(CallTape, PlaysInvalidCalls) {
     host.log(c, nullptr);
     host.move(c, 99);
     host.waiting_for(c, 99);
+    host.declare_waiting(c, 99, 0);
+    host.works_on(c, 99, 0);
     host.declare_cost_ns(c, -1);
     host.park(c, FP_HERE);
   };
   const Scenario scenario = two_agvs(0.01);
   const ToldRun run = recorded_handler(scenario, handler);
-  EXPECT_EQ(run.outcome.counters.agent_calls, run.outcome.counters.activations * 19 + 2);
+  EXPECT_EQ(run.outcome.counters.agent_calls, run.outcome.counters.activations * 21 + 2);
   expect_same(run, played(scenario, run.tape));
 }
 

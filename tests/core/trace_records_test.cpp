@@ -32,6 +32,9 @@ TEST(TraceRecords, WriteTheWordsOfTheDigest) {
   expect_words(record_of(traced::ActivityEnds{ActivityKind::Drive, false}), ActivityEnds, 1, 0);
   expect_words(record_of(traced::OrderReleased{TransportId{5U}}), OrderReleased, 5, 0);
   expect_words(record_of(traced::TransportDone{TransportId{5U}}), TransportDone, 5, 0);
+  expect_words(record_of(traced::OrderWithdrawn{TransportId{5U}}), OrderWithdrawn, 5, 0);
+  expect_words(record_of(traced::WorksOn{TransportId{5U}}), WorksOn, 5, 0);
+  expect_words(record_of(traced::WorksOn{}), WorksOn, none, 0);
   expect_words(record_of(traced::Sent{{}, 0x1234567890abcdefU, 100}), Sent, none, 0x1234567890abcdefU);
   expect_words(record_of(traced::Reception{LostToSource, AgvId{2U}, 77}), LostToSource, 2, 77);
   expect_words(record_of(traced::Reception{Received, AgvId{2U}, 77}), Received, 2, 77);
@@ -46,6 +49,7 @@ TEST(TraceRecords, WriteTheWordsOfTheDigest) {
   expect_words(record_of(traced::AgentCrashed{}), AgentCrashed, 0, 0);
   expect_words(record_of(traced::AgentHung{}), AgentHung, 0, 0);
   expect_words(record_of(traced::LoadMoves{LoadId{8U}, {Holder::Kind::Floor, 12}}), LoadMoves, 8, (2ULL << 32) + 12);
+  expect_words(record_of(traced::LoadMoves{LoadId{8U}, {Holder::Kind::Withdrawn, 0}}), LoadMoves, 8, 4ULL << 32);
   expect_words(record_of(traced::BatteryEmpty{}), BatteryEmpty, 0, 0);
   expect_words(record_of(traced::FaultStrikes{Fault::Kind::Freeze, 11}), FaultStrikes, 5, 11);
   expect_words(record_of(traced::FaultOver{Fault::Kind::LoadDrop, 11}), FaultOver, 3, 11);

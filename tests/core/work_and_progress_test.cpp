@@ -24,6 +24,7 @@ TEST(Progress, IsMadeByTakingALoadUpAndByLosingIt) {
   EXPECT_TRUE(advances_transport({Holder::Kind::ClearedAway, 0}));
   EXPECT_FALSE(advances_transport({Holder::Kind::Station, 0})) << "a delivery has a record of its own";
   EXPECT_FALSE(advances_transport({Holder::Kind::Floor, 0}));
+  EXPECT_FALSE(advances_transport({Holder::Kind::Withdrawn, 0})) << "nobody has done that";
 }
 
 TEST(Progress, IsMadeByAChargeToTheEndOrALongOneAndByNoMovement) {
@@ -42,6 +43,8 @@ TEST(OpenTransports, AreThoseNeitherDoneNorImpossible) {
   counters.transports_done = 2;
   counters.loads_cleared = 1;
   EXPECT_EQ(open_transports(counters), 2U);
+  counters.transports_withdrawn = 1;
+  EXPECT_EQ(open_transports(counters), 1U);
   counters.loads_cleared = 4;
   EXPECT_EQ(open_transports(counters), 0U) << "a load may be cleared away after its delivery";
 }

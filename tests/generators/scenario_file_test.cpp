@@ -28,6 +28,9 @@ void add_computers_and_faults(Scenario& s) {
                       .at = Duration{15},
                       .transport = {},
                       .lasts = Duration{16}});
+  s.open_orders = {s.agvs[0].transports[0], s.agvs[0].transports[0]};
+  s.open_orders[1].withdrawn = s.open_orders[1].release + Duration{17};
+  s.faults.push_back({.kind = Fault::Kind::LoadDrop, .agv = {}, .at = Duration{18}, .transport = 1U});
 }
 
 // Every field different from its default.
@@ -112,6 +115,16 @@ void expect_same(const LawSetup& law, const LawSetup& other) {
   EXPECT_EQ(law.min_transports_per_agv_hour, other.min_transports_per_agv_hour);
 }
 
+TEST(ScenarioFile, OpenTransportsComeBack) {
+  const Scenario s = unusual(), back = parse_scenario(to_text(s), "text");
+  EXPECT_FALSE(back.faults[3].agv.valid());
+  EXPECT_EQ(back.faults[3].transport, 1U);
+  ASSERT_EQ(back.open_orders.size(), 2U);
+  EXPECT_EQ(back.open_orders[0].withdrawn, kLongestDuration);
+  EXPECT_EQ(back.open_orders[1].withdrawn, s.open_orders[1].withdrawn);
+  EXPECT_EQ(back.open_orders[1].to, s.open_orders[1].to);
+}
+
 TEST(ScenarioFile, EveryFieldComesBack) {
   const Scenario s = unusual();
   const auto text = to_text(s);
@@ -143,7 +156,7 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(*back.radio.trace, *s.radio.trace);
   EXPECT_EQ(back.computers, s.computers);
   EXPECT_EQ(back.wire, s.wire);
-  EXPECT_EQ(back.faults.back().agv, s.first_computer());
+  EXPECT_EQ(back.faults[2].agv, s.first_computer());
   EXPECT_EQ(back.agent_clock.call_cost_s, s.agent_clock.call_cost_s);
   expect_same(back.law, s.law);
   ASSERT_EQ(back.vehicle_types.size(), 2U);

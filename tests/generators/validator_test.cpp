@@ -266,6 +266,35 @@ const Plant kPlants[] = {
        s.computers = {{.name = "server"}};
        s.faults = {{.kind = Fault::Kind::Freeze, .agv = s.first_obstacle(), .transport = {}}};
      }},
+    {"fault_of_nothing", ProblemKind::UnknownReference, "/faults/0/agv",
+     [](Scenario& s) {
+       s.faults = {{.kind = Fault::Kind::LoadDrop, .agv = {}, .transport = {}}};
+     }},
+    {"fault_of_an_unknown_open_transport", ProblemKind::UnknownReference, "/faults/0/transport",
+     [](Scenario& s) {
+       s.open_orders = {s.agvs[0].transports[0]};
+       s.faults = {{.kind = Fault::Kind::LoadDrop, .agv = {}, .transport = 1U}};
+     }},
+    {"open_transport_to_itself", ProblemKind::UnknownReference, "/transports/0/to",
+     [](Scenario& s) {
+       s.open_orders = {s.agvs[0].transports[0]};
+       s.open_orders[0].to = s.open_orders[0].from;
+     }},
+    {"open_transport_to_nowhere", ProblemKind::UnknownReference, "/transports/0/to",
+     [](Scenario& s) {
+       s.open_orders = {s.agvs[0].transports[0]};
+       s.open_orders[0].to = StationId{};
+     }},
+    {"withdrawn_before_its_release", ProblemKind::NumberOutOfRange, "/agvs/0/transports/0/withdrawn_ns",
+     [](Scenario& s) {
+       s.agvs[0].transports[0].release = Duration{2};
+       s.agvs[0].transports[0].withdrawn = Duration{1};
+     }},
+    {"withdrawn_late", ProblemKind::NumberOutOfRange, "/transports/0/withdrawn_ns",
+     [](Scenario& s) {
+       s.open_orders = {s.agvs[0].transports[0]};
+       s.open_orders[0].withdrawn = std::chrono::seconds(1'000'000'001);
+     }},
     {"delivery_by_wire", ProblemKind::UnknownReference, "/fates/0",
      [](Scenario& s) {
        s.computers = {{.name = "broker"}, {.name = "master"}};

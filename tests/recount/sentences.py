@@ -9,7 +9,7 @@ from counts import END_POINTS
 FAILURES = {"violation": "broke the safety distance", "contact": "had a contact",
             "hazardous-contact": "had a contact at hazardous speed", "deadlock": "deadlocked",
             "livelock": "moved without a result (livelock)",
-            "starvation": "left an AGV without progress (starvation)",
+            "starvation": "left an AGV or an order without progress (starvation)",
             "standstill": "stood still while the radio kept its contract", "wrong-load": "handled a load wrongly",
             "empty-battery": "let a battery run empty", "crash": "crashed", "hang": "hung"}
 

@@ -1,4 +1,4 @@
-// Results files of earlier versions of this program: archives/schema4.fp to schema12.fp. The programs of
+// Results files of earlier versions of this program: archives/schema4.fp to schema13.fp. The programs of
 // their time wrote them, from one campaign file with a call cost of 10 ms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -97,7 +97,7 @@ TEST_P(OlderSchemas, AreCheckedByTheRulesOfTheirTime) {
   const std::string whole = samples::bytes_of(path_);
   for (const char* change :
        {"UPDATE runs SET transports_done = transports_done + 1 WHERE run_index = 3", "UPDATE cells SET loss = 0.1",
-        "UPDATE campaign SET run_count = 11", "UPDATE campaign SET run_count = NULL", "PRAGMA user_version = 13",
+        "UPDATE campaign SET run_count = 11", "UPDATE campaign SET run_count = NULL", "PRAGMA user_version = 14",
         "DELETE FROM runs WHERE run_index = 11; DELETE FROM violations WHERE run_index = 11; DELETE FROM incidents "
         "WHERE "
         "run_index = 11; DELETE FROM probes WHERE run_index = 11"}) {

@@ -224,7 +224,7 @@ TEST(ViewsOfJudgedRuns, AnAuditIsJudgedByItself) {
 
 TEST_F(Views, the_file_names_its_kind_and_version) {
   EXPECT_EQ(query(path_, "PRAGMA application_id"), std::to_string(0x464C5046));
-  EXPECT_EQ(query(path_, "PRAGMA user_version"), "13");
+  EXPECT_EQ(query(path_, "PRAGMA user_version"), "14");
   EXPECT_EQ(query(path_, "PRAGMA page_size"), "4096");
   EXPECT_EQ(query(path_, "PRAGMA journal_mode"), "delete");
   EXPECT_EQ(query(path_, "PRAGMA integrity_check"), "ok");

@@ -27,7 +27,8 @@
  * Versions. A struct that one side fills for the other begins with its size in bytes. Structs in arrays (AGVs,
  * stations, lanes, arcs, blocks) may grow, too: read them by the stride of the array. Calls of a script and permissions
  * never grow. A host refuses an agent with another FP_ABI_MAJOR. A higher minor adds members at the end: an agent may
- * use those "since minor n" if the host's abi_minor is n or more.
+ * use those "since minor n" if the host's abi_minor is n or more. An agent ignores kinds of events that it does not
+ * know.
  *
  * Units: metres, metres per second, nanoseconds (64-bit, since the start of the run), radians. Headings are unit
  * vectors in the world frame. Numbers of AGVs, stations, lanes and segments are the same for every agent of a run.
@@ -53,7 +54,7 @@ extern "C" {
 #define FP_ABI_MAJOR 1u
 #define FP_ABI_MINOR 5u
 
-#define FP_NONE 0xffffffffu /* no station, no segment, no AGV, no computer */
+#define FP_NONE 0xffffffffu /* no station, no segment, no AGV, no computer, no order */
 #define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
 #define FP_MESSAGE_BYTES_MAX 1024u
 
@@ -110,6 +111,11 @@ typedef struct fp_computer {
   double x_m, y_m;      /* of its antenna */
 } fp_computer;
 
+/* Since minor 5. Whose the transports of a run are. Assigned: each is released to one AGV. Open: each is released to
+ * every computer, and without computers to every AGV; the AGV that picks the load carries it out. An open run may have
+ * assigned transports, too. */
+typedef enum fp_orders { FP_ORDERS_ASSIGNED = 0, FP_ORDERS_OPEN } fp_orders;
+
 /* All pointers stay valid and unchanged for the life of the agent. */
 typedef struct fp_briefing {
   uint32_t struct_size;
@@ -144,22 +150,29 @@ typedef struct fp_briefing {
   const char* const* agv_names;          /* fleet_count of them; names are for people */
   const char* const* vehicle_type_names; /* by vehicle_type of fp_agv */
   const char* const* segment_names;      /* by number of the segment */
+  uint32_t orders;                       /* fp_orders */
 } fp_briefing;
 
 /* ---- events ---------------------------------------------------------------------------------------------- */
 
 typedef enum fp_event_kind {
   FP_EVENT_START = 0, /* the run begins, or the agent begins again after a restart */
-  FP_EVENT_ORDER,     /* a transport was released for this AGV: order_id, from, to. After a restart, sent again for each
-                         transport that is not done: first that of the load on board, then the oldest first; `from` is
-                         the station where the load waits now, if one does */
+  FP_EVENT_ORDER,     /* a transport was released for this AGV, or an open one (fp_orders): order_id, from, to. After a
+                         restart, sent again for each transport that is not done: first that of the load on board, then
+                         the oldest first; `from` is the station where the load waits now, if one does. Of open ones
+                         all are sent again that were released and are neither delivered nor withdrawn, also those that
+                         an AGV carries. If there are computers, they alone are told of open transports */
   FP_EVENT_MESSAGE,   /* the inbox is not empty; read it until FP_EMPTY. Messages are lost, late, doubled and reordered;
                          those that were not read before a restart are lost */
   FP_EVENT_TIMER,     /* a timer went off: timer */
-  FP_EVENT_ACTION_DONE
+  FP_EVENT_ACTION_DONE,
   /* an action ended, the one that was accepted first: result FP_OK, or FP_REFUSED if a contact put the AGV out of
      order. FP_REFUSED is final: the action never goes on, and the AGV accepts none until the operator has set it down
      and the agent has restarted */
+  FP_EVENT_WITHDRAWN = 6
+  /* since minor 5: order_id was withdrawn. Sent to those who were told of the transport, unless its load has been
+     delivered. If no AGV has ever picked the load, the transport is over: the load is gone, pick_load is refused, and
+     the order is not sent again. Otherwise it has to be delivered all the same */
 } fp_event_kind;
 
 typedef struct fp_event {
@@ -191,8 +204,11 @@ typedef struct fp_host {
    * every accepted action. While a move is under way, one more action may be given. Its segment must leave the station
    * where the move ends, and it begins when the move ends. If it is given before the AGV brakes, and if the segment
    * goes straight on, the AGV rolls through the station without a stop.
-   * `pick` takes the load of the oldest order of this AGV that waits at the station. If none waits or the AGV is
-   * loaded, it takes none, and ends with FP_OK all the same. */
+   * `pick` takes the load of the oldest order of this AGV that waits at the station, or else that of the oldest open
+   * one. If none waits or the AGV is loaded, it takes none, and ends with FP_OK all the same: so does a pick whose load
+   * another AGV takes first, or is withdrawn before the pick ends. The AGV that picks the load of an open transport
+   * owns the transport until the load leaves it; if it is put down elsewhere than at its destination, the transport is
+   * open again. */
   int32_t (*move)(fp_controller*, uint32_t segment);
   int32_t (*pick)(fp_controller*, uint32_t segment);
   int32_t (*drop)(fp_controller*, uint32_t segment);
@@ -230,7 +246,7 @@ typedef struct fp_host {
   int32_t (*log)(fp_controller*, const char* text);
 
   /* Since minor 2. As `pick`, but takes the load of this order. FP_REFUSED also if that load does not wait at the
-     station or if the AGV is loaded. FP_INVALID if no such order was released for this AGV. */
+     station or if the AGV is loaded. FP_INVALID if no such order was released for this AGV, nor an open one. */
   int32_t (*pick_load)(fp_controller*, uint32_t segment, uint32_t order_id);
   int32_t (*get_load)(fp_controller*, uint32_t* order_id); /* the order of the load on board; FP_NONE: no load */
 
@@ -256,6 +272,17 @@ typedef struct fp_host {
      licence for 12 AGVs". The crash is filed with the text, of which at least 150 characters are kept. The last call
      counts. FP_REFUSED after `create`. */
   int32_t (*cannot_start)(fp_controller*, const char* why);
+
+  /* Since minor 5. Declarations about an AGV: by its own agent, or by the program of a computer for any AGV. A
+     declaration moves nothing. It holds until the next one about this AGV, or until what made it restarts. FP_INVALID
+     about another AGV.
+     `works_on`: the AGV works on this order from now on; FP_NONE: on none. FP_INVALID if the order was not released, or
+     is that of another AGV. Until an AGV picks the load of an open transport, results know from this call alone whose
+     work it is: an AGV that stands or drives in vain is accused only if it has declared work, a load, or orders of its
+     own; else the fleet is accused if it stands still as a whole.
+     `declare_waiting`: as `waiting_for`. */
+  int32_t (*works_on)(fp_controller*, uint32_t agv, uint32_t order_id);
+  int32_t (*declare_waiting)(fp_controller*, uint32_t agv, uint32_t for_agv);
 } fp_host;
 
 /* ---- the agent ------------------------------------------------------------------------------------------- */
