@@ -191,7 +191,7 @@ std::vector<Without> things_of(const Scenario& scenario) {
   }
   for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
     const Fault& fault = scenario.faults[i];
-    things.push_back({fmt::format("the {} of {} at {:.2f} s", name_of(fault.kind), name_of_body(scenario, fault.agv),
+    things.push_back({fmt::format("the {} of {} at {:.2f} s", text_of(fault), name_of_body(scenario, fault.agv),
                                   to_seconds(fault.at)),
                       [=](const Scenario& s) {
                         Scenario less = s;

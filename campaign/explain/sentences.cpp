@@ -204,7 +204,7 @@ class Words {
   void faults_between(EntityId agv, Duration from, Duration to, std::string_view when) {
     for (const Fault& fault : scenario_.faults) {
       if (fault.agv == agv && !fault.transport && from <= fault.at && fault.at <= to)
-        say("The {} of {} at {:.2f} s was {}.", name_of(fault.kind), name_of_body(scenario_, agv), to_seconds(fault.at),
+        say("The {} of {} at {:.2f} s was {}.", text_of(fault), name_of_body(scenario_, agv), to_seconds(fault.at),
             when);
     }
   }

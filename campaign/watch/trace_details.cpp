@@ -74,6 +74,11 @@ std::string order_text(const TraceRecord& record) {
   return work.valid() ? number(work) : "nothing";
 }
 
+std::string kept_text(const traced::Kept& kept) {
+  return kept.size == 0 ? fmt::format("record {} no more", kept.number)
+                        : fmt::format("record {}, {} bytes", kept.number, kept.size);
+}
+
 std::string message_details(const TraceRecord& record, const TraceContext& context) {
   const TracedMessage& message = context.message_of(record);
   const auto name = [&](EntityId agv) { return body_name(context.scenario(), agv); };
@@ -107,7 +112,7 @@ std::string denied_text(const traced::Denied& denied, EntityId body, const Scena
       return fmt::format("delivery to {} of what is sent at {:.9f} s", body_name(scenario, delivery.receiver),
                          to_seconds(delivery.sent));
     }
-    return body < scenario.first_obstacle() ? name_of(scenario.faults[denied.number].kind) : "obstacle";
+    return body < scenario.first_obstacle() ? text_of(scenario.faults[denied.number]) : "obstacle";
   };
   return fmt::format("{}: {}", what(), name_of(denied.why));
 }
@@ -149,6 +154,8 @@ std::string trace_details(const TraceRecord& record, std::string_view text, cons
       return read<traced::SafeMode>(record).on ? "on" : "off";
     case TraceKind::StoppedByAgent:
       return read<traced::StoppedByAgent>(record).on ? "begins" : "ends";
+    case TraceKind::Kept:
+      return kept_text(read<traced::Kept>(record));
     case TraceKind::WaitingFor: {
       const auto waiting = read<traced::WaitingFor>(record);
       return waiting.agv.valid() ? body(waiting.agv) : "nobody";
@@ -158,9 +165,9 @@ std::string trace_details(const TraceRecord& record, std::string_view text, cons
       return fmt::format("{} {}", load.value, holder_text(scenario, to));
     }
     case TraceKind::FaultStrikes:
-      return name_of(read<traced::FaultStrikes>(record).fault);
+      return text_of(scenario.faults[read<traced::FaultStrikes>(record).number]);
     case TraceKind::FaultOver:
-      return name_of(read<traced::FaultOver>(record).fault);
+      return text_of(scenario.faults[read<traced::FaultOver>(record).number]);
     case TraceKind::Denied:
       return denied_text(read<traced::Denied>(record), record.entity, scenario);
     case TraceKind::ScannerStops:

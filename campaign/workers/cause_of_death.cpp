@@ -47,12 +47,15 @@ std::string end_words(WorkerState state, const WorkerDeath& death, const WorkerS
 
 std::string call_words(const CallNote& call) {
   if (call.number.load() == 0) return "before the first call of an agent";
-  constexpr std::array kEvents{"event start", "event order", "event message", "event timer", "event action done"};
-  static_assert(FP_EVENT_START == 0 && FP_EVENT_ACTION_DONE == kEvents.size() - 1);
+  constexpr std::array kEvents{"event start", "event order",       "event message",
+                               "event timer", "event action done", "event fault"};
+  static_assert(FP_EVENT_START == 0 && FP_EVENT_FAULT == kEvents.size() - 1);
+  constexpr std::uint32_t kLastEvent = kEvents.size() - 1;
   const std::uint32_t event = call.event.load();
-  return fmt::format("in {} at {:.9f} s",
-                     event == CallNote::kDestroy ? "destroy()" : kEvents.at(std::min<std::size_t>(event, 4)),
-                     to_seconds(at_ns(call.at_ns.load())));
+  const char* const called = event == CallNote::kDestroy      ? "destroy()"
+                             : event == CallNote::kKnowsFault ? "knows_fault()"
+                                                              : kEvents.at(std::min(event, kLastEvent));
+  return fmt::format("in {} at {:.9f} s", called, to_seconds(at_ns(call.at_ns.load())));
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ constexpr fp_agent_type agent_type(const char* name, const char* description, Cr
           description,
           create,
           [](void* agent, const fp_event* event) { static_cast<Agent*>(agent)->on_event(*event); },
-          [](void* agent) { delete static_cast<Agent*>(agent); }};
+          [](void* agent) { delete static_cast<Agent*>(agent); },
+          nullptr};
 }
 
 // The most stations, lanes or AGVs that a plant may have for agents whose paths and messages name each by 16 bits.

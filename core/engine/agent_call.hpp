@@ -15,12 +15,22 @@ struct AgentCall {
   const fp_agent_type& type;
   EntityId agv;  // or computer
   SimTime at;
-  const fp_event* event = nullptr;        // null: the agent is destroyed
-  fp_controller* controller = nullptr;    // of this participant; null if the agent is destroyed
+  const fp_event* event = nullptr;        // null: the agent is destroyed, or its program is asked
+  fp_controller* controller = nullptr;    // of this participant; null without an event
   const fp_briefing* briefing = nullptr;  // the same, for a start
 
+  // Whether agents of this type know a fault of this name.
+  struct Question {
+    const char* word = nullptr;  // null: nothing is asked
+    bool* knows = nullptr;       // takes the answer
+  } question{};
+
+  bool is_question() const { return question.word != nullptr; }
+  bool is_end() const { return event == nullptr && !is_question(); }
   bool is_start() const { return event != nullptr && event->kind == FP_EVENT_START; }
-  std::uint32_t kind() const { return event == nullptr ? CallNote::kDestroy : event->kind; }
+  std::uint32_t kind() const {
+    return is_question() ? CallNote::kKnowsFault : is_end() ? CallNote::kDestroy : event->kind;
+  }
 };
 
 // How a call ended that did not return.

@@ -5,6 +5,7 @@
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/call_tape.hpp"
 #include "core/engine/controller_table.hpp"
+#include "core/engine/fleet_software.hpp"
 #include "core/engine/foreign_table.hpp"
 
 namespace fleetproof {
@@ -32,6 +33,10 @@ const AgentFailure* AgentCaller::destroy(const AgentCall& call, void* agent) {
   return make_otherwise(call, counter_.next(call.agv, call.kind(), call.at), agent);
 }
 
+const AgentFailure* AgentCaller::ask(const AgentCall& question, void* agent) {
+  return make_otherwise(question, counter_.next(question.agv, question.kind(), question.at), agent);
+}
+
 [[gnu::noinline]] const AgentFailure* AgentCaller::tell_watched(const AgentCall& call, void* agent) {
   const KnownEnd* known = counter_.next(call.agv, call.kind(), call.at);
   return known != nullptr || !is_plain_ ? make_otherwise(call, known, agent) : hear(call.type, *call.event, agent);
@@ -57,6 +62,7 @@ const AgentFailure* AgentCaller::record(const AgentCall& call, const KnownEnd* k
   if (failure != nullptr) {
     tape_->call_failed(failure->hang, failure->message);
   } else {
+    if (call.is_question() && *call.question.knows) tape_->fault_is_known();
     tape_->call_returned();
   }
   return failure;
@@ -74,7 +80,7 @@ const AgentFailure* AgentCaller::make_foreign(const AgentCall& call, void*& agen
     const ForeignCalls::UnderWay under_way(*foreign_, call.agv);
     failure = reach(call, handle, agent);
   }
-  const bool is_gone = call.event == nullptr || (call.is_start() && agent == nullptr);
+  const bool is_gone = call.is_end() || (call.is_start() && agent == nullptr);
   if (!is_gone) return failure;
   const std::string fault = foreign_->take_back(call.agv);
   return failure != nullptr || fault.empty() ? failure : failed(false, fault);
@@ -82,6 +88,7 @@ const AgentFailure* AgentCaller::make_foreign(const AgentCall& call, void*& agen
 
 const AgentFailure* AgentCaller::reach(const AgentCall& call, fp_controller* handle, void*& agent) {
   if (call.is_start()) return create_and_start(call, handle, agent);
+  if (call.is_question()) return guarded([&] { *call.question.knows = knows_fault(call.type, call.question.word); });
   if (call.event != nullptr) return hear(call.type, *call.event, agent);
   try {
     call.type.destroy(agent);

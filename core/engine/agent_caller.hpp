@@ -32,6 +32,8 @@ class AgentCaller {
     return tell_watched({type, agv, at, &event, controller}, agent);
   }
   const AgentFailure* destroy(const AgentCall& call, void* agent);
+  // `agent`: one of this type, which exists.
+  const AgentFailure* ask(const AgentCall& question, void* agent);
   // At the end of the run. Throws EngineError if the tape holds more calls.
   void finish() const;
   // How many calls have left another state of the processor behind.

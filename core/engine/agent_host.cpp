@@ -204,6 +204,27 @@ void AgentHost::tell_order(AgvId agv, TransportId transport, StationId from, Sta
   tell(agv, event);
 }
 
+std::optional<Denial> AgentHost::why_not_told(AgvId agv, const std::string& word) {
+  const AgvState& agv_state = agv_states_[agv.index()];
+  if (agv_state.agent == nullptr) return Denial::AgentAway;  // frozen since before its start
+  bool knows = false;
+  const AgentCall question{*agv_state.type, agv, run_.now, nullptr, nullptr, nullptr, {word.c_str(), &knows}};
+  if (const AgentFailure* failure = caller_.ask(question, agv_state.agent)) {
+    give_up(agv, failure->hang, failure->message);
+    return Denial::AgentAway;
+  }
+  return knows ? std::nullopt : std::optional(Denial::UnknownWord);
+}
+
+void AgentHost::tell_fault(AgvId agv, const Fault& fault) {
+  fp_event event{};
+  event.kind = FP_EVENT_FAULT;
+  event.fault_word = fault.word.c_str();
+  event.fault_number = fault.number;
+  event.fault_length_ns = fault.lasts.count();
+  tell(agv, event);
+}
+
 // ---- restarts
 
 void AgentHost::goes_away(AgvId agv) {

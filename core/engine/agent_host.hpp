@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +67,11 @@ class AgentHost {
   void order_released(TransportId transport);
   // Nothing happens if it has been delivered.
   void order_withdrawn(TransportId transport);
+  // Why a named fault does not strike: the program does not know the word, or has not started yet. Requires: the agent
+  // is up. If it fails at the question, that is filed, and it is away.
+  std::optional<Denial> why_not_told(AgvId agv, const std::string& word);
+  // Requires: the agent knows the word, and the fault outlives the run.
+  void tell_fault(AgvId agv, const Fault& fault);
   // The event. The agent may have been frozen since.
   void becomes_free(AgvId agv);
 

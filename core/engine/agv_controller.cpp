@@ -1,6 +1,7 @@
 #include "core/engine/agv_controller.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/random.hpp"
 #include "core/engine/declarations.hpp"
@@ -62,6 +63,7 @@ void AgvController::forget(AgvId agv) {
   }
   if (!agv_state.handle.is_computer) ports_.actions.withdraw_accepted(agv);
   ports_.declarations.forget(agv);
+  ports_.disks.forget(agv);
 }
 
 // ---- calls
@@ -109,6 +111,8 @@ inline void AgvController::carry_out(AgvId agv, const PendingCall& call) {
       return ports_.declarations.set_work(call.about, TransportId{call.what}, agv);
     case PendingCall::Kind::Timer:
       return ports_.timers.set(agv, call.what, call.instant_ns);
+    case PendingCall::Kind::Keep:
+      return ports_.disks.write(agv);
     case PendingCall::Kind::Nothing:
       return;
   }
@@ -206,6 +210,11 @@ std::int32_t AgvController::declare_cost(AgvId agv, std::int64_t cost_ns) {
   if (cost_ns < 0 || cost_ns > kDeclaredCostMax_ns) return FP_INVALID;
   agv_states_[agv.index()].handle.cost += Duration{cost_ns};
   return FP_OK;
+}
+
+std::int32_t AgvController::keep(AgvId agv, std::uint32_t number, DiskRecord record) {
+  if (!ports_.disks.accept(agv, number, std::move(record))) return FP_REFUSED;
+  return take_effect(agv, {.kind = PendingCall::Kind::Keep});
 }
 
 std::uint64_t AgvController::random(AgvId agv, std::uint32_t purpose, std::uint64_t index) const {

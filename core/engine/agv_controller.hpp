@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/engine/call_limits.hpp"
+#include "core/engine/disks.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
 
@@ -20,14 +21,14 @@ class CallTape;
 // far.
 struct fp_controller {
   fleetproof::AgvController* part = nullptr;
-  fleetproof::EntityId agv;               // or computer
-  bool is_computer = false;               // it has no AGV to act with
-  bool hears_notes = false;               // as RunContext::hears_notes
-  fleetproof::CallTape* tape = nullptr;   // takes the calls of the activation; null: nobody records them
-  std::string* why_not = nullptr;         // takes why the agent cannot start; null: it is not being created
-  fleetproof::Duration cost{};            // of its calls
-  std::uint64_t calls = 0, services = 0;  // so many
-  std::uint64_t calls_max = 0;            // so many are admitted; none outside an activation
+  fleetproof::EntityId agv;                // or computer
+  bool is_computer = false;                // it has no AGV to act with
+  bool hears_notes = false;                // as RunContext::hears_notes
+  fleetproof::CallTape* tape = nullptr;    // takes the calls of the activation; null: nobody records them
+  std::string* why_not = nullptr;          // takes why the agent cannot start; null: it is not being created
+  fleetproof::Duration cost{};             // of its calls
+  std::uint64_t calls = 0, services = 0;   // so many
+  std::uint64_t calls_max = 0;             // so many are admitted; none outside an activation
 
   bool in_activation() const { return calls_max > 0; }
   // Which limit the agent has exceeded, in words; null: none.
@@ -49,6 +50,7 @@ class AgvController {
     ActionsPort actions;
     BatteryPort battery;
     Declarations& declarations;
+    Disks& disks;
     HaltsPort halts;
     MessengerPort messenger;
     PositionSensorPort sensor;
@@ -61,7 +63,7 @@ class AgvController {
   void begin_activation(fp_controller& handle);
   // Whether the activation has taken time or broken a limit.
   bool end_activation(fp_controller& handle);
-  // The AGV's computer goes down: pending calls, timers, inbox and declarations are lost.
+  // The AGV's computer goes down: pending calls, timers, inbox and declarations are lost. The disk is not.
   void forget(AgvId agv);
   // The event. Pending calls take effect in the order in which they were made.
   void call_takes_effect(AgvId agv);
@@ -88,6 +90,7 @@ class AgvController {
   std::int32_t declare_waiting(EntityId speaker, std::uint32_t agv, std::uint32_t other);
   std::int32_t works_on(EntityId speaker, std::uint32_t agv, std::uint32_t order);
   std::int32_t declare_cost(AgvId agv, std::int64_t cost_ns);
+  std::int32_t keep(AgvId agv, std::uint32_t number, DiskRecord record);
   // Perceptions and notes are passed on as they are.
   const Ports& ports() const { return ports_; }
   std::uint32_t order_on_board(AgvId agv) const;  // FP_NONE: no load
@@ -103,6 +106,7 @@ class AgvController {
       WaitingFor,
       WorksOn,
       Timer,
+      Keep,
       Nothing
     } kind = Kind::Action;
     std::uint32_t what = 0;  // fp_call, receiver, flag, AGV, order or timer number

@@ -53,7 +53,9 @@ enum class TapeItem : std::uint8_t {
   NotesLeftOut,  // count: so many notes beyond kNotesMax
   // What else happened during the call.
   ProcessorChanged,  // it left another state of the processor behind
-  // Controller calls.
+  FaultIsKnown,      // the program knows the named fault that it was asked for
+  // More controller calls.
+  Keep,  // number and size of the record, and its hash in place of its bytes: nobody reads them in a played run
   WorksOn,
   DeclareWaiting,
 };
@@ -74,10 +76,11 @@ class CallTape {
   explicit CallTape(std::size_t longest_bytes = kLongestTape);
 
   // ---- by the engine
-  // `event`: FP_EVENT_..., or CallNote::kDestroy.
+  // `event`: as CallNote has it.
   void call_begins(AgvId agv, std::uint32_t event);
   void agent_created() { put(TapeItem::Created); }
   void processor_changed() { put(TapeItem::ProcessorChanged); }
+  void fault_is_known() { put(TapeItem::FaultIsKnown); }
   void call_returned() { call_ends(TapeItem::Returned); }
   void call_failed(bool hang, std::string_view message);
 

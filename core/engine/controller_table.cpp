@@ -6,6 +6,7 @@
 
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/declarations.hpp"
+#include "core/engine/disks.hpp"
 
 namespace fleetproof {
 namespace {
@@ -166,6 +167,25 @@ std::int32_t cannot_start(fp_controller* controller, const char* why) {
   });
 }
 
+std::int32_t keep(fp_controller* controller, std::uint32_t number, const void* bytes, std::uint32_t size) {
+  return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
+    if (bytes == nullptr && size > 0) return FP_INVALID;
+    if (size > FP_DISK_BYTES) return FP_REFUSED;
+    return part.keep(agv, number, disk_record({static_cast<const char*>(bytes), size}));
+  });
+}
+
+std::int32_t recall(fp_controller* controller, std::uint32_t number, fp_record* out) {
+  return admitted(controller, [&](AgvController& part, AgvId agv) -> std::int32_t {
+    if (out == nullptr || out->struct_size < sizeof(fp_record)) return FP_INVALID;
+    const DiskRecord* record = part.ports().disks.find(agv, number);
+    if (record == nullptr) return FP_EMPTY;
+    out->size = record->size;
+    out->bytes = record->bytes.data();
+    return FP_OK;
+  });
+}
+
 // ---- notes. Mostly, nobody hears them.
 
 void describe(fp_controller* controller, const char* kind) {
@@ -223,6 +243,8 @@ const fp_host kHost = {
     declare_state,
     believe,
     cannot_start,
+    keep,
+    recall,
     works_on,
     declare_waiting,
 };

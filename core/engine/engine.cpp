@@ -20,12 +20,13 @@ Parts::Parts(RunContext& run, const FleetSoftware& software, const RunWatch& wat
       drives(run, {ActivitiesPort(activities), scanner}),
       actions(run, {ActivitiesPort(activities), AgentHostPort(agents), BatteryPort(battery), drives}),
       halts(run, ActionsPort(actions)),
-      faults(run, {ActionsPort(actions), AgentHostPort(agents), contacts, HaltsPort(halts)}),
+      disks(run),
+      faults(run, {ActionsPort(actions), AgentHostPort(agents), contacts, disks, HaltsPort(halts)}),
       operator_actions(run, {ActionsPort(actions), AgentHostPort(agents), BatteryPort(battery), contacts, faults,
                              HaltsPort(halts), MessengerPort(messenger), PositionSensorPort(sensor), scanner}),
       timers(run, AgentHostPort(agents)),
       declarations(run),
-      controller(run, {ActionsPort(actions), BatteryPort(battery), declarations, HaltsPort(halts),
+      controller(run, {ActionsPort(actions), BatteryPort(battery), declarations, disks, HaltsPort(halts),
                        MessengerPort(messenger), PositionSensorPort(sensor), TimersPort(timers)}),
       agents(run, {ActionsPort(actions), controller, TimersPort(timers)}, software, watch) {}
 

@@ -11,6 +11,7 @@
 #include "core/engine/battery.hpp"
 #include "core/engine/contacts.hpp"
 #include "core/engine/declarations.hpp"
+#include "core/engine/disks.hpp"
 #include "core/engine/drives.hpp"
 #include "core/engine/fault_injector.hpp"
 #include "core/engine/fleet_software.hpp"
@@ -40,6 +41,7 @@ struct Parts {
   Drives drives;
   Actions actions;
   Halts halts;
+  Disks disks;
   FaultInjector faults;
   OperatorActions operator_actions;
   Timers timers;

@@ -42,9 +42,12 @@ void FaultInjector::load_taken_up(AgvId agv, TransportId transport) {
 
 // An AGV or agent that is already out of order cannot fail.
 std::optional<Denial> FaultInjector::denial_of(AgvId agv, std::uint64_t number) {
-  const Fault::Kind kind = run_.scenario.faults[number].kind;
-  if (concerns_agent_alone(kind) || run_.scenario.is_computer(agv))
-    return ports_.agents.is_up(agv) ? std::nullopt : std::optional(Denial::AgentAway);
+  const Fault& fault = run_.scenario.faults[number];
+  const Fault::Kind kind = fault.kind;
+  if (concerns_agent_alone(kind) || run_.scenario.is_computer(agv)) {
+    if (!ports_.agents.is_up(agv)) return Denial::AgentAway;
+    return kind == Fault::Kind::Named ? ports_.agents.why_not_told(agv, fault.word) : std::nullopt;
+  }
   if (run_.status(agv).out_of_order) return Denial::OutOfOrder;
   return kind == Fault::Kind::LoadDrop ? load_drops(agv, number) : std::nullopt;
 }
@@ -59,7 +62,9 @@ void FaultInjector::strikes(AgvId agv, std::uint64_t number) {
     fault_states_[number].agv = agv;
   }
   if (stops_computer(fault.kind)) ports_.agents.goes_away(agv);
+  if (fault.kind == Fault::Kind::DiskLoss) ports_.disks.lose(agv);
   if (fault.kind == Fault::Kind::Freeze) ports_.agents.freeze_until(agv, run_.now + fault.lasts);
+  if (fault.kind == Fault::Kind::Named) ports_.agents.tell_fault(agv, fault);
   run_.queue.push(run_.now + fault.lasts, agv, Event::Kind::FaultOver, number);
 }
 

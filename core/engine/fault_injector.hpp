@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/engine/disks.hpp"
 #include "core/engine/ports.hpp"
 #include "core/engine/run_context.hpp"
 
@@ -16,6 +17,7 @@ class FaultInjector {
     ActionsPort actions;
     AgentHostPort agents;
     Contacts& contacts;
+    Disks& disks;
     HaltsPort halts;
   };
   FaultInjector(RunContext& run, const Ports& ports);

@@ -5,6 +5,7 @@
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/call_tape.hpp"
 #include "core/engine/controller_table.hpp"
+#include "core/engine/disks.hpp"
 #include "core/engine/foreign_calls.hpp"
 #include "core/engine/notes.hpp"
 
@@ -58,6 +59,15 @@ void record(CallTape& tape, TapeItem item, const char* text) {
   if (text == nullptr || item == TapeItem::NoEffect) return tape.controller_call(TapeItem::NoEffect);
   tape.controller_call(item, std::string_view(text));
 }
+
+// A record that cannot be kept is refused, whatever is in it.
+void record(CallTape& tape, TapeItem item, std::uint32_t number, const void* bytes, std::uint32_t size) {
+  if (size > FP_DISK_BYTES || (bytes == nullptr && size > 0)) return tape.controller_call(TapeItem::NoEffect);
+  const std::uint64_t hash = disk_hash({static_cast<const char*>(bytes), size});
+  tape.controller_call(item, number, size, static_cast<std::int64_t>(hash));
+}
+
+void record(CallTape& tape, TapeItem item, std::uint32_t, fp_record*) { tape.controller_call(item); }  // recall
 
 void record(CallTape& tape, TapeItem, std::uint32_t, std::uint64_t) { tape.service(); }  // random
 
@@ -136,6 +146,8 @@ const fp_host kForeignHost = {
     guarded<&fp_host::declare_state, TapeItem::DeclareState>,
     guarded<&fp_host::believe, TapeItem::Believe>,
     guarded<&fp_host::cannot_start, TapeItem::NoEffect>,
+    guarded<&fp_host::keep, TapeItem::Keep>,
+    guarded<&fp_host::recall, TapeItem::NoEffect>,
     guarded<&fp_host::works_on, TapeItem::WorksOn>,
     guarded<&fp_host::declare_waiting, TapeItem::DeclareWaiting>,
 };

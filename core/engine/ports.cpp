@@ -79,5 +79,9 @@ bool AgentHostPort::has_events_waiting(AgvId agv) const { return part_->has_even
 void AgentHostPort::freeze_until(AgvId agv, SimTime until) const { part_->freeze_until(agv, until); }
 void AgentHostPort::goes_away(AgvId agv) const { part_->goes_away(agv); }
 void AgentHostPort::comes_back(AgvId agv) const { part_->comes_back(agv); }
+std::optional<Denial> AgentHostPort::why_not_told(AgvId agv, const std::string& word) const {
+  return part_->why_not_told(agv, word);
+}
+void AgentHostPort::tell_fault(AgvId agv, const Fault& fault) const { part_->tell_fault(agv, fault); }
 
 }  // namespace fleetproof

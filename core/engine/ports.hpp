@@ -148,6 +148,8 @@ class AgentHostPort {
   void freeze_until(AgvId agv, SimTime until) const;
   void goes_away(AgvId agv) const;
   void comes_back(AgvId agv) const;
+  std::optional<Denial> why_not_told(AgvId agv, const std::string& word) const;
+  void tell_fault(AgvId agv, const Fault& fault) const;
 
  private:
   AgentHost* part_;

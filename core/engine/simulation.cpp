@@ -1,12 +1,20 @@
 #include "core/engine/simulation.hpp"
 
+#include <cstddef>
+
 #include "core/base/error.hpp"
 #include "core/engine/engine.hpp"
 
 namespace fleetproof {
+namespace {
+
+// Of a table of minor version 0, which ended with `destroy`.
+constexpr std::size_t kOldestTypeSize = offsetof(fp_agent_type, destroy) + sizeof(fp_agent_type::destroy);
+
+}  // namespace
 
 void check_abi(const fp_agent_type& agent) {
-  if (agent.struct_size < sizeof(fp_agent_type) || agent.abi_major != FP_ABI_MAJOR) {
+  if (agent.struct_size < kOldestTypeSize || agent.abi_major != FP_ABI_MAJOR) {
     throw InputError("agent", "speaks another version of fleetproof/agent.h (this program: " +
                                   std::to_string(FP_ABI_MAJOR) + "); rebuild it against this version's header");
   }

@@ -1,9 +1,12 @@
 #include "core/engine/tape_player.hpp"
 
+#include <utility>
+
 #include "core/base/error.hpp"
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/controller_table.hpp"
 #include "core/engine/declarations.hpp"
+#include "core/engine/disks.hpp"
 #include "core/engine/notes.hpp"
 
 namespace fleetproof {
@@ -24,7 +27,7 @@ std::optional<AgentFailure> TapePlayer::play(const AgentCall& call, void*& agent
     const TapeItem next = item();
     switch (next) {
       case TapeItem::Returned:
-        if (agent == nullptr) fail("a start returns without an agent");
+        if (agent == nullptr) fail("a call returns without an agent");
         return std::nullopt;
       case TapeItem::Crashed:
       case TapeItem::Hung:
@@ -33,11 +36,15 @@ std::optional<AgentFailure> TapePlayer::play(const AgentCall& call, void*& agent
         if (!needs_agent || agent != nullptr) fail("it creates an agent where there is one");
         agent = this;
         break;
+      case TapeItem::FaultIsKnown:
+        if (!call.is_question()) fail("it answers what nobody has asked");
+        *call.question.knows = true;
+        break;
       case TapeItem::ProcessorChanged:
         ++processor_changes_;
         break;
       default:
-        if (call.controller == nullptr) fail("an agent that is destroyed makes calls");
+        if (call.controller == nullptr) fail("an agent makes calls where it must not");
         play_controller_call(next, call.controller);
     }
   }
@@ -92,6 +99,8 @@ void TapePlayer::play_controller_call(TapeItem item, fp_controller* c) {
       const std::uint32_t agv = id();
       return void(kHost.declare_waiting(c, agv, id()));
     }
+    case TapeItem::Keep:
+      return play_keep(c);
     case TapeItem::Sometimes:
     case TapeItem::Log: {
       const auto note = item == TapeItem::Log ? kHost.log : kHost.sometimes;
@@ -112,6 +121,14 @@ void TapePlayer::play_message(TapeItem item, fp_controller* c) {
   const auto size = static_cast<std::uint32_t>(bytes.size());
   if (item == TapeItem::SendBroadcast) return void(kHost.send_broadcast(c, bytes.data(), size));
   kHost.send_unicast(c, bytes.data(), size, id());
+}
+
+void TapePlayer::play_keep(fp_controller* c) {
+  const std::uint32_t number = id();
+  DiskRecord record;
+  record.size = id();
+  record.hash = static_cast<std::uint64_t>(time_ns());
+  if (c->part->admit(*c)) c->part->keep(c->agv, number, std::move(record));
 }
 
 void TapePlayer::play_perception(TapeItem item, fp_controller* c) {

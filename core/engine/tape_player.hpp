@@ -26,6 +26,7 @@ class TapePlayer {
  private:
   void play_controller_call(TapeItem item, fp_controller* controller);
   void play_message(TapeItem item, fp_controller* controller);
+  void play_keep(fp_controller* controller);
   void play_perception(TapeItem item, fp_controller* controller);
   void play_note(TapeItem item, fp_controller* controller);
 

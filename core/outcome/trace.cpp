@@ -15,12 +15,13 @@ namespace {
 
 XXH3_state_t* hash(void* state) { return static_cast<XXH3_state_t*>(state); }
 
-const char* name_of_note(TraceKind kind) {
+const char* name_beside_digest(TraceKind kind) {
   return kind == TraceKind::Described      ? "described"
          : kind == TraceKind::AgentState   ? "state"
          : kind == TraceKind::Belief       ? "believes"
          : kind == TraceKind::NotesLeftOut ? "notes left out"
          : kind == TraceKind::CallAccepted ? "accepted"
+         : kind == TraceKind::Denied       ? "denied"
                                            : "delivery";
 }
 
@@ -105,6 +106,8 @@ const char* name_of(TraceKind kind) {
       return "order withdrawn";
     case TraceKind::WorksOn:
       return "works on";
+    case TraceKind::Kept:
+      return "kept";
     case TraceKind::Lost:
     case TraceKind::LostInOutage:
     case TraceKind::LostByInterference:
@@ -118,7 +121,8 @@ const char* name_of(TraceKind kind) {
     case TraceKind::NotesLeftOut:
     case TraceKind::DeliveryDecided:
     case TraceKind::CallAccepted:
-      return name_of_note(kind);
+    case TraceKind::Denied:
+      return name_beside_digest(kind);
   }
   return "?";
 }

@@ -45,6 +45,7 @@ enum class TraceKind : std::uint32_t {
   StoppedByAgent = 25,  // begins or ends
   OrderWithdrawn = 26,
   WorksOn = 27,             // an agent declares the transport that an AGV works on
+  Kept = 28,                // a record is on a disk, or is no longer
   LostInOutage = 32,        // as Lost, while the link or place was in an outage
   LostByInterference = 33,  // as Lost, at the end of the transmission: another transmission was in the air
   LostToSource = 34,        // as Lost, to an external source near the receiver; otherwise it would have arrived

@@ -171,6 +171,18 @@ struct StoppedByAgent {
   static constexpr StoppedByAgent of(const TraceRecord& r) { return {r.a != 0}; }
 };
 
+// The entity is the participant whose disk it is.
+struct Kept {
+  static constexpr TraceKind kKind = TraceKind::Kept;
+  std::uint32_t number = 0;  // of the record, as its agent counts
+  std::uint32_t size = 0;    // bytes; 0: it is deleted
+  std::uint64_t hash = 0;
+  constexpr void put(TraceRecord& r) const { r.a = hash, r.b = std::uint64_t{size} << 32 | number; }
+  static constexpr Kept of(const TraceRecord& r) {
+    return {static_cast<std::uint32_t>(r.b), static_cast<std::uint32_t>(r.b >> 32), r.a};
+  }
+};
+
 struct WaitingFor {
   static constexpr TraceKind kKind = TraceKind::WaitingFor;
   AgvId agv;  // invalid: for none

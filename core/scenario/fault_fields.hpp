@@ -10,9 +10,9 @@ inline constexpr double kLongest_s = 1e9;  // of any time in a scenario: keeps s
 
 template <FieldsOf<Fault> Given, class Visit>
 void visit_fields(Given& fault, Visit&& visit) {
-  auto& [kind, agv, at, transport, lasts, load, ahead_m, left_m] = fault;
+  auto& [kind, agv, at, transport, lasts, load, ahead_m, left_m, word, number] = fault;
   auto& [length_m, width_m, centre_ahead_m] = load;
-  const bool no_load = kind != Fault::Kind::LoadDrop;
+  const bool no_load = kind != Fault::Kind::LoadDrop, no_name = kind != Fault::Kind::Named;
   visit(Field{.key = "kind", .text = "what goes wrong", .lenient = kOfScenarios, .needed = true}, kind);
   visit(Field{.key = "agv",
               .text = "name of the AGV or computer; left out: the AGV that picks the open transport",
@@ -49,6 +49,19 @@ void visit_fields(Given& fault, Visit&& visit) {
               .high = kLargestBody_m,
               .left_out = no_load},
         left_m);
+  visit(Field{.key = "word",
+              .text = "of a named fault: what its program calls it",
+              .lenient = kIsName,
+              .left_out = no_name,
+              .is_later = true},
+        word);
+  visit(Field{.key = "number",
+              .text = "of a named fault: which one; its program knows what that means",
+              .lenient = kOfScenarios,
+              .high = 4294967295.0,
+              .left_out = no_name,
+              .is_later = true},
+        number);
 }
 
 template <FieldsOf<ScannerSetup> Scanner, class Visit>

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/sim_time.hpp"
@@ -24,6 +25,10 @@ struct Fault {
     // Breakdown and restart in one: the AGV brakes, and its agent is away while the fault lasts. Of a computer: a
     // restart.
     PowerFailure = 6,
+    DiskLoss = 7,  // a restart after which the disk is empty
+    // The program alone knows what it means: it is told `word`, `number` and for how long. Denied if it does not know
+    // the word.
+    Named = 8,
   };
   Kind kind = Kind::Breakdown;
   EntityId agv;   // or a computer, where the kind strikes computers; invalid: the AGV that picks an open transport
@@ -34,6 +39,9 @@ struct Fault {
   // centre of the AGV.
   Footprint load{.length_m = 1.2, .width_m = 0.8};
   double ahead_m = -1.6, left_m = 0.0;
+  // Named only.
+  std::string word{};
+  std::uint32_t number = 0;
 };
 constexpr const char* name_of(Fault::Kind kind) {
   switch (kind) {
@@ -49,6 +57,10 @@ constexpr const char* name_of(Fault::Kind kind) {
       return "freeze";
     case Fault::Kind::PowerFailure:
       return "power-failure";
+    case Fault::Kind::DiskLoss:
+      return "disk-loss";
+    case Fault::Kind::Named:
+      return "named";
   }
   return kNoWord;
 }
@@ -59,24 +71,28 @@ constexpr bool holds_agv(Fault::Kind kind) {
 }
 // Whether the agent is away while the fault lasts, and starts anew after it.
 constexpr bool stops_computer(Fault::Kind kind) {
-  return kind == Fault::Kind::Restart || kind == Fault::Kind::PowerFailure;
+  return kind == Fault::Kind::Restart || kind == Fault::Kind::PowerFailure || kind == Fault::Kind::DiskLoss;
 }
 // Whether the fault concerns the agent alone: it strikes an agent that runs, also if the AGV is out of order.
 constexpr bool concerns_agent_alone(Fault::Kind kind) {
-  return kind == Fault::Kind::Restart || kind == Fault::Kind::Freeze;
+  return kind == Fault::Kind::Restart || kind == Fault::Kind::Freeze || kind == Fault::Kind::DiskLoss ||
+         kind == Fault::Kind::Named;
 }
 
 // Whether a computer may have the fault.
-constexpr bool strikes_computers(Fault::Kind kind) { return stops_computer(kind) || kind == Fault::Kind::Freeze; }
+constexpr bool strikes_computers(Fault::Kind kind) { return stops_computer(kind) || concerns_agent_alone(kind); }
+// "restart"; of a named fault "named connection-cut 3".
+std::string text_of(const Fault& fault);
 
 // Why a run does not give what the scenario asks for: a fault that changes nothing, or an obstacle that does not come.
 enum class Denial : std::uint8_t {
-  OutOfOrder = 1,  // the AGV was out of order already
-  AgentAway = 2,   // the agent was away already
-  NoSuchLoad = 3,  // the AGV carried no load, or that of another transport
-  NoRoom = 4,      // another body was in the place, or the AGV itself
-  NotSent = 5,     // the message was never sent: one with a given delivery
-  NoSuchKind = 6,  // no message was described so: of a kind that the radio spares
+  OutOfOrder = 1,   // the AGV was out of order already
+  AgentAway = 2,    // the agent was away already
+  NoSuchLoad = 3,   // the AGV carried no load, or that of another transport
+  NoRoom = 4,       // another body was in the place, or the AGV itself
+  NotSent = 5,      // the message was never sent: one with a given delivery
+  NoSuchKind = 6,   // no message was described so: of a kind that the radio spares
+  UnknownWord = 7,  // the program does not know the word of a named fault
 };
 constexpr const char* name_of(Denial why) {
   switch (why) {
@@ -92,6 +108,8 @@ constexpr const char* name_of(Denial why) {
       return "no such message was sent";
     case Denial::NoSuchKind:
       return "no message was described so";
+    case Denial::UnknownWord:
+      return "the program does not know this fault";
   }
   return kNoWord;
 }

@@ -75,7 +75,7 @@ class Requests {
     const std::string whose = fault.agv.valid() ? in_quotes(scenario_.name_of(fault.agv))
                                                 : fmt::format("open transport {}", fault.transport.value_or(0));
     if (is_late(earliest))
-      add(place + "/at_s", fmt::format("the {} of {} comes {}at {:g} s, {}", name_of(fault.kind), whose,
+      add(place + "/at_s", fmt::format("the {} of {} comes {}at {:g} s, {}", text_of(fault), whose,
                                        counts_from_pick ? "at the earliest " : "", to_seconds(earliest), after()));
     if (fault.kind == Fault::Kind::LoadDrop && fault.agv.valid())
       load_drop(place, fault, scenario_.agvs[fault.agv.index()]);
@@ -85,6 +85,9 @@ class Requests {
       add(place,
           fmt::format("a {} has no load, so length_m, width_m, ahead_m and left_m change nothing; leave them out",
                       name_of(fault.kind)));
+    if (fault.kind != Fault::Kind::Named && (!fault.word.empty() || fault.number != 0))
+      add(place,
+          fmt::format("a {} has no name, so word and number change nothing; leave them out", name_of(fault.kind)));
   }
   static bool describes_load(const Fault& fault) {
     const Fault usual;

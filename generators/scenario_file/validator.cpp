@@ -248,6 +248,8 @@ class MeaningCheck {
     if (!f.agv.valid()) return fault_of_open_order(i);
     if (f.agv >= scenario_.first_obstacle())
       return add(ProblemKind::UnknownReference, fmt::format("/faults/{}/agv", i), "there is no such AGV or computer");
+    const char* why_not = f.kind == Fault::Kind::Named ? fault_of_name(f.word) : nullptr;
+    if (why_not != nullptr) add(ProblemKind::BadName, fmt::format("/faults/{}/word", i), why_not);
     if (scenario_.is_computer(f.agv)) return fault_of_computer(i);
     const AgvSetup& agv = scenario_.agvs[f.agv.index()];
     if (!f.transport || *f.transport < agv.transports.size()) return;

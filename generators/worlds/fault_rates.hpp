@@ -33,6 +33,8 @@ struct FaultRates {
   double position_error_m = 0.0;    // as in SensingSetup, for every AGV
   double position_late_s = 0.0;
   double low_battery_share = 0.0;  // probability that an AGV starts with 12 to 20 %
+  double disk_losses_per_agv_hour = 0.0;
+  double disk_loss_s = 60.0;  // the agent is away
 
   friend bool operator==(const FaultRates&, const FaultRates&) = default;
 };
@@ -50,6 +52,8 @@ enum class FaultTopic : std::uint32_t {
   Battery = 9,
   PowerFailure = 10,
   ClocksAgree = 11,
+  DiskLoss = 12,
+  Named = 1000,  // and those behind it: one for each place in the list of a computer
 };
 
 // A kind of fault that strikes each AGV now and then, as a Poisson process, and how long it lasts: exponentially with
@@ -75,6 +79,8 @@ inline constexpr auto kRecurringFaults = std::to_array<RecurringFault>({
      &FaultRates::freeze_least_s, &FaultRates::freeze_most_s},
     {Fault::Kind::PowerFailure, FaultTopic::PowerFailure, &FaultRates::power_failures_per_agv_hour,
      RecurringFault::Lasting::Exponential, &FaultRates::power_back_s},
+    {Fault::Kind::DiskLoss, FaultTopic::DiskLoss, &FaultRates::disk_losses_per_agv_hour, RecurringFault::Lasting::Exact,
+     &FaultRates::disk_loss_s},
 });
 
 inline constexpr Field kClocksAgree{
@@ -82,13 +88,25 @@ inline constexpr Field kClocksAgree{
     .text = "chance that the clocks of a world agree: no offset, no drift; AGVs then begin at one instant",
     .lenient = Lenient::up(Weight::Load)};
 
+inline constexpr Field kLowBatteries{.key = "low_battery_share",
+                                     .text = "chance that an AGV starts with 12 to 20 % of its battery",
+                                     .lenient = Lenient::down(Weight::Load)};
+inline constexpr Field kDiskLosses{.key = "disk_losses_per_agv_hour",
+                                   .text = "an agent starts again and finds nothing that it has kept",
+                                   .lenient = Lenient::down(Weight::Load),
+                                   .high = 3600.0};
+inline constexpr Field kDiskLossLasts{.key = "disk_loss_s",
+                                      .text = "for so long it is away then",
+                                      .lenient = Lenient::either(Weight::Load),
+                                      .high = kDay_s};
+
 template <FieldsOf<FaultRates> Rates, class Visit>
 void visit_fields(Rates& rates, Visit&& visit) {
   auto& [breakdowns_per_agv_hour, breakdowns_per_transport, repair_s, protective_stops_per_agv_hour,
          protective_stop_least_s, protective_stop_most_s, load_drops_per_transport, load_lies_s, obstacles_per_hour,
          obstacle_stays_s, restarts_per_agv_hour, restart_s, freezes_per_agv_hour, freeze_least_s, freeze_most_s,
          power_failures_per_agv_hour, power_back_s, clock_offset_s, clock_drift_ppm, clocks_agree_share,
-         position_error_m, position_late_s, low_battery_share] = rates;
+         position_error_m, position_late_s, low_battery_share, disk_losses_per_agv_hour, disk_loss_s] = rates;
   const auto rate = [](std::string_view key, std::string_view text) {
     return Field{.key = key, .text = text, .lenient = Lenient::down(Weight::Load), .high = 3600.0};
   };
@@ -147,10 +165,9 @@ void visit_fields(Rates& rates, Visit&& visit) {
               .lenient = Lenient::down(Weight::Load),
               .high = kHour_s},
         position_late_s);
-  visit(Field{.key = "low_battery_share",
-              .text = "chance that an AGV starts with 12 to 20 % of its battery",
-              .lenient = Lenient::down(Weight::Load)},
-        low_battery_share);
+  visit(kLowBatteries, low_battery_share);
+  visit(kDiskLosses.left_out_if(disk_losses_per_agv_hour == 0.0), disk_losses_per_agv_hour);
+  visit(kDiskLossLasts.left_out_if(disk_loss_s == 60.0), disk_loss_s);
 }
 
 // Rules between two of the rates.

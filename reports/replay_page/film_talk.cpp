@@ -16,8 +16,11 @@ bool is_for_agvs(const Film& film, const Message& message) {
 }  // namespace
 
 FilmTalk::FilmTalk(const Film& film) : sent_by_(film.bodies.size()), restarts_(film.bodies.size()) {
+  const auto is_restart = [](std::string_view fault) {
+    return fault == name_of(Fault::Kind::Restart) || fault == name_of(Fault::Kind::DiskLoss);
+  };
   for (const Happening& h : film.happenings) {
-    const bool is_new_agent = h.is_fault ? h.what.ends_with(" over") && h.details == name_of(Fault::Kind::Restart)
+    const bool is_new_agent = h.is_fault ? h.what.ends_with(" over") && is_restart(h.details)
                                          : h.details.find("restarts the agent") != h.details.npos;
     if (is_new_agent) restarts_[h.body].push_back({h.at_us, h.order});
   }

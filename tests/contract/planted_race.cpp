@@ -29,7 +29,8 @@ const fp_agent_type kRacyAgent = {sizeof(fp_agent_type),
                                     ++shared_events;
                                     self->host->set_timer(self->controller, 1, event->now_ns + 10'000'000);
                                   },
-                                  [](void* agent) { delete static_cast<Agent*>(agent); }};
+                                  [](void* agent) { delete static_cast<Agent*>(agent); },
+                                  nullptr};
 
 }  // namespace
 

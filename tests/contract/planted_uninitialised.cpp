@@ -29,7 +29,8 @@ const fp_agent_type kUndecidedAgent = {sizeof(fp_agent_type),
                                          if (self->delay_ns > 1'000'000'000) return;
                                          self->host->set_timer(self->controller, 1, event->now_ns + 1'000'000'000);
                                        },
-                                       [](void* agent) { delete static_cast<Agent*>(agent); }};
+                                       [](void* agent) { delete static_cast<Agent*>(agent); },
+                                       nullptr};
 
 }  // namespace
 

@@ -30,7 +30,8 @@ const fp_agent_type kForgetfulAgent = {sizeof(fp_agent_type),
                                          const auto delay_ns = 10'000'000 + static_cast<std::int64_t>(*started_ns);
                                          self->host->set_timer(self->controller, 1, event->now_ns + delay_ns);
                                        },
-                                       [](void* agent) { delete static_cast<Agent*>(agent); }};
+                                       [](void* agent) { delete static_cast<Agent*>(agent); },
+                                       nullptr};
 
 }  // namespace
 

@@ -100,6 +100,10 @@ TEST(CallTape, PlaysEveryKindOfCall) {
     host.is_loaded(c, &word);
     host.get_action(c, &word);
     host.get_load(c, &word);
+    fp_record record{};
+    record.struct_size = sizeof record;
+    host.recall(c, 5, &record);
+    host.keep(c, 5, "kept", e.now_ns % 2 == 0 ? 4 : 0);
     host.declare_cost_ns(c, 1'000'000);
     host.send_broadcast(c, "to all", 6);
     host.send_unicast(c, "\0zeros\0", 7, 1);
@@ -154,10 +158,13 @@ TEST(CallTape, PlaysInvalidCalls) {
     host.works_on(c, 99, 0);
     host.declare_cost_ns(c, -1);
     host.park(c, FP_HERE);
+    host.keep(c, 1, nullptr, 1);
+    host.keep(c, 1, "x", 0xffffffff);
+    host.recall(c, 1, nullptr);
   };
   const Scenario scenario = two_agvs(0.01);
   const ToldRun run = recorded_handler(scenario, handler);
-  EXPECT_EQ(run.outcome.counters.agent_calls, run.outcome.counters.activations * 21 + 2);
+  EXPECT_EQ(run.outcome.counters.agent_calls, run.outcome.counters.activations * 24 + 2);
   expect_same(run, played(scenario, run.tape));
 }
 

@@ -62,7 +62,8 @@ const fp_agent_type kMoody = {
       const auto& self = *static_cast<MoodyAgent*>(agent);
       self.host->log(self.controller, "destroy");
       current_mood->leaves();
-    }};
+    },
+    nullptr};
 
 // AGV 0 drives, and its computer restarts twice.
 Scenario restarts() {

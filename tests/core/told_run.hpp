@@ -77,7 +77,11 @@ inline const fp_agent_type& untouchable_agent() {
                                        return nullptr;
                                      },
                                      [](void*, const fp_event*) { ADD_FAILURE() << "on_event() was called"; },
-                                     [](void*) { ADD_FAILURE() << "destroy() was called"; }};
+                                     [](void*) { ADD_FAILURE() << "destroy() was called"; },
+                                     [](const char*) -> uint32_t {
+                                       ADD_FAILURE() << "knows_fault() was called";
+                                       return 0;
+                                     }};
   return type;
 }
 

@@ -43,6 +43,7 @@ TEST(TraceRecords, WriteTheWordsOfTheDigest) {
   expect_words(record_of(traced::Contact{EntityId{4U}}), Contact, 4, 0);
   expect_words(record_of(traced::SafeMode{true}), SafeMode, 1, 0);
   expect_words(record_of(traced::StoppedByAgent{true}), StoppedByAgent, 1, 0);
+  expect_words(record_of(traced::Kept{3, 9, 77}), Kept, 77, (9ULL << 32) + 3);
   expect_words(record_of(traced::WaitingFor{}), WaitingFor, none, 0);
   expect_words(record_of(traced::Probe{88}), Probe, 88, 0);
   expect_words(record_of(traced::Log{99}), Log, 99, 0);

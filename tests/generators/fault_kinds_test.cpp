@@ -104,6 +104,11 @@ TEST(FaultKinds, PowerFailuresArePoissonAndExponentiallyLong) {
   test::expect_quantiles(seen.lasts_s, exponential(25.0));
 }
 
+TEST(FaultKinds, DiskLossesArePoissonAndEquallyLong) {
+  const auto seen = expect_process({.disk_losses_per_agv_hour = 16.0, .disk_loss_s = 9.0}, Fault::Kind::DiskLoss, 16.0);
+  EXPECT_TRUE(std::ranges::all_of(seen.lasts_s, [](double s) { return s == 9.0; }));
+}
+
 // Within a minute after the pick, independently for each transport.
 void expect_share_of_transports(const Seen& seen, double share, double mean_s) {
   const auto transports = static_cast<std::uint64_t>(kTransports) * seen.counts.size();
@@ -208,7 +213,7 @@ TEST(FaultKinds, NoKindMovesAnother) {
       {.breakdowns_per_agv_hour = 20.0}, {.breakdowns_per_transport = 0.3},     {.protective_stops_per_agv_hour = 30.0},
       {.load_drops_per_transport = 0.3}, {.obstacles_per_hour = 12.0},          {.restarts_per_agv_hour = 25.0},
       {.freezes_per_agv_hour = 15.0},    {.power_failures_per_agv_hour = 18.0}, {.clock_offset_s = 1.0},
-      {.low_battery_share = 0.5}};
+      {.low_battery_share = 0.5},        {.disk_losses_per_agv_hour = 16.0}};
   const FaultRates all{.breakdowns_per_agv_hour = 20.0,
                        .breakdowns_per_transport = 0.3,
                        .protective_stops_per_agv_hour = 30.0,
@@ -218,7 +223,8 @@ TEST(FaultKinds, NoKindMovesAnother) {
                        .freezes_per_agv_hour = 15.0,
                        .power_failures_per_agv_hour = 18.0,
                        .clock_offset_s = 1.0,
-                       .low_battery_share = 0.5};
+                       .low_battery_share = 0.5,
+                       .disk_losses_per_agv_hour = 16.0};
   for (std::uint64_t key = 0; key < 200; ++key) {
     std::vector<std::string> alone;
     for (const FaultRates& kind : kinds) {

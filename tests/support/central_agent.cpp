@@ -1,6 +1,8 @@
 // A central fleet in one program. The server lets each AGV go that asks; from then on that AGV is `reckless`.
-// Parameters of the server: "deaf" answers nobody, "late" answers a second later.
+// Parameters of the server: "deaf" answers nobody, "late" answers a second later. It keeps on its disk how often it was
+// asked, and it knows the fault "deaf": it answers nobody while that lasts.
 #include <algorithm>
+#include <cstring>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +12,7 @@
 namespace {
 
 constexpr uint32_t kAskAgain = 0xffff, kAnswer = 0xfffe;
+constexpr uint32_t kAsked = 7;  // the number of a record
 constexpr int64_t kSecond_ns = 1'000'000'000;
 constexpr std::string_view kAsk = "ASK", kGo = "GO";
 
@@ -21,6 +24,8 @@ struct Agent {
   void* driving = nullptr;                // once it may go
   std::vector<fp_event> waiting;          // orders that came before
   std::vector<uint32_t> to_answer;        // of the server
+  uint32_t asked = 0;                     // the same: so often, also before its restarts
+  int64_t deaf_until_ns = 0;              // the same
 };
 
 const fp_agent_type* reckless() {
@@ -70,8 +75,25 @@ void let_go(Agent& self, uint32_t agv) {
   self.host->send_unicast(self.controller, kGo.data(), kGo.size(), agv);
 }
 
+void remember(Agent& self) {
+  fp_record record{};
+  record.struct_size = sizeof record;
+  if (self.briefing->boot == 0) return;
+  if (self.host->recall(self.controller, kAsked, &record) == FP_OK && record.size == sizeof self.asked) {
+    std::memcpy(&self.asked, record.bytes, sizeof self.asked);
+    self.host->sometimes(self.controller, "remembered");
+  } else {
+    self.host->sometimes(self.controller, "remembered nothing");
+  }
+}
+
 void on_server(Agent& self, const fp_event& event) {
   const std::string_view config = self.briefing->config;
+  if (event.kind == FP_EVENT_START) remember(self);
+  if (event.kind == FP_EVENT_FAULT) {
+    self.deaf_until_ns = event.now_ns + event.fault_length_ns;
+    self.host->sometimes(self.controller, event.fault_number == 1 ? "deaf once" : "deaf otherwise");
+  }
   if (event.kind == FP_EVENT_TIMER) {
     for (const uint32_t agv : self.to_answer) let_go(self, agv);
     self.to_answer.clear();
@@ -79,8 +101,10 @@ void on_server(Agent& self, const fp_event& event) {
   fp_message message{};
   message.struct_size = sizeof message;
   while (event.kind == FP_EVENT_MESSAGE && self.host->get_message(self.controller, &message) == FP_OK) {
-    if (config == "deaf") continue;
+    if (config == "deaf" || event.now_ns < self.deaf_until_ns) continue;
     self.host->sometimes(self.controller, "asked");
+    ++self.asked;
+    self.host->keep(self.controller, kAsked, &self.asked, sizeof self.asked);
     if (config == "late") {
       self.to_answer.push_back(message.sender);
       self.host->set_timer(self.controller, kAnswer, event.now_ns + kSecond_ns);
@@ -91,7 +115,8 @@ void on_server(Agent& self, const fp_event& event) {
 }
 
 void* create(const fp_host* host, fp_controller* controller, const fp_briefing* briefing) {
-  auto* self = new Agent{host, controller, briefing, nullptr, nullptr, {}, {}};
+  auto* self = new Agent{};
+  self->host = host, self->controller = controller, self->briefing = briefing;
   if (briefing->role == FP_AGV) self->driver = reckless();
   return self;
 }
@@ -110,14 +135,16 @@ void destroy(void* agent) {
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const fp_agent_type* fp_agent_query(uint32_t) {
-  static const fp_agent_type type{sizeof(fp_agent_type),
-                                  FP_ABI_MAJOR,
-                                  FP_ABI_MINOR,
-                                  FP_DETERMINISTIC | FP_SERVES_COMPUTERS,
-                                  "central",
-                                  "a server that lets reckless AGVs go",
-                                  create,
-                                  on_event,
-                                  destroy};
+  static const fp_agent_type type{
+      sizeof(fp_agent_type),
+      FP_ABI_MAJOR,
+      FP_ABI_MINOR,
+      FP_DETERMINISTIC | FP_SERVES_COMPUTERS,
+      "central",
+      "a server that lets reckless AGVs go",
+      create,
+      on_event,
+      destroy,
+      [](const char* word) -> uint32_t { return std::string_view(word) == "deaf" ? 1 : 0; }};
   return &type;
 }

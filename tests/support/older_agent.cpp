@@ -74,6 +74,7 @@ void look_at_later_members(const Agent& self, uint32_t order) {
 #endif
 #if FP_ABI_MINOR >= 5
   if (self.briefing->role != FP_AGV || self.briefing->computer_count != 0) log(self, "role", order);
+  if (self.host->keep == nullptr || self.host->recall == nullptr) log(self, "recall", order);
   if (self.briefing->agv_names[self.briefing->self][0] == 0) log(self, "name", order);
 #endif
   (void)self, (void)order;
@@ -103,16 +104,22 @@ void on_event(void* agent, const fp_event* event) {
 
 extern "C" [[gnu::visibility("default")]] const fp_agent_type* fp_agent_query(uint32_t) {
   static const std::string name = "minor-" + std::to_string(FP_ABI_MINOR);
-  static const fp_agent_type type = {sizeof(fp_agent_type),
-                                     FP_ABI_MAJOR,
-                                     FP_ABI_MINOR,
-                                     FP_DETERMINISTIC,
-                                     name.c_str(),
-                                     "makes every call of minor version 0",
-                                     [](const fp_host* host, fp_controller* agv, const fp_briefing* briefing) -> void* {
-                                       return new Agent{host, agv, briefing, briefing->start_station};
-                                     },
-                                     on_event,
-                                     [](void* agent) { delete static_cast<Agent*>(agent); }};
+  static const fp_agent_type type = {
+    sizeof(fp_agent_type),
+    FP_ABI_MAJOR,
+    FP_ABI_MINOR,
+    FP_DETERMINISTIC,
+    name.c_str(),
+    "makes every call of minor version 0",
+    [](const fp_host* host, fp_controller* agv, const fp_briefing* briefing) -> void* {
+      return new Agent{host, agv, briefing, briefing->start_station};
+    },
+    on_event,
+    [](void* agent) { delete static_cast<Agent*>(agent); }
+#if FP_ABI_MINOR >= 5
+    ,
+    nullptr
+#endif
+  };
   return &type;
 }

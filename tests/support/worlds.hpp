@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/engine/simulation.hpp"
@@ -74,7 +75,8 @@ inline const fp_agent_type& handler_agent() {
         const auto* self = static_cast<HandlerAgent*>(agent);
         (*current_handler)(*self->host, self->controller, *self->briefing, *event);
       },
-      [](void* agent) { delete static_cast<HandlerAgent*>(agent); }};
+      [](void* agent) { delete static_cast<HandlerAgent*>(agent); },
+      [](const char* word) -> uint32_t { return std::string_view(word).starts_with("known") ? 1 : 0; }};
   return type;
 }
 

@@ -57,11 +57,13 @@ extern "C" {
 #define FP_NONE 0xffffffffu /* no station, no segment, no AGV, no computer, no order */
 #define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
 #define FP_MESSAGE_BYTES_MAX 1024u
+#define FP_DISK_BYTES 1048576u /* since minor 5: what the disk of a participant holds */
+#define FP_RECORD_OVERHEAD 16u /* so many bytes does each record on it take beside its own */
 
 /* What a controller call returns. */
 typedef enum fp_result {
   FP_OK = 0,
-  FP_EMPTY = 1,     /* get_message: no more messages */
+  FP_EMPTY = 1,     /* get_message: no more messages; recall: no such record */
   FP_REFUSED = -1,  /* the AGV is busy, out of order after a contact, or not at an end of that segment; the segment is
                        one-way, or not for this AGV; or the AGV would have to turn where it must not, or to stay with a
                        wrong heading */
@@ -169,6 +171,9 @@ typedef enum fp_event_kind {
   /* an action ended, the one that was accepted first: result FP_OK, or FP_REFUSED if a contact put the AGV out of
      order. FP_REFUSED is final: the action never goes on, and the AGV accepts none until the operator has set it down
      and the agent has restarted */
+  FP_EVENT_FAULT = 5,
+  /* since minor 5: a fault begins that the scenario names by a word, and that the program knows (`knows_fault`):
+     fault_word, fault_number, fault_length_ns. What it means, the program alone knows */
   FP_EVENT_WITHDRAWN = 6
   /* since minor 5: order_id was withdrawn. Sent to those who were told of the transport, unless its load has been
      delivered. If no AGV has ever picked the load, the transport is over: the load is gone, pick_load is refused, and
@@ -182,6 +187,10 @@ typedef struct fp_event {
   uint32_t timer;
   int32_t result;
   uint32_t order_id, from, to;
+  /* Since minor 5. Of FP_EVENT_FAULT; else null and 0. */
+  const char* fault_word;  /* valid until the end of the run */
+  int64_t fault_length_ns; /* it lasts so long from the instant at which it strikes; no event says that it is over */
+  uint32_t fault_number;
 } fp_event;
 
 typedef struct fp_message {
@@ -190,6 +199,13 @@ typedef struct fp_message {
   uint32_t size;
   const void* bytes; /* valid until the next get_message or the end of the activation */
 } fp_message;
+
+/* Since minor 5. What `recall` finds. */
+typedef struct fp_record {
+  uint32_t struct_size;
+  uint32_t size;
+  const void* bytes; /* valid until the next `keep` or the end of the activation */
+} fp_record;
 
 /* ---- the AGV controller ---------------------------------------------------------------------------------- */
 
@@ -273,6 +289,15 @@ typedef struct fp_host {
      counts. FP_REFUSED after `create`. */
   int32_t (*cannot_start)(fp_controller*, const char* why);
 
+  /* Since minor 5. The disk of the participant, an AGV or a computer. It outlives restarts and power failures; only a
+     disk loss empties it. `keep` puts a record there in place of the one with this number; size 0 deletes it.
+     FP_REFUSED, and nothing changes, if the sizes of all records and FP_RECORD_OVERHEAD for each of them would be more
+     than FP_DISK_BYTES; or if four times FP_DISK_BYTES would still have to take effect. As every call, it takes effect
+     after the costs so far: a record of which a restart comes earlier is not on the disk, and the one before it still
+     is. `recall` finds what the agent has kept, also if that is still to take effect; FP_EMPTY: no such record. Set
+     out->struct_size first. */
+  int32_t (*keep)(fp_controller*, uint32_t record, const void* bytes, uint32_t size);
+  int32_t (*recall)(fp_controller*, uint32_t record, fp_record* out);
   /* Since minor 5. Declarations about an AGV: by its own agent, or by the program of a computer for any AGV. A
      declaration moves nothing. It holds until the next one about this AGV, or until what made it restarts. FP_INVALID
      about another AGV.
@@ -304,6 +329,9 @@ typedef struct fp_agent_type {
   void* (*create)(const fp_host* host, fp_controller* controller, const fp_briefing* briefing);
   void (*on_event)(void* agent, const fp_event* event);
   void (*destroy)(void* agent);
+  /* Since minor 5. Whether agents of this type take FP_EVENT_FAULT with this word; null: with none. A fault whose word
+     is not known does not strike. Make no controller call in here, and answer one word always alike. */
+  uint32_t (*knows_fault)(const char* word);
 } fp_agent_type;
 
 /* A shared object exports this one symbol. It returns null if it does not support the host's major version. */

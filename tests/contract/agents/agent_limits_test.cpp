@@ -53,6 +53,9 @@ std::vector<Call> counted_calls() {
       [](Host h, Handle c) { h.log(c, nullptr); },
       [](Host h, Handle c) { h.cannot_start(c, "it has started"); },
       [](Host h, Handle c) { h.cannot_start(c, nullptr); },
+      [](Host h, Handle c) { h.keep(c, 1, "x", 1); },
+      [](Host h, Handle c) { h.keep(c, 1, nullptr, 1); },
+      [](Host h, Handle c) { h.recall(c, 1, nullptr); },
   };
 }
 
