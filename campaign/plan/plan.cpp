@@ -74,10 +74,6 @@ bool CampaignPlan::is_drawn() const {
 std::vector<std::string> CampaignPlan::probes_to_meet() const {
   if (required_probes) return *required_probes;
   if (kind == CampaignKind::Search) return {};
-  // Central fleets ask their server, not each other.
-  const bool is_central =
-      std::ranges::all_of(agents, [](const AgentFactor& agent) { return !agent.computers.empty(); });
-  if (is_central && !agents.empty()) return {"encounter"};
   return {"encounter", "negotiation?"};
 }
 

@@ -92,6 +92,9 @@ std::uint64_t runs_alone(const Coverage& coverage);
 // another. Empty: no run had an encounter.
 std::optional<std::uint64_t> runs_beyond_following(const Coverage& coverage);
 
+// Required of agents on board that declare any probe; central fleets (Evidence::computers_of) need not meet it.
+inline constexpr std::string_view kNegotiationOnBoard = "negotiation?";
+
 // A required name that ends in "?" is required only of agents that declare any probe.
 std::vector<MissingProbe> missing_probes(const Coverage& coverage, const std::vector<std::string>& required);
 

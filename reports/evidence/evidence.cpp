@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <tuple>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/outcome/probe_names.hpp"
 #include "reports/evidence/gate_table.hpp"
@@ -30,10 +32,27 @@ std::vector<Pool> condition_pools(const std::vector<CellRecord>& cells) {
   return list;
 }
 
+// A world has the computers for which its agent has programs, in the order of the plan.
+std::map<std::string, std::vector<std::string>> computers_of_agents(const std::string& plan_json) {
+  std::map<std::string, std::vector<std::string>> by_agent;
+  const SortedJson plan = read_sorted_json(plan_json);
+  const SortedJson::json_pointer agents("/factors/agents");
+  if (plan.is_discarded() || !plan.contains("computers") || !plan.contains(agents)) return by_agent;
+  for (const auto& agent : plan.at(agents)) {
+    if (!agent.is_object() || !agent.contains("computers")) continue;
+    for (const auto& computer : plan.at("computers")) {
+      const auto name = computer.value("name", std::string());
+      if (agent.at("computers").contains(name)) by_agent[agent.value("name", std::string())].push_back(name);
+    }
+  }
+  return by_agent;
+}
+
 }  // namespace
 
 Evidence::Evidence(const StoredPlan& plan)
     : plan_(plan),
+      computers_(computers_of_agents(plan.campaign.plan_json)),
       audits_(plan),
       tallies_(plan.cells.size()),
       pending_tallies_(plan.cells.size()),
@@ -213,7 +232,7 @@ GateResult Evidence::judge(std::size_t index) const {
       std::ranges::find(plan_.campaign.required_probes, kEncounterProbe) != plan_.campaign.required_probes.end();
   counts.met_nobody = asks_for_encounters && coverage_[index].seen(kEncounterProbe).runs == 0;
   auto result = judge_gate(gate, counts);
-  if (!pool.cells.empty()) result.missing = missing_probes(coverage_[index], plan_.campaign.required_probes);
+  if (!pool.cells.empty()) result.missing = missing_of(gate.agent, coverage_[index]);
   result.worst = worst_of(index);
   return result;
 }
@@ -238,6 +257,19 @@ std::vector<Condition> Evidence::conditions() const {
   return list;
 }
 
+const std::vector<std::string>& Evidence::computers_of(const std::string& agent) const {
+  static const std::vector<std::string> kNone;
+  const auto found = computers_.find(agent);
+  return found == computers_.end() ? kNone : found->second;
+}
+
+// AGVs of a central fleet ask their server, not each other.
+std::vector<MissingProbe> Evidence::missing_of(const std::string& agent, const Coverage& coverage) const {
+  std::vector<std::string> required = plan_.campaign.required_probes;
+  if (!computers_of(agent).empty()) std::erase(required, kNegotiationOnBoard);
+  return missing_probes(coverage, required);
+}
+
 std::vector<AgentCoverage> Evidence::agent_coverage() const {
   std::vector<AgentCoverage> list;
   for (std::size_t i = plan_.gates.size(); i < pools_.size(); ++i) {
@@ -246,7 +278,7 @@ std::vector<AgentCoverage> Evidence::agent_coverage() const {
     list.back().coverage.add(coverage_[i]);
   }
   for (auto& agent : list) {
-    agent.missing = missing_probes(agent.coverage, plan_.campaign.required_probes);
+    agent.missing = missing_of(agent.agent, agent.coverage);
     if (const auto found = incidents_.find(agent.agent); found != incidents_.end()) agent.incidents = found->second;
   }
   return list;

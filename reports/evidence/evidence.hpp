@@ -76,6 +76,8 @@ class Evidence {
   const StoredPlan& plan() const { return plan_; }                       // its gates have their tables
   const std::vector<CellRecord>& cells() const { return plan_.cells; }
   const std::vector<GateRecord>& gates() const { return plan_.gates; }
+  // The names of an agent's computers, in the order of their ids, behind those of the AGVs. Empty: it runs on board.
+  const std::vector<std::string>& computers_of(const std::string& agent) const;
   const Tally& tally(std::uint32_t cell) const { return tallies_.at(cell); }
   const std::vector<std::uint32_t>& cells_of(std::size_t gate) const { return pools_.at(gate).pool().cells; }
   const GateCells& gate_cells(std::size_t gate) const { return gate_cells_.at(gate); }
@@ -109,10 +111,12 @@ class Evidence {
   std::optional<FailingRun> worst_of(std::size_t pool) const;  // that failed; else that stayed unknown
   void add_incidents(const RunRecord& run);
   void finish_replicate();
+  std::vector<MissingProbe> missing_of(const std::string& agent, const Coverage& coverage) const;
 
   StoredPlan plan_;
-  std::vector<GateCells> gate_cells_;  // by gate
-  std::vector<bool> judged_anew_;      // in the same order
+  std::map<std::string, std::vector<std::string>> computers_;  // by agent; agents on board have none
+  std::vector<GateCells> gate_cells_;                          // by gate
+  std::vector<bool> judged_anew_;                              // in the same order
   std::uint64_t runs_ = 0, replicates_ = 0, engine_errors_ = 0;
   std::uint64_t repeated_runs_ = 0, unplaced_repeats_ = 0;
   bool is_sealed_ = true;

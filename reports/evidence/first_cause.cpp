@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/base/error.hpp"
 #include "core/outcome/foreign_bodies.hpp"
 #include "core/outcome/run_failures.hpp"
 
@@ -48,15 +47,10 @@ std::optional<FirstCause> first_cause(const Outcome& outcome) {
 
 bool is_judged(IncidentKind kind) { return info_of(kind).end_point.has_value(); }
 
-std::string fault_text(const FirstCause& cause, std::uint32_t agv_count) {
-  if (!cause.fault) return "";
-  const Incident& fault = *cause.fault;
+std::string fault_text(const FirstCause& cause, std::string_view struck) {
+  const Incident& fault = cause.fault.value();
   std::string what = is_fallen_load(fault) ? "a load fell" : "an obstacle appeared";
-  if (fault.kind == IncidentKind::FaultInjected) {
-    what = fmt::format("the {} of AGV {} began", fault_word(fault), fault.a.value);
-  } else {
-    ensure(fault.a.value >= agv_count, "a foreign body is no AGV");
-  }
+  if (fault.kind == IncidentKind::FaultInjected) what = fmt::format("the {} of {} began", fault_word(fault), struck);
   const std::int64_t hundredths = (to_ns(cause.at) - to_ns(fault.first)) / 10'000'000;
   return fmt::format("{}.{:02} s after {}", hundredths / 100, hundredths % 100, what);
 }

@@ -61,7 +61,7 @@ std::optional<FirstCause> first_cause(const Outcome& outcome);
 // Whether an end point of this archive may be judged on the incident (a deadlock, a wrong load, ...).
 bool is_judged(IncidentKind kind);
 
-// "1.20 s after the restart of AGV 3 began"; empty if there is no fault to name.
-std::string fault_text(const FirstCause& cause, std::uint32_t agv_count);
+// "1.20 s after the restart of AGV 3 began". `struck`: the name of what the fault struck. Requires: there is a fault.
+std::string fault_text(const FirstCause& cause, std::string_view struck);
 
 }  // namespace fleetproof

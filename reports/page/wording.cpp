@@ -89,9 +89,11 @@ std::string failed_text(std::uint64_t failing, std::uint64_t failing_or_unknown)
 }
 std::string hex_text(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
 
-std::string body_name(EntityId body, const CellRecord& cell) {
+std::string body_name(EntityId body, const CellRecord& cell, const std::vector<std::string>& computers) {
   if (body.value < cell.fleet_size) return fmt::format("AGV {}", body.value);
-  return fmt::format("fallen load or obstacle {}", body.value - cell.fleet_size);
+  const std::size_t behind = body.value - cell.fleet_size;
+  if (behind < computers.size()) return printable(computers[behind], 40);
+  return fmt::format("fallen load or obstacle {}", behind - computers.size());
 }
 
 std::string replay_command(const std::string& archive_path, std::uint64_t run_index) {

@@ -43,8 +43,10 @@ inline constexpr std::string_view kUnknownMeans =
     "indeterminate, AGVs stood behind a wreck, or they met nothing but fallen loads and obstacles. Every rate and "
     "bound "
     "counts it as failing.";
-std::string hex_text(std::uint64_t digest);                    // 16 digits
-std::string body_name(EntityId body, const CellRecord& cell);  // "AGV 3", "fallen load or obstacle 0"
+std::string hex_text(std::uint64_t digest);  // 16 digits
+// "AGV 3", "fallen load or obstacle 0", or the name of a computer. `computers`: of the agent of the cell, as
+// Evidence::computers_of has them.
+std::string body_name(EntityId body, const CellRecord& cell, const std::vector<std::string>& computers);
 
 // The command that replays a run, as a person copies it into a shell.
 std::string replay_command(const std::string& archive_path, std::uint64_t run_index);

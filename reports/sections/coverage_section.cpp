@@ -32,6 +32,13 @@ void cut(Section& section, std::size_t most_rows) {
   rows.resize(most_rows);
 }
 
+std::string question_mark_text(const ReportInput& input) {
+  const bool has_central = std::ranges::any_of(
+      input.evidence.cells(), [&](const CellRecord& cell) { return !input.evidence.computers_of(cell.agent).empty(); });
+  return fmt::format(" (\"?\": only if the agent declares probes{})",
+                     has_central ? ", and negotiation only on board, not of central fleets" : "");
+}
+
 }  // namespace
 
 std::string missing_text(const std::vector<MissingProbe>& missing) {
@@ -90,13 +97,12 @@ Section coverage_section(const ReportInput& input, std::size_t most_rows) {
   for (const auto& agent : input.evidence.agent_coverage()) add_rows(section, agent);
   cut(section, most_rows);
   const auto& required = input.campaign.required_probes;
-  section.remarks.push_back(
-      {required.empty()
-           ? std::string("This campaign requires nothing to be met ([coverage] probes).")
-           : fmt::format("Required: at least one in {} runs has to meet {}{}.", kRunsPerProbe,
-                         printable(joined(required), 400),
-                         required.back().ends_with('?') ? " (\"?\": only if the agent declares probes)" : ""),
-       ""});
+  section.remarks.push_back({required.empty()
+                                 ? std::string("This campaign requires nothing to be met ([coverage] probes).")
+                                 : fmt::format("Required: at least one in {} runs has to meet {}{}.", kRunsPerProbe,
+                                               printable(joined(required), 400),
+                                               required.back().ends_with('?') ? question_mark_text(input) : ""),
+                             ""});
   return section;
 }
 

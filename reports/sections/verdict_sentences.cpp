@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "reports/attempts/attempt_section.hpp"
@@ -129,8 +130,9 @@ Headline claim(const ReportInput& input) {
 // Cut, not rounded: no digit differs from the archive.
 double hundredths_s(SimTime t) { return static_cast<double>((t - kStart).count() / 10'000'000) / 100.0; }
 
+using NameOfBody = std::function<std::string(EntityId)>;
 // The failure that leads, if it is something else, and what came before it.
-std::string cause_text(const FailingRun& run, const CellRecord& cell) {
+std::string cause_text(const FailingRun& run, const NameOfBody& name) {
   const FirstCause& cause = run.cause;
   std::string text;
   const bool leads = run.worst && run.worst->first == cause.at && run.worst->a == cause.a;
@@ -139,10 +141,10 @@ std::string cause_text(const FailingRun& run, const CellRecord& cell) {
     text = "; at " + at;
   } else if (!leads && cause.a.valid()) {
     text = fmt::format("; leading failure, at {}: {}", at, cause.what);
-    if (cause.b.valid()) text += fmt::format(" ({} and {})", body_name(cause.a, cell), body_name(cause.b, cell));
+    if (cause.b.valid()) text += fmt::format(" ({} and {})", name(cause.a), name(cause.b));
   }
   text += fmt::format("; before it: {}", name_of(cause.before));
-  if (const std::string fault = fault_text(cause, cell.fleet_size); !fault.empty()) text += ", " + fault;
+  if (cause.fault) text += ", " + fault_text(cause, name(cause.fault->a));
   return text;
 }
 
@@ -150,6 +152,7 @@ std::string cause_text(const FailingRun& run, const CellRecord& cell) {
 
 Remark describe(const ReportInput& input, const FailingRun& run) {
   const auto& cell = input.evidence.cells()[run.cell];
+  const auto name = [&](EntityId body) { return body_name(body, cell, input.evidence.computers_of(cell.agent)); };
   auto text = fmt::format("run {}: {}", run.run_index,
                           run.end == OutcomeClass::Clean ? info_of(run.incident->kind).name : run.severity());
   if (run.worst && level_of(*run.worst) == ViolationLevel::HazardousContact) {
@@ -158,13 +161,12 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
   }
   if (run.worst) {
     text += fmt::format(", {} at {} between {} and {}", metres_text(run.worst->min_clearance_um),
-                        seconds_text(hundredths_s(run.worst->closest_at)), body_name(run.worst->a, cell),
-                        body_name(run.worst->b, cell));
+                        seconds_text(hundredths_s(run.worst->closest_at)), name(run.worst->a), name(run.worst->b));
     if (run.violations > 1) text += fmt::format(" (the worst of {})", run.violations);
   }
   text += fmt::format("; agent {}, layout {}, fleet of {}, {}", printable(cell.agent, 40), printable(cell.layout, 40),
                       cell.fleet_size, factors_text(run.factors));
-  text += cause_text(run, cell);
+  text += cause_text(run, name);
   if (!run.message.empty()) text += fmt::format("; \"{}\"", printable(run.message, 120));
   const std::string debug = debug_command(input.archive_path, run.run_index);
   if (run.end == OutcomeClass::Crash || run.end == OutcomeClass::Hang) return {text, debug};

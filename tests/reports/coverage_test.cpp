@@ -18,6 +18,7 @@ using samples::campaign_of;
 using samples::gate_of;
 using samples::grid;
 using samples::report_of;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -234,6 +235,25 @@ TEST_F(WeakReport, AReferenceAgentThatMissesAProbeMakesNothingWeak) {
   };
   EXPECT_FALSE(weak(0));
   EXPECT_TRUE(weak(1));
+}
+
+// AGVs of a central fleet ask their server: that they do not negotiate is no gap. Those on board still have to.
+TEST_F(WeakReport, NegotiationIsAskedOfAgentsOnBoardAlone) {
+  auto campaign = campaign_of("claim", 400);
+  const auto page_of = [&](const std::string& plan_json) {
+    campaign.plan_json = plan_json;
+    auto gates = gates_;
+    gates.push_back(gate_of("other", GateKind::Rate, Region::Contract, 1e-1));
+    return render("text", report_of(campaign, grid({"sound", "other"}, {0.4}, {2.0}), gates, [](RunRecord& run) {
+                    file_probes(run.outcome, {{ProbeSource::World, "crossing", 1}, {ProbeSource::Agent, "asked", 1}});
+                  }));
+  };
+  const std::string weak = "weak evidence for agent ";
+  EXPECT_THAT(page_of("{}"), AllOf(HasSubstr(weak + "sound"), HasSubstr(weak + "other")));
+  const std::string mixed = page_of(R"({"computers": [{"name": "server"}], "factors": {"agents": [
+      {"name": "sound", "computers": {"server": {"program": "s"}}}, {"name": "other"}]}})");
+  EXPECT_THAT(mixed, AllOf(Not(HasSubstr(weak + "sound")), HasSubstr(weak + "other")));
+  EXPECT_THAT(mixed, HasSubstr("negotiation only on board, not of central fleets"));
 }
 
 TEST_F(WeakReport, AGateWhoseRunsMetNobodyIsNotDemonstrated) {

@@ -48,5 +48,14 @@ TEST(Wording, AClearanceThatWasNotMeasuredIsNotCalledLarge) {
   EXPECT_EQ(all.unmeasured_runs, 2U);
 }
 
+// As their ids count: AGVs, computers, obstacles, fallen loads.
+TEST(Wording, ABodyHasTheNumberAmongItsKind) {
+  const CellRecord cell{0, "central", "ring", 5, {0.4, 2.0}};
+  EXPECT_EQ(body_name(EntityId{4U}, cell, {"broker", "server"}), "AGV 4");
+  EXPECT_EQ(body_name(EntityId{6U}, cell, {"broker", "server"}), "server");
+  EXPECT_EQ(body_name(EntityId{7U}, cell, {"broker", "server"}), "fallen load or obstacle 0");
+  EXPECT_EQ(body_name(EntityId{5U}, cell, {}), "fallen load or obstacle 0");
+}
+
 }  // namespace
 }  // namespace fleetproof::wording_test
