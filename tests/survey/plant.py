@@ -43,14 +43,17 @@ class Plant:
         self.stations[station.name] = station
 
     def settle_headings(self):
-        """An AGV stands as it arrives: a heading with which no drive arrives cannot be had."""
+        """An AGV stands as it arrives: with the heading of the drive that arrives nearest to the one that the file asks
+        for. If none arrives within a degree, that heading cannot be had."""
+        arrivals = {}
+        for drive in self.drives:
+            nose = (drive.course or 0.0) + (180.0 if drive.first == BACKWARD else 0.0)
+            arrivals.setdefault(drive.end, []).append(nose)
         for station in self.stations.values():
-            if station.heading is not None and not any(self.arrives(drive, station) for drive in self.drives):
-                station.heading = None
-
-    def arrives(self, drive, station):
-        nose = (drive.course or 0.0) + (180.0 if drive.first == BACKWARD else 0.0)
-        return drive.end == station.name and abs((nose - station.heading + 180.0) % 360.0 - 180.0) < 1.0
+            if station.heading is not None:
+                off, nose = min((abs((nose - station.heading + 180.0) % 360.0 - 180.0), nose)
+                                for nose in arrivals.get(station.name, [station.heading + 180.0]))
+                station.heading = nose if off < 1.0 else None
 
     def types(self):
         return sorted({name for drive in self.drives for name, _ in drive.permissions} - {""})

@@ -81,7 +81,9 @@ def add_row(plant, field):
 def read_grid(path):
     """Free cells are joined with the free cells beside them."""
     with open(path, encoding="utf-8") as file:
-        rows = file.read().split("\nmap\n", 1)[1].splitlines()
+        head, cells = file.read().split("\nmap\n", 1)
+    height = next(int(line.split()[1]) for line in head.splitlines() if line.startswith("height"))
+    rows = cells.splitlines()[:height]
     plant = Plant()
     has_service = any(letter in "SE" for row in rows for letter in row)
     for r, row in enumerate(rows):
