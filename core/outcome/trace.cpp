@@ -113,8 +113,6 @@ const char* name_of(TraceKind kind) {
     case TraceKind::LostByInterference:
     case TraceKind::LostToSource:
       return name_of_loss(kind);
-    case TraceKind::Denied:
-      return "denied";
     case TraceKind::Described:
     case TraceKind::AgentState:
     case TraceKind::Belief:
