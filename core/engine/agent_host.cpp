@@ -38,6 +38,7 @@ AgentHost::AgentHost(RunContext& run, const Ports& ports, const FleetSoftware& s
   for (std::size_t i = 0; i < agv_states_.size(); ++i) {
     agv_states_[i].type = software.of(run.scenario, EntityId{i}).type;
     agv_states_[i].controller = ports_.controller.handle_of(EntityId{i});
+    agv_states_[i].controller->plant = own_plant_ ? own_plant_.get() : watch.plant;
   }
 }
 

@@ -15,6 +15,7 @@
 namespace fleetproof {
 class AgvController;
 class CallTape;
+class ToldPlant;
 }  // namespace fleetproof
 
 // The handle that an agent holds: which AGV or computer of which run, and what the activation under way has used so
@@ -25,6 +26,7 @@ struct fp_controller {
   bool is_computer = false;                // it has no AGV to act with
   bool hears_notes = false;                // as RunContext::hears_notes
   fleetproof::CallTape* tape = nullptr;    // takes the calls of the activation; null: nobody records them
+  fleetproof::ToldPlant* plant = nullptr;  // map and fleet, as agents see them
   std::string* why_not = nullptr;          // takes why the agent cannot start; null: it is not being created
   fleetproof::Duration cost{};             // of its calls
   std::uint64_t calls = 0, services = 0;   // so many

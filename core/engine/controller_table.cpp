@@ -7,6 +7,7 @@
 #include "core/engine/agv_controller.hpp"
 #include "core/engine/declarations.hpp"
 #include "core/engine/disks.hpp"
+#include "core/engine/told_plant.hpp"
 
 namespace fleetproof {
 namespace {
@@ -186,6 +187,17 @@ std::int32_t recall(fp_controller* controller, std::uint32_t number, fp_record* 
   });
 }
 
+// No call of the controller: it is neither counted nor does it cost anything.
+std::int32_t conflict(fp_controller* controller, const fp_occupancy* a, const fp_occupancy* b, double margin_m,
+                      std::uint32_t* out) {
+  if (!controller->in_activation()) return FP_SUSPENDED;
+  if (a == nullptr || b == nullptr || out == nullptr) return FP_INVALID;
+  const auto may = controller->plant->conflict(*a, *b, margin_m);
+  if (!may) return FP_INVALID;
+  *out = *may ? 1 : 0;
+  return FP_OK;
+}
+
 // ---- notes. Mostly, nobody hears them.
 
 void describe(fp_controller* controller, const char* kind) {
@@ -245,6 +257,7 @@ const fp_host kHost = {
     cannot_start,
     keep,
     recall,
+    conflict,
     works_on,
     declare_waiting,
 };

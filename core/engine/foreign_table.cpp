@@ -69,6 +69,9 @@ void record(CallTape& tape, TapeItem item, std::uint32_t number, const void* byt
 
 void record(CallTape& tape, TapeItem item, std::uint32_t, fp_record*) { tape.controller_call(item); }  // recall
 
+// A question that nothing depends on.
+void record(CallTape&, TapeItem, const fp_occupancy*, const fp_occupancy*, double, std::uint32_t*) {}
+
 void record(CallTape& tape, TapeItem, std::uint32_t, std::uint64_t) { tape.service(); }  // random
 
 void record(CallTape& tape, TapeItem item) {
@@ -148,6 +151,7 @@ const fp_host kForeignHost = {
     guarded<&fp_host::cannot_start, TapeItem::NoEffect>,
     guarded<&fp_host::keep, TapeItem::Keep>,
     guarded<&fp_host::recall, TapeItem::NoEffect>,
+    guarded<&fp_host::conflict, TapeItem::NoEffect>,
     guarded<&fp_host::works_on, TapeItem::WorksOn>,
     guarded<&fp_host::declare_waiting, TapeItem::DeclareWaiting>,
 };

@@ -58,6 +58,7 @@ std::vector<fp_agv> fleet_of(const Scenario& scenario) {
 ToldPlant::ToldPlant(const Scenario& scenario)
     : of_map_(scenario.map),
       type_names_(names_of_types(scenario)),
+      conflicts_(scenario),
       safety_distance_m_(scenario.law.safety_distance_m),
       fleet_(fleet_of(scenario)) {
   for (const std::string& name : type_names_) c_type_names_.push_back(name.c_str());
@@ -69,7 +70,12 @@ ToldPlant::ToldPlant(const Scenario& scenario)
 
 bool ToldPlant::fits(const Scenario& scenario) const {
   return of_map_ == scenario.map && safety_distance_m_ == scenario.law.safety_distance_m &&
-         type_names_ == names_of_types(scenario) && std::ranges::equal(fleet_, fleet_of(scenario), is_same);
+         type_names_ == names_of_types(scenario) && conflicts_.fits(scenario) &&
+         std::ranges::equal(fleet_, fleet_of(scenario), is_same);
+}
+
+std::optional<bool> ToldPlant::conflict(const fp_occupancy& a, const fp_occupancy& b, double margin_m) {
+  return conflicts_.answer(a, b, margin_m);
 }
 
 std::unique_ptr<FactStore> ToldPlant::empty_store() const {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/engine/lane_conflicts.hpp"
 #include "core/scenario/scenario.hpp"
 #include "core/sdk/fact_store.hpp"
 #include "core/sdk/fleetproof/agent.h"
@@ -25,6 +27,8 @@ class ToldPlant {
   // Names of vehicle types and segments, by their numbers.
   std::span<const char* const> type_names() const { return c_type_names_; }
   std::span<const char* const> segment_names() const { return segment_names_; }
+  // The answer of fp_host::conflict; nothing if an argument is wrong. It is kept for later runs.
+  std::optional<bool> conflict(const fp_occupancy& a, const fp_occupancy& b, double margin_m);
   // Another store for the same facts, without answers.
   std::unique_ptr<FactStore> empty_store() const;
 
@@ -36,6 +40,7 @@ class ToldPlant {
   std::shared_ptr<const LogicalMap> of_map_;
   std::vector<std::string> type_names_;
   std::vector<const char*> c_type_names_, segment_names_;
+  LaneConflicts conflicts_;
   double safety_distance_m_;
   std::vector<std::vector<fp_permission>> permissions_;  // by segment
   std::vector<fp_arc> arcs_;

@@ -200,6 +200,17 @@ typedef struct fp_message {
   const void* bytes; /* valid until the next get_message or the end of the activation */
 } fp_message;
 
+/* Since minor 5. What a vehicle covers of the floor, for `conflict`: it stands at a station; or it turns at the
+ * beginning of a lane, by the shorter way, and drives the lane from end to end. */
+typedef struct fp_occupancy {
+  uint32_t struct_size;
+  uint32_t vehicle_type;       /* as fp_agv has it; below vehicle_type_count */
+  uint32_t load;               /* fp_load_state; FP_ANY_LOAD: the larger of both sizes */
+  uint32_t lane;               /* its place in map->lanes; FP_NONE: it stands */
+  uint32_t station;            /* where it stands; of no meaning with a lane */
+  double heading_x, heading_y; /* with which it stands, or from which it turns into the lane; (0, 0): any */
+} fp_occupancy;
+
 /* Since minor 5. What `recall` finds. */
 typedef struct fp_record {
   uint32_t struct_size;
@@ -298,6 +309,14 @@ typedef struct fp_host {
      out->struct_size first. */
   int32_t (*keep)(fp_controller*, uint32_t record, const void* bytes, uint32_t size);
   int32_t (*recall)(fp_controller*, uint32_t record, fp_record* out);
+
+  /* Since minor 5. Whether two vehicles may come closer to each other than the safety distance plus `margin_m` (0 to
+     100 m), wherever each is within what it covers: *out is 1 or 0. 0 is certain, but for the 1 um that the law
+     forgives. 1 may be wrong where a vehicle turns or drives a bend, by up to 2 mm of distance; it is right where both
+     stand or drive straight on. The answer follows from map and vehicle types alone. It is no call: it takes no
+     simulated time, counts nowhere, and is FP_SUSPENDED outside an activation. Set struct_size of both first. */
+  int32_t (*conflict)(fp_controller*, const fp_occupancy* a, const fp_occupancy* b, double margin_m, uint32_t* out);
+
   /* Since minor 5. Declarations about an AGV: by its own agent, or by the program of a computer for any AGV. A
      declaration moves nothing. It holds until the next one about this AGV, or until what made it restarts. FP_INVALID
      about another AGV.

@@ -81,7 +81,9 @@ TEST(AgentLimits, TimeAndRandomnessHaveALimitOfTheirOwn) {
   EXPECT_TRUE(hangs([](const fp_host& h, fp_controller* c) { h.now_ns(c); }, kServicesMax + 1));
 }
 
-TEST(AgentLimits, NotesDoNotCount) {
+TEST(AgentLimits, NotesAndConflictsDoNotCount) {
+  EXPECT_FALSE(
+      hangs([](const fp_host& h, fp_controller* c) { h.conflict(c, nullptr, nullptr, 0.0, nullptr); }, 20 * kCallsMax));
   EXPECT_FALSE(hangs([](const fp_host& h, fp_controller* c) { h.describe(c, "GRANT"); }, 20 * kCallsMax));
   EXPECT_FALSE(hangs([](const fp_host& h, fp_controller* c) { h.declare_state(c, "waiting"); }, 20 * kCallsMax));
   EXPECT_FALSE(hangs([](const fp_host& h, fp_controller* c) { h.believe(c, 0, nullptr, 0); }, 20 * kCallsMax));
