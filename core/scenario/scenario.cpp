@@ -1,17 +1,8 @@
 #include "core/scenario/scenario.hpp"
 
 #include <algorithm>
-#include <string>
-
-#include "core/base/outside_text.hpp"
 
 namespace fleetproof {
-
-std::string text_of(const Fault& fault) {
-  const std::string kind = name_of(fault.kind);
-  if (fault.kind != Fault::Kind::Named) return kind;
-  return kind + " " + printable(fault.word) + " " + std::to_string(fault.number);
-}
 
 std::uint64_t Scenario::seed_of(Stream stream) const {
   for (const StreamSeed& own : stream_seeds) {
