@@ -15,13 +15,6 @@ namespace {
 
 XXH3_state_t* hash(void* state) { return static_cast<XXH3_state_t*>(state); }
 
-const char* name_of_loss(TraceKind kind) {
-  return kind == TraceKind::LostInOutage         ? "lost in an outage"
-         : kind == TraceKind::LostByInterference ? "lost by interference"
-         : kind == TraceKind::LostToSource       ? "lost to an external source"
-                                                 : "lost";
-}
-
 const char* name_beside_digest(TraceKind kind) {
   return kind == TraceKind::Described      ? "described"
          : kind == TraceKind::AgentState   ? "state"
