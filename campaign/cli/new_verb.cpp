@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "campaign/cli/standard_campaigns.hpp"
 #include "campaign/cli/streams.hpp"
@@ -20,8 +22,34 @@ constexpr const char* kRemedy = "choose another path";
 
 struct NewWords {
   std::string what, path = "campaign.toml";
-  bool is_short = false;
+  bool is_short = false, is_central = false;
 };
+
+// What a campaign of a central fleet says in place of a line of the usual one.
+struct InPlace {
+  std::string_view line, by;
+};
+constexpr InPlace kCentral[] = {
+    {"name = \"standard\"\n", "name = \"standard-central\"\n"},
+    {"name = \"standard-short\"\n", "name = \"standard-short-central\"\n"},
+    {"agents = [\"hull-lock\"]\n", "agents = [{ vehicle = \"follower\", computer = \"zone-server\" }]\n"},
+    {"agent = \"hull-lock\"\n", "agent = \"zone-server+follower\"\n"},
+    {"[faults]\n", "[faults]\nlow_battery_share = 0.2  # these go to a charger first\n"},
+    {"[world]\n",
+     "# The server, whose faults are drawn as those of the AGVs are.\n[[computers]]\nname = \"server\"\n\n"
+     "[computers.faults]\nrestarts_per_hour = 4\nrestart_s = 2\npower_failures_per_hour = 1\npower_back_s = 10\n"
+     "freezes_per_hour = 4\n\n[world]\ntransports = \"open\"  # the server hears of them, and says who fetches "
+     "which\n"},
+};
+
+std::string central(std::string_view usual) {
+  std::string text(usual);
+  for (const InPlace& other : kCentral) {
+    const std::size_t at = text.find("\n" + std::string(other.line));
+    if (at != std::string::npos) text.replace(at + 1, other.line.size(), other.by);
+  }
+  return text;
+}
 
 // Whether the file has to be written. A file with another content is never overwritten.
 bool is_missing(const std::string& path, std::string_view text) {
@@ -38,7 +66,8 @@ int new_file(const NewWords& words) {
   if (has_ending(words.path, ".json"))
     throw InputError(words.path, "ends in .json, and a campaign file is TOML; name it as in night.toml");
   const std::string layout = (fs::path(words.path).parent_path() / kLongHaulFile).string();
-  const std::string_view text = words.is_short ? short_standard_campaign() : standard_campaign();
+  const std::string_view usual = words.is_short ? short_standard_campaign() : standard_campaign();
+  const std::string text = words.is_central ? central(usual) : std::string(usual);
   const bool campaign_missing = is_missing(words.path, text), layout_missing = is_missing(layout, long_haul_layout());
   if (layout_missing) write_text_file(layout, long_haul_layout(), kRemedy);
   if (campaign_missing) write_text_file(words.path, text, kRemedy);
@@ -56,6 +85,7 @@ Action prepare_new(Options& options) {
   options.positional("WHAT", words->what, "campaign: the standard campaign, with explanations");
   options.optional_positional("FILE", words->path, "the file to write (default: campaign.toml)");
   options.flag("--short", words->is_short, "the campaign of short runs, which finds faults and states no rates");
+  options.flag("--central", words->is_central, "for fleets with a server: open transports, and faults of the server");
   return [words] { return new_file(*words); };
 }
 

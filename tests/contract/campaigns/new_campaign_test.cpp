@@ -7,6 +7,7 @@ namespace fleetproof::new_campaign_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class NewCampaign : public test::ProgramTest {
  protected:
@@ -23,6 +24,22 @@ TEST_F(NewCampaign, IsTheStandardCampaignAndCanBeRunAtOnce) {
   ASSERT_EQ(run("new campaign --short").exit_code, 0) << "the layout is there already";
   EXPECT_EQ(read(path("campaign.toml")), standard("standard-short.toml"));
   EXPECT_EQ(run("check campaign.toml").exit_code, 0);
+}
+
+// Its worlds are those of the usual campaign, but for who hears of the transports.
+TEST_F(NewCampaign, HasACentralCounterpart) {
+  for (const std::string length : {"", " --short"}) {
+    const std::string file = length.empty() ? "night.toml" : "short.toml";
+    ASSERT_EQ(run("new campaign " + file + " --central" + length).exit_code, 0);
+    const std::string text = read(path(file));
+    for (const char* line : {"\"zone-server\" }]\n", "-central\"\n", "\n[[computers]]\n", "\ntransports = \"open\""})
+      EXPECT_THAT(text, HasSubstr(line)) << file;
+    EXPECT_THAT(text, Not(HasSubstr("hull-lock\""))) << file;
+    const auto checked = run("check " + file);
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  }
+  EXPECT_THAT(read(path("night.toml")), HasSubstr("agent = \"zone-server+follower\"\n"));
+  EXPECT_EQ(run("run short.toml --central").exit_code, 2);
 }
 
 TEST_F(NewCampaign, OverwritesNothing) {
