@@ -132,6 +132,9 @@ void require_room_for_agents(const CampaignFile& file, const AgentPrograms& prog
       }
     }
     require_roles(plan.agents[i], programs, where);
+    require_distribution(programs.program(plan.agents[i].program, where),
+                         plan.order_setup.transports == OrderKind::Open, !plan.agents[i].computers.empty(),
+                         where + ": factors.agents");
   }
 }
 

@@ -112,6 +112,8 @@ CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
     require_room(*part, *source.scenario.map, source.scenario.agvs.size(), "the scenario", where);
     source.identity += fmt::format(" {} {}", part->name, part->is_plugin() ? part->sha256 : "built in");
   }
+  require_distribution(programs.program(agent.program, where), !source.scenario.open_orders.empty(),
+                       !source.scenario.computers.empty(), where);
   programs.require_computers(agent, source.scenario, words.source + ": ");
   refuse_idle_symbols(words.global_symbols, agent, programs);
   source.plugin = plugin_options(agent, programs);

@@ -83,8 +83,10 @@ void warn_of_foreign_types(const Scenario& scenario, const std::string& path) {
 void require_room_for_agent(const Scenario& scenario, const std::string& path) {
   const AgentPrograms programs;
   const auto program = std::ranges::find(programs.all(), scenario.agent, &AgentProgram::name);
-  if (program != programs.all().end())
+  if (program != programs.all().end()) {
     require_room(*program, *scenario.map, scenario.agvs.size(), "the scenario", path + ": /agent");
+    require_distribution(*program, !scenario.open_orders.empty(), !scenario.computers.empty(), path + ": /agent");
+  }
   for (std::size_t i = 0; i < scenario.computers.size(); ++i) {
     const std::string &name = scenario.computers[i].name, &agent = scenario.computers[i].agent;
     const std::string where = fmt::format("{}: /computers/{}/agent", path, i);

@@ -309,6 +309,8 @@ int simulate_scenario(SimulateWords words) {
   refuse_idle_symbols(words.global_symbols, agent, programs);
   for (const AgentProgram* part : programs.parts_of(agent, words.agent_place))
     require_room(*part, *scenario.map, scenario.agvs.size(), "the scenario", words.agent_place);
+  require_distribution(programs.program(agent.program, words.agent_place), !scenario.open_orders.empty(),
+                       !scenario.computers.empty(), words.agent_place);
   const FleetSoftware software = programs.software(agent, words.config, scenario);
   watch.foreign = programs.handles_of(agent);
   const Observers observers = observers_of(words.law, scenario);

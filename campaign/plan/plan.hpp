@@ -145,6 +145,7 @@ struct CampaignPlan {
   std::uint64_t held_replicate = 0;  // the streams are those of this replicate
 
   Demand demand;
+  OrderSetup order_setup;
   Placement placement = Placement::Random;
   std::shared_ptr<const OrderList> orders;  // instead of drawn transports; null: none
   std::vector<VehicleShare> vehicles{VehicleShare{}};

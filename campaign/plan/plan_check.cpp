@@ -321,6 +321,13 @@ void check_orders(const CampaignPlan& plan, const PlanPlaces& places) {
       fmt::format(
           "world.placement \"{}\" chooses first orders itself; with world.orders it is \"random\" or \"charger-bank\"",
           name_of(plan.placement)));
+  const auto given =
+      std::ranges::find_if(plan.orders->orders, [](const ListedOrder& order) { return order.agv.has_value(); });
+  demand(plan.order_setup.transports == OrderKind::Assigned || given == plan.orders->orders.end(), places,
+         "world.transports",
+         fmt::format("world.transports is \"open\", but line {} of {} gives its order to an AGV; leave the column agv "
+                     "out, or set transports to \"assigned\"",
+                     given == plan.orders->orders.end() ? 0 : given->line, in_quotes(plan.orders->source)));
   for (const auto& layout : plan.layouts) {
     demand(
         layout.map != nullptr && !layout.mutate, places, "world.orders",

@@ -196,8 +196,8 @@ void visit_participants(Plan& plan, Visit&& visit) {
 template <FieldsOf<CampaignPlan> Plan, class Visit>
 void visit_fields(Plan& plan, Visit&& visit) {
   [[maybe_unused]] auto& [name, kind, seed, replicates, horizon_s, stuck_after_s, agents, agent_config, factors,
-                          sampling, layouts, fleet_sizes, held_streams, held_replicate, demand, placement, orders,
-                          vehicles, computers, wire, faults, scanner, operator_help, radio, sources,
+                          sampling, layouts, fleet_sizes, held_streams, held_replicate, demand, order_setup, placement,
+                          orders, vehicles, computers, wire, faults, scanner, operator_help, radio, sources,
                           constant_delay_share, agent_clock, law, laws_left_out, required_probes, contact_stops, limits,
                           audit, keep, gates, default_gates] = plan;
   visit(Field{.key = "name", .text = "name of the campaign; left out: that of the file", .lenient = kIsName}, name);
@@ -234,6 +234,7 @@ void visit_fields(Plan& plan, Visit&& visit) {
                       .text = "a CSV file of orders, instead of drawn ones",
                       .lenient = Lenient::up(Weight::Load)},
                 plan.orders);
+          visit_fields(plan.order_setup, inner);
         }});
   visit_participants(plan, visit);
   visit(Field{.key = "faults", .text = "how often things go wrong", .lenient = kIsTable}, faults);

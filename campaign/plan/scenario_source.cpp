@@ -61,6 +61,7 @@ Scenario ScenarioSource::world(std::uint64_t run_index, RejectionCounts& rejecte
   spec.orders = plan_.orders;
   spec.fleet_size = cell.fleet_size;
   spec.demand = plan_.demand;
+  spec.order_setup = plan_.order_setup;
   spec.vehicles = plan_.vehicles;
   spec.faults = plan_.faults;
   spec.law = plan_.law;

@@ -64,6 +64,15 @@ void require_room(const AgentProgram& program, const LogicalMap& map, std::size_
   }
 }
 
+// A shared object says itself when it starts whether it takes open transports. `scripted` takes none at all.
+void require_distribution(const AgentProgram& program, bool are_open, bool has_computers, const std::string& where) {
+  if (!are_open || has_computers || program.is_plugin() || program.name == "scripted") return;
+  throw InputError(where, fmt::format("{} carries out assigned transports only, and the transports are open: without "
+                                      "computers each AGV would go to every load; give the fleet a computer with a "
+                                      "program that distributes them, or assign them",
+                                      in_quotes(program.name)));
+}
+
 std::string name_of_parts(const AgentFactor& agent) {
   std::vector<std::string> names;
   for (const ComputerPart& part : agent.computers) {

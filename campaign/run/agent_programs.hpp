@@ -34,6 +34,10 @@ struct AgentProgram {
 void require_room(const AgentProgram& program, const LogicalMap& map, std::size_t agvs, std::string_view place,
                   const std::string& where);
 
+// Throws InputError, at `where`, if this agent is on board of the AGVs, the transports are open, and the agent takes
+// only transports of its own: then a computer has to distribute them.
+void require_distribution(const AgentProgram& program, bool are_open, bool has_computers, const std::string& where);
+
 // The name of an agent that has none of its own: its programs, those on computers first.
 std::string name_of_parts(const AgentFactor& agent);
 

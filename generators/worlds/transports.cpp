@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <ranges>
+#include <vector>
 
 #include "core/base/random.hpp"
 #include "generators/families/layout_builder.hpp"
@@ -11,7 +13,9 @@ namespace fleetproof {
 namespace {
 
 constexpr double kFirstWithin_s = 10.0;
-constexpr std::uint32_t kOfNoAgv = ~0U;  // item of draws that belong to no AGV
+constexpr std::uint32_t kOfNoAgv = ~0U;                // item of draws that belong to no AGV
+constexpr std::uint32_t kWithdrawnTopic = 0x77000000;  // of the transports stream, beyond any attempt
+constexpr double kWithdrawnWithin_s = 300.0;
 
 // From one station to another; the second is drawn from the rest.
 TransportOrder draw_order(Draws& draws, const OrderEnds& ends) {
@@ -22,7 +26,7 @@ TransportOrder draw_order(Draws& draws, const OrderEnds& ends) {
   const auto without = std::ranges::lower_bound(drops, from);
   const bool among = without != drops.end() && *without == from;
   const auto other = drawn(drops.size() - (among ? 1 : 0));
-  return {from, drops[among && other >= without - drops.begin() ? other + 1 : other], {}};
+  return {.from = from, .to = drops[among && other >= without - drops.begin() ? other + 1 : other]};
 }
 
 // Stations with unequal shares of the traffic.
@@ -50,7 +54,7 @@ class HotSpots {
     const double drawn = draws.uniform() * (dropped.back() - share);
     auto to = at(dropped, drawn < before ? drawn : drawn + share);
     if (to == from) to = beside(from, drops);  // rounding, at the edges of a share
-    return {stations_[from], stations_[to], {}};
+    return {.from = stations_[from], .to = stations_[to]};
   }
 
  private:
@@ -163,6 +167,46 @@ bool assign_transports(Scenario& scenario, const Demand& demand, const Reachabil
     }
   }
   return stored;
+}
+
+void withdraw_transports(Scenario& scenario, double share, std::uint64_t key, std::uint32_t attempt) {
+  if (share <= 0.0) return;
+  for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
+    Draws draws(key, kWithdrawnTopic + attempt, static_cast<std::uint32_t>(i));
+    for (TransportOrder& order : scenario.agvs[i].transports) {
+      const bool is_withdrawn = draws.uniform() < share;
+      const Duration after = seconds(draws.uniform(0.0, kWithdrawnWithin_s));
+      if (is_withdrawn) order.withdrawn = order.release + after;
+    }
+  }
+}
+
+void open_transports(Scenario& scenario) {
+  struct Opened {
+    TransportOrder order;
+    AgvId agv;
+    std::uint32_t number;
+  };
+  std::vector<Opened> all;
+  for (std::size_t i = 0; i < scenario.agvs.size(); ++i) {
+    auto& transports = scenario.agvs[i].transports;
+    for (std::uint32_t k = 0; k < transports.size(); ++k) all.push_back({transports[k], AgvId{i}, k});
+    transports.clear();
+  }
+  std::ranges::stable_sort(all, {}, [](const Opened& opened) { return opened.order.release; });
+  const auto length_m = [](const VehicleType& type) { return type.footprint_with(true).length_m; };
+  const double longest_m = std::ranges::max(scenario.vehicle_types | std::views::transform(length_m));
+  for (Fault& fault : scenario.faults) {
+    if (!fault.transport) continue;
+    const auto is_of = [&](const Opened& opened) {
+      return opened.agv == fault.agv && opened.number == *fault.transport;
+    };
+    const AgvSetup& agv = scenario.agvs[fault.agv.index()];
+    if (fault.kind == Fault::Kind::LoadDrop) fault.ahead_m -= 0.5 * (longest_m - length_m(scenario.type_of(agv)));
+    fault.transport = static_cast<std::uint32_t>(std::ranges::find_if(all, is_of) - all.begin());
+    fault.agv = {};
+  }
+  for (const Opened& opened : all) scenario.open_orders.push_back(opened.order);
 }
 
 }  // namespace fleetproof

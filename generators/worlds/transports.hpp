@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/words.hpp"
 #include "core/scenario/scenario.hpp"
 #include "generators/map/reachability.hpp"
 
@@ -14,6 +15,25 @@ struct Demand {
   // Exponent of Zipf's law: the n-th busiest station is n^-skew times as busy as the busiest. The order of the stations
   // is drawn. 0: all stations are equally busy.
   double hot_spot_skew = 0.0;
+};
+
+// Whose the transports of a world are: each AGV has its own, or all are open.
+enum class OrderKind : std::uint8_t { Assigned, Open };
+constexpr const char* name_of(OrderKind kind) {
+  switch (kind) {
+    case OrderKind::Assigned:
+      return "assigned";
+    case OrderKind::Open:
+      return "open";
+  }
+  return kNoWord;
+}
+
+struct OrderSetup {
+  OrderKind transports = OrderKind::Assigned;
+  double withdrawn_share = 0.0;  // probability that a transport is withdrawn, within five minutes of its release
+
+  friend bool operator==(const OrderSetup&, const OrderSetup&) = default;
 };
 
 // Where transports begin and end, in ascending order. Every pick has another station where its loads can be dropped.
@@ -42,5 +62,13 @@ std::vector<OrderEnds> order_ends_by_type(const Scenario& scenario, const Reacha
 // do not all lead between stations for storage. Without order ends, or with rate 0, nothing is assigned.
 bool assign_transports(Scenario& scenario, const Demand& demand, const Reachability& reachability, std::uint64_t key,
                        std::uint32_t attempt);
+
+// Draws which transports of the AGVs are withdrawn, and when. `key` and `attempt` as above; no other draw has these
+// keys.
+void withdraw_transports(Scenario& scenario, double share, std::uint64_t key, std::uint32_t attempt);
+
+// Makes the transports of all AGVs open ones, in order of release. The faults at a transport stay with it. A load falls
+// clear of the longest AGV of the fleet.
+void open_transports(Scenario& scenario);
 
 }  // namespace fleetproof

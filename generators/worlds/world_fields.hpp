@@ -29,6 +29,21 @@ void visit_fields(Given& demand, Visit&& visit) {
         hot_spot_skew);
 }
 
+template <FieldsOf<OrderSetup> Given, class Visit>
+void visit_fields(Given& orders, Visit&& visit) {
+  auto& [transports, withdrawn_share] = orders;
+  visit(Field{.key = "transports",
+              .text = "assigned: each AGV has its own; open: the computers get all, or without computers every AGV",
+              .lenient = Lenient::none("it says what the software has to decide"),
+              .left_out = transports == OrderKind::Assigned},
+        transports);
+  visit(Field{.key = "withdrawn_share",
+              .text = "probability that a transport is withdrawn within 300 s of its release",
+              .lenient = Lenient::up(Weight::Load, 0.5),
+              .left_out = withdrawn_share == 0.0},
+        withdrawn_share);
+}
+
 // Sources are alike in all but their places, which are drawn.
 template <FieldsOf<DrawnSources> Sources, class Visit>
 void visit_fields(Sources& sources, Visit&& visit) {

@@ -118,11 +118,15 @@ class WorldMaker {
     scenario_.vehicle_types = {envelope(spec_.vehicles)};
     scenario_.obstacles.clear();
     scenario_.faults.clear();
+    scenario_.open_orders.clear();
     draw_types(number);
     if (!draw_map(number) || !place(number)) return false;
     set_types();
     const bool stored = assign_orders(number);
+    withdraw_transports(scenario_, spec_.order_setup.withdrawn_share, key_of(Stream::Transports),
+                        attempt_of(Stream::Transports, number));
     draw_faults(scenario_, spec_.faults, key_of(Stream::Faults));
+    if (spec_.order_setup.transports == OrderKind::Open) open_transports(scenario_);
     if (const auto problems = unusable_problems(scenario_); !problems.empty())
       throw InputError(problems[0].pointer, problems[0].sentence);
     const auto problems = world_problems(scenario_, *reachability_);

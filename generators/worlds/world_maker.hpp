@@ -40,6 +40,7 @@ struct WorldSpec {
   std::uint32_t fleet_size = 5;
   Placement placement = Placement::Random;
   Demand demand;
+  OrderSetup order_setup;
   std::shared_ptr<const OrderList>
       orders;  // instead of drawn transports; only with an unchanged map and without placement in pairs
   std::vector<VehicleShare> vehicles{VehicleShare{}};  // at least one; the type of every AGV is drawn from them

@@ -140,7 +140,7 @@ TEST(RunAnswer, IsWhatWasEncodedAndNothingShorter) {
   EXPECT_EQ(there.heading_there, departure.heading_there);
   ASSERT_EQ(decoded.run.itinerary.done.size(), 1U);
   const auto& [agv, transport, at] = decoded.run.itinerary.done[0];
-  EXPECT_EQ(std::tuple(agv, transport, at), std::tuple(AgvId{2U}, 4U, at_ns(10)));
+  EXPECT_EQ(std::tuple(agv, transport, at), std::tuple(AgvId{2U}, TransportId{4U}, at_ns(10)));
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_THROW(decode_answer(std::string_view(bytes).substr(0, length)), EngineError) << length;
   EXPECT_THROW(decode_answer(bytes + "x"), EngineError);

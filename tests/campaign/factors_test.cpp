@@ -225,7 +225,7 @@ std::vector<std::string> starts(const Scenario& scenario) {
 std::string orders(const Scenario& scenario) {
   std::string text;
   for (const AgvSetup& agv : scenario.agvs) {
-    for (const auto& [from, to, release] : agv.transports)
+    for (const auto& [from, to, release, withdrawn] : agv.transports)
       text +=
           std::to_string(from.value) + " " + std::to_string(to.value) + " " + std::to_string(release.count()) + "\n";
   }

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "core/scenario/order_table.hpp"
 #include "tests/support/case_bench.hpp"
 
 namespace fleetproof::later_start_test {

@@ -57,6 +57,27 @@ TEST(World, ContainmentFollowsALoad) {
   EXPECT_EQ(world.loads()[0].transport, TransportId{7U});
 }
 
+TEST(World, AnOpenTransportIsThatOfTheAgvWhichHasItsLoad) {
+  const Scenario scenario = with_obstacle();
+  World world(scenario, {});
+  const LoadId load = world.add_load(TransportId{0U}, {}, StationId{1U}, StationId{2U});
+  const auto carrier = [&] { return world.load(load).carrier; };
+  EXPECT_FALSE(carrier().valid());
+  for (const AgvId agv : {AgvId{0U}, AgvId{1U}}) EXPECT_EQ(world.waiting_load(agv, StationId{1U}), load);
+  world.move_load(load, {Holder::Kind::Agv, 1});
+  EXPECT_EQ(carrier(), AgvId{1U});
+  EXPECT_FALSE(world.waiting_load(AgvId{0U}, StationId{1U}).valid());
+  world.move_load(load, {Holder::Kind::Station, 0});
+  EXPECT_FALSE(carrier().valid()) << "put down elsewhere";
+  EXPECT_EQ(world.waiting_load(AgvId{0U}, StationId{0U}), load);
+  world.move_load(load, {Holder::Kind::Agv, 0});
+  world.move_load(load, {Holder::Kind::Floor, 3});
+  EXPECT_FALSE(carrier().valid()) << "it fell";
+  world.move_load(load, {Holder::Kind::Agv, 0});
+  world.move_load(load, {Holder::Kind::Station, 2});
+  EXPECT_EQ(carrier(), AgvId{0U}) << "who has delivered it";
+}
+
 TEST(World, ADriveIntoAnObstacleIsForeseen) {
   Scenario scenario = test::row_scenario(2, {0}, 60.0);
   scenario.obstacles.push_back({"crate", {1.0, 1.0}, {Vec2{2.8, 0.0}, Vec2::UnitX()}});

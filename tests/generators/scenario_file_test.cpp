@@ -184,7 +184,7 @@ TEST(ScenarioFile, EveryFieldComesBack) {
   EXPECT_EQ(back.agvs[1].draws_as, 17U);
   EXPECT_FALSE(back.agvs[0].draws_as);
   EXPECT_EQ(back.expected, s.expected);
-  ASSERT_EQ(back.faults.size(), 3U);
+  ASSERT_EQ(back.faults.size(), 4U);
   EXPECT_EQ(back.faults[0].kind, Fault::Kind::Breakdown);
   EXPECT_EQ(back.faults[1].transport, 0U);
   EXPECT_EQ(back.faults[1].load, s.faults[1].load);

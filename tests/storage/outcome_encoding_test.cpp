@@ -26,7 +26,7 @@ TEST(OutcomeEncoding, is_little_endian_with_its_version_first) {
   outcome.stuck = true;
   outcome.counters.events = 0x0102;
   const auto bytes = encode(outcome);
-  EXPECT_EQ(bytes.substr(0, 4), std::string("\x05\0\0\0", 4));
+  EXPECT_EQ(bytes.substr(0, 4), std::string("\x06\0\0\0", 4));
   EXPECT_EQ(bytes.substr(4, 8), std::string("\0\0\1\0\0\0\0\0", 8));  // seven end points, then "no clearance"
   EXPECT_EQ(bytes.substr(12, 3), std::string("\x02\x01\0", 3));       // events
 }
@@ -67,7 +67,7 @@ TEST(OutcomeEncoding, refuses_every_truncation_and_every_tail) {
 TEST(OutcomeEncoding, refuses_another_version_and_lengths_beyond_the_end) {
   auto bytes = encode(Outcome{});
   auto newer = bytes;
-  newer[0] = 6;
+  newer[0] = 7;
   EXPECT_THROW(decode_outcome(newer), EngineError);
   auto flag = bytes;
   flag[4] = 2;
