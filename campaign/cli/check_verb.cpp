@@ -10,6 +10,7 @@
 #include "campaign/cli/verbs.hpp"
 #include "campaign/plan/first_worlds.hpp"
 #include "campaign/plan/scenario_source.hpp"
+#include "campaign/run/agent_programs.hpp"
 #include "campaign/run/case_file.hpp"
 #include "generators/formats/importer.hpp"
 #include "generators/formats/vehicles.hpp"
@@ -58,10 +59,47 @@ void tell_rejections(const CampaignPlan& plan) {
         counts.worlds_without_storage);
 }
 
+// Of programs that are in this process; the others are asked when a fault strikes.
+bool is_unknown_fault(const AgentProgram& program, const std::string& word) {
+  return program.type != nullptr && !knows_fault(*program.type, word.c_str());
+}
+
+std::string sentence_on_fault(const AgentProgram& program, const std::string& word) {
+  return fmt::format("the agent {} does not know the fault {}, so it never strikes; name another one",
+                     in_quotes(program.name), in_quotes(word));
+}
+
+void warn_of_unknown_faults(const CampaignPlan& plan, const AgentPrograms& programs, const std::string& path) {
+  for (const auto& [computer, faults] : plan.computers) {
+    for (const AgentFactor& agent : plan.agents) {
+      const ComputerPart* part = agent.part_on(computer.name);
+      if (part == nullptr) continue;
+      const AgentProgram& program = programs.program(part->program, path);
+      for (const NamedFaultRate& named : faults.named) {
+        if (is_unknown_fault(program, named.word))
+          talk("warning: {}: {}: {}\n", path, in_quotes(computer.name), sentence_on_fault(program, named.word));
+      }
+    }
+  }
+}
+
+void warn_of_unknown_faults(const Scenario& scenario, const std::string& path) {
+  const AgentPrograms programs;
+  for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
+    const Fault& fault = scenario.faults[i];
+    if (fault.kind != Fault::Kind::Named) continue;
+    const std::string& agent = scenario.is_agv(fault.agv) ? scenario.agent : scenario.computer(fault.agv).agent;
+    const auto program = std::ranges::find(programs.all(), agent, &AgentProgram::name);
+    if (program != programs.all().end() && is_unknown_fault(*program, fault.word))
+      talk("warning: {}: /faults/{}/word: {}\n", path, i, sentence_on_fault(*program, fault.word));
+  }
+}
+
 void check_campaign(const std::string& path) {
   AgentPrograms programs;
   const CampaignFile file = load_campaign(path, programs);
   const CampaignPlan& plan = file.plan;
+  warn_of_unknown_faults(plan, programs, path);
   try_first_worlds(plan, file.places);
   const Pilot pilot = run_pilot(plan, programs, 1, {.time = kPilotTime, .runs = plan.cell_count()});
   put("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {} of one core, as {} took {:.1f} s\n", path,
@@ -106,6 +144,7 @@ void check_scenario(const std::string& path) {
     talk("warning: {}: {}: {}\n", path, unmet.pointer, unmet.sentence);
   warn_of_foreign_types(scenario, path);
   require_room_for_agent(scenario, path);
+  warn_of_unknown_faults(scenario, path);
   for (const VehicleType& type : scenario.vehicle_types) {
     for (const std::string& question : vehicle_questions(type))
       talk("warning: {}: vehicle {}: {}\n", path, in_quotes(type.name), question);

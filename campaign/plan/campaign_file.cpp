@@ -30,11 +30,12 @@ void name_computers(CampaignPlan& plan, const PlanPlaces& places) {
         throw InputError(places.of(fmt::format("factors.agents.{}", i)),
                          fmt::format("factors.agents: computer = ... is for a campaign with one computer, and this one "
                                      "has {}; name it: computers = {{ {} = ... }}",
-                                     plan.computers.size(), plan.computers[0].name));
-      if (part.computer.empty()) part.computer = plan.computers.size() == 1 ? plan.computers[0].name : kOnlyComputer;
+                                     plan.computers.size(), plan.computers[0].setup.name));
+      if (part.computer.empty())
+        part.computer = plan.computers.size() == 1 ? plan.computers[0].setup.name : kOnlyComputer;
       const bool is_known =
-          std::ranges::find(plan.computers, part.computer, &ComputerSetup::name) != plan.computers.end();
-      if (!is_known && !are_listed) plan.computers.push_back({.name = part.computer});
+          std::ranges::any_of(plan.computers, [&](const auto& one) { return one.setup.name == part.computer; });
+      if (!is_known && !are_listed) plan.computers.push_back({{.name = part.computer}, {}});
     }
   }
 }
@@ -45,7 +46,7 @@ bool names_radio(const CellFilter& filter) {
 }
 
 void warn_of_idle_computers(CampaignFile& file) {
-  for (const ComputerSetup& computer : file.plan.computers) {
+  for (const auto& [computer, faults] : file.plan.computers) {
     const bool is_used = std::ranges::any_of(
         file.plan.agents, [&](const AgentFactor& agent) { return agent.part_on(computer.name) != nullptr; });
     if (!is_used)
@@ -131,9 +132,10 @@ class CampaignReader {
     }
   }
 
-  void member(TomlTable& root, const Field& field, std::vector<ComputerSetup>& computers) {
+  template <HasFields Item>
+  void member(TomlTable& root, const Field& field, std::vector<Item>& items) {
     for (TomlTable& table : root.tables(field.key)) {
-      fields(table, computers.emplace_back());
+      fields(table, items.emplace_back());
       table.finish();
     }
   }

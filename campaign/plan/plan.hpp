@@ -11,6 +11,7 @@
 
 #include "campaign/plan/unit_sample.hpp"
 #include "core/scenario/scenario.hpp"
+#include "generators/worlds/computer_faults.hpp"
 #include "generators/worlds/drawn_radio.hpp"
 #include "generators/worlds/order_list.hpp"
 #include "generators/worlds/placement.hpp"
@@ -126,6 +127,14 @@ struct AuditSetup {
 // Agents vary fastest (CampaignPlan::cells): the position of the agent of a run, or of a cell, in CampaignPlan::agents.
 constexpr std::size_t agent_of_run(std::uint64_t run_index, std::size_t agents) { return run_index % agents; }
 
+// A computer of a campaign, and how often its faults happen.
+struct PlannedComputer {
+  ComputerSetup setup;
+  ComputerFaultRates faults;
+
+  friend bool operator==(const PlannedComputer&, const PlannedComputer&) = default;
+};
+
 // Everything that decides the outcomes of a campaign: no path, no number of jobs. And `keep`, which decides nothing.
 struct CampaignPlan {
   std::string name = "campaign";
@@ -149,7 +158,7 @@ struct CampaignPlan {
   Placement placement = Placement::Random;
   std::shared_ptr<const OrderList> orders;  // instead of drawn transports; null: none
   std::vector<VehicleShare> vehicles{VehicleShare{}};
-  std::vector<ComputerSetup> computers;  // a world has those that its agent has programs for
+  std::vector<PlannedComputer> computers;  // a world has those that its agent has programs for
   WireSetup wire;
   FaultRates faults;
   ScannerSetup scanner;

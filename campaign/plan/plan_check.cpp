@@ -266,7 +266,7 @@ constexpr std::string_view kAgvName = "AGV ";  // before the number of an AGV in
 void check_computers(const CampaignPlan& plan, const PlanPlaces& places) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < plan.computers.size(); ++i) {
-    const std::string& name = plan.computers[i].name;
+    const std::string& name = plan.computers[i].setup.name;
     const char* fault = fault_of_name(name);
     demand(fault == nullptr, places, fmt::format("computers.{}.name", i).c_str(),
            fmt::format("computers.name: {} is refused: {}", in_quotes(name), fault == nullptr ? "" : fault));

@@ -178,6 +178,16 @@ void visit_fields(Audit& audit, Visit&& visit) {
         share);
 }
 
+inline constexpr Field kComputerFaults{
+    .key = "faults", .text = "how often things go wrong with it", .lenient = kIsTable};
+
+template <FieldsOf<PlannedComputer> Computer, class Visit>
+void visit_fields(Computer& computer, Visit&& visit) {
+  auto& [setup, faults] = computer;
+  visit_fields(setup, visit);
+  visit(kComputerFaults.left_out_if(faults == ComputerFaultRates{}), faults);
+}
+
 template <class Plan, class Visit>
 void visit_participants(Plan& plan, Visit&& visit) {
   visit(Field{.key = "vehicle", .text = "the fleet; several [[vehicle]] mix it", .lenient = kIsTable}, plan.vehicles);

@@ -106,8 +106,9 @@ class PlanWriter {
     return field.left_out &&
            (field.key == kKeep.key || field.key == kCentreAhead.key || field.key == kReverseSpeed.key ||
             field.key == kClocksAgree.key || field.key == kConstantDelayShare.key || field.key == "computers" ||
-            field.key == "wire" || field.key == "at_m" || field.key == kDiskLosses.key ||
-            field.key == kDiskLossLasts.key || field.key == "transports" || field.key == "withdrawn_share");
+            field.key == "wire" || field.key == "at_m" || field.key == kComputerFaults.key ||
+            field.key == kDiskLosses.key || field.key == kDiskLossLasts.key || field.key == "transports" ||
+            field.key == "withdrawn_share");
   }
   template <class Value>
   static bool is_absent(const Value&) {

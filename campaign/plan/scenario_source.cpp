@@ -7,6 +7,7 @@
 #include "campaign/plan/factor_fields.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/base/random.hpp"
+#include "generators/worlds/drawn_faults.hpp"
 #include "generators/worlds/drawn_radio.hpp"
 #include "generators/worlds/world_maker.hpp"
 
@@ -76,9 +77,12 @@ void ScenarioSource::add_computers(Scenario& scenario, const AgentFactor& agent)
   if (agent.computers.empty()) return;
   scenario.wire = plan_.wire;
   for (std::uint32_t i = 0; i < plan_.computers.size(); ++i) {
-    if (agent.part_on(plan_.computers[i].name) == nullptr) continue;
-    ComputerSetup& computer = scenario.computers.emplace_back(plan_.computers[i]);
+    const auto& [setup, faults] = plan_.computers[i];
+    if (agent.part_on(setup.name) == nullptr) continue;
+    const EntityId id{scenario.participant_count()};
+    ComputerSetup& computer = scenario.computers.emplace_back(setup);
     if (i + 1 != scenario.computers.size()) computer.draws_as = i;
+    draw_computer_faults(scenario, id, faults, stream_key(scenario.seed_of(Stream::Faults), Stream::Faults));
   }
 }
 

@@ -90,8 +90,8 @@ std::string value_of(const YAML::Node& node) {
 bool is_place(const YAML::Node& vertex) {
   if (!vertex.IsSequence() || vertex.size() < 3) return false;
   const auto words = vertex[vertex.size() - 1];
-  constexpr const char* kPlaces[] = {"is_charger", "is_parking_spot", "pickup_dispenser", "dropoff_ingestor"};
-  return std::ranges::any_of(kPlaces, [&](const char* word) { return names_something(words, word); });
+  constexpr const char* kPlaceProperties[] = {"is_charger", "is_parking_spot", "pickup_dispenser", "dropoff_ingestor"};
+  return std::ranges::any_of(kPlaceProperties, [&](const char* word) { return names_something(words, word); });
 }
 
 class LevelWalk {

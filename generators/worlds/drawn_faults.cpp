@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/base/random.hpp"
 #include "core/geometry/rotation.hpp"
+#include "core/scenario/draw_numbers.hpp"
 
 namespace fleetproof {
 namespace {
@@ -28,13 +29,20 @@ class FaultDraws {
     obstacles();
   }
 
+  void computer(EntityId id, const std::vector<NamedFaultRate>& named) {
+    const EntityId item = DrawNumbers(scenario_).of(id);
+    for (const RecurringFault& fault : kRecurringFaults) recurring(id, item, fault);
+    for (std::uint32_t i = 0; i < named.size(); ++i)
+      named_fault(id, draws(FaultTopic{static_cast<std::uint32_t>(FaultTopic::Named) + i}, item.value), named[i]);
+  }
+
  private:
   Draws draws(FaultTopic topic, std::uint32_t item) const {
     return Draws(key_, static_cast<std::uint32_t>(topic), item);
   }
 
   void agv(AgvId id) {
-    for (const RecurringFault& fault : kRecurringFaults) recurring(id, fault);
+    for (const RecurringFault& fault : kRecurringFaults) recurring(id, id, fault);
     missions(id);
     sensing(id);
     Draws battery = draws(FaultTopic::Battery, id.value);
@@ -55,20 +63,39 @@ class FaultDraws {
     invariant_violated("a fault lasts for some time");
   }
 
-  void recurring(AgvId id, const RecurringFault& recurring) {
-    const double per_hour = rates_.*recurring.per_agv_hour;
+  // The instants of a Poisson process, as far as the run goes.
+  template <class Strikes>
+  void process(double per_hour, Draws& d, Strikes strikes) const {
     if (per_hour <= 0.0) return;
-    Draws d = draws(recurring.topic, id.value);
-    const double horizon_s = to_seconds(scenario_.horizon);
-    for (double t_s = d.exponential(kHourIn_s / per_hour); t_s < horizon_s;
-         t_s += d.exponential(kHourIn_s / per_hour)) {
+    const double horizon_s = to_seconds(scenario_.horizon), mean_s = kHourIn_s / per_hour;
+    for (double t_s = d.exponential(mean_s); t_s < horizon_s; t_s += d.exponential(mean_s)) strikes(seconds(t_s));
+  }
+
+  // `item`: under which it is drawn.
+  void recurring(EntityId id, EntityId item, const RecurringFault& recurring) {
+    Draws d = draws(recurring.topic, item.value);
+    process(rates_.*recurring.per_agv_hour, d, [&](Duration at) {
       Fault fault;
       fault.kind = recurring.kind;
       fault.agv = id;
-      fault.at = seconds(t_s);
+      fault.at = at;
       fault.lasts = seconds(lasts_s(recurring, d));
       scenario_.faults.push_back(fault);
-    }
+    });
+  }
+
+  void named_fault(EntityId id, Draws d, const NamedFaultRate& rate) {
+    process(rate.per_hour, d, [&](Duration at) {
+      Fault fault;
+      fault.kind = Fault::Kind::Named;
+      fault.agv = id;
+      fault.at = at;
+      fault.word = rate.word;
+      const double numbers = static_cast<double>(rate.number_most) - rate.number_least + 1.0;
+      fault.number = rate.number_least + static_cast<std::uint32_t>(d.uniform() * numbers);
+      fault.lasts = seconds(d.uniform(rate.least_s, rate.most_s));
+      scenario_.faults.push_back(fault);
+    });
   }
 
   void missions(AgvId id) {
@@ -128,6 +155,11 @@ class FaultDraws {
 };
 
 }  // namespace
+
+void draw_computer_faults(Scenario& scenario, EntityId computer, const ComputerFaultRates& rates, std::uint64_t key) {
+  const FaultRates shared = rates.as_rates();
+  FaultDraws(scenario, shared, key).computer(computer, rates.named);
+}
 
 void draw_faults(Scenario& scenario, const FaultRates& rates, std::uint64_t key) {
   if (rates != FaultRates{}) FaultDraws(scenario, rates, key).run();

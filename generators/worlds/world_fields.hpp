@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scenario/scenario_fields.hpp"
+#include "generators/worlds/computer_faults.hpp"
 #include "generators/worlds/drawn_radio.hpp"
 #include "generators/worlds/fault_rates.hpp"
 #include "generators/worlds/placement.hpp"

@@ -12,6 +12,11 @@ namespace {
 
 bool is_fault(const Incident& incident) { return is_condition(incident.kind); }
 
+// Its AGVs depend on it, whichever they are.
+bool is_of_computer(const Incident& fault, std::uint32_t agv_count) {
+  return fault.kind == IncidentKind::FaultInjected && fault.a.value >= agv_count;
+}
+
 // Of a fault that touched a body involved. Whether an AGV notices that its load is gone depends on the vehicle.
 CameBefore before_of(const Incident& fault) {
   if (fault.kind == IncidentKind::ForeignBody) return CameBefore::ForeignBody;
@@ -34,7 +39,8 @@ std::optional<FirstCause> first_cause(const Outcome& outcome) {
   for (const Incident& fault : outcome.incidents) {
     if (!is_fault(fault) || fault.first > cause->at) continue;
     any_before = true;
-    if (!names_bodies || (fault.a != cause->a && fault.a != cause->b)) continue;
+    const bool touches = fault.a == cause->a || fault.a == cause->b || is_of_computer(fault, outcome.agv_count);
+    if (!names_bodies || !touches) continue;
     if (has_foreign && fault.kind != IncidentKind::ForeignBody) continue;  // the body says more than its AGV's faults
     note(before_of(fault), fault);
   }

@@ -12,8 +12,8 @@ namespace fleetproof {
 // What the scenario had done to the bodies of a failure before it happened. It says what came before, not what caused
 // it. Of several, the heaviest is told.
 enum class CameBefore : std::uint8_t {
-  Nothing,      // no injected fault touched a body involved
-  KnownFault,   // a fault of an AGV involved, which its software could know of: it stopped, or was away
+  Nothing,      // no injected fault touched a body involved or a computer
+  KnownFault,   // a fault of an AGV involved, or of a computer: its software stopped or was away, or was told
   ForeignBody,  // a fallen load or an obstacle, which no control software is told of
   Undecided,    // faults or foreign bodies came before, but whether they touched the bodies involved is not known
 };

@@ -74,6 +74,13 @@ TEST(CameBefore, FaultsOfOthersOrLaterOnesDoNotTouchThePair) {
             CameBefore::Nothing);
 }
 
+// Whichever AGVs they are, their computers count.
+TEST(CameBefore, AFaultOfAComputerTouchesEveryPair) {
+  const auto cause = first_cause(run_with({violation(0, 1, 20.0)}, {fault(Fault::Kind::DiskLoss, kAgvs + 1, 17.5)}));
+  EXPECT_EQ(cause->before, CameBefore::KnownFault);
+  EXPECT_EQ(fault_text(*cause, kAgvs), "2.50 s after the disk-loss of computer 1 began");
+}
+
 TEST(CameBefore, OfAFallenLoadNoSoftwareIsTold) {
   const auto cause = first_cause(run_with({violation(0, 4, 20.0, true)}, {body(4, 10.0, 300.0)}));
   EXPECT_EQ(cause->what, "contact, AGV and another body");

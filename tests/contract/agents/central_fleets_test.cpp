@@ -138,6 +138,46 @@ TEST_F(CentralFleet, MayHaveSeveralComputers) {
   EXPECT_THAT(trace.err, Not(HasSubstr("from south")));
 }
 
+// The server restarts, loses its power and its disk, and is deaf now and then.
+const std::string kFaults =
+    "[[computers]]\nname = \"server\"\n[computers.faults]\nrestarts_per_hour = 200\nrestart_s = 1\n"
+    "power_failures_per_hour = 100\npower_back_s = 2\nfreezes_per_hour = 100\ndisk_losses_per_hour = 100\n"
+    "disk_loss_s = 1\nnamed = [{ word = \"deaf\", per_hour = 200, number_least = 1, number_most = 2, least_s = 1, "
+    "most_s = 3 }, { word = \"unheard-of\", per_hour = 60 }]\n";
+
+TEST_F(CentralFleet, MeetsTheFaultsThatAreDrawnForItsServer) {
+  campaign(central(), kFaults, 20);
+  for (const char* jobs : {"1", "2"}) {
+    const test::Finished finished = run("run c.toml --db " + std::string(jobs) + ".db --jobs " + jobs);
+    EXPECT_EQ(finished.exit_code, 4) << finished.err;
+  }
+  EXPECT_EQ(read(path("1.db")), read(path("2.db")));
+  EXPECT_THAT(run("verify 1.db --sample 100%").out, HasSubstr("0 differ"));
+  run("report 1.db --evidence e");
+  EXPECT_THAT(read(path("e/incidents.csv")), HasSubstr("fault-without-effect"));
+  std::string traces;
+  for (int i = 0; i < 20; ++i) traces += run("replay 1.db " + std::to_string(i) + " --trace").err;
+  for (const char* word : {"remembered", "remembered nothing", "deaf once", "deaf otherwise", "disk-loss", "freeze",
+                           "power-failure", "named deaf 1"})
+    EXPECT_THAT(traces, HasSubstr(word));
+  EXPECT_THAT(traces, HasSubstr("named unheard-of 0: the program does not know this fault"));
+  EXPECT_THAT(traces, HasSubstr("record 7, 4 bytes"));
+}
+
+TEST_F(CentralFleet, KeepsItsFaultsInASavedCase) {
+  campaign(central("late"), kFaults);
+  const std::string told = run("run c.toml --db c.db").err, words = "first failure of central: contact in run ";
+  ASSERT_THAT(told, HasSubstr(words));
+  const std::string failing = std::to_string(std::stoi(told.substr(told.find(words) + words.size())));
+  EXPECT_THAT(run("replay c.db " + failing).out, HasSubstr("REPRODUCED"));
+  run("replay c.db " + failing + " --scenario s.json");
+  const auto digest = [](const std::string& text) { return text.substr(text.find("trace digest"), 29); };
+  EXPECT_EQ(digest(run("simulate s.json --plugin " + kCentral).out), digest(run("replay c.db " + failing).out));
+  EXPECT_EQ(run("shrink c.db " + failing + " -o small.json --max-time 20").exit_code, 0);
+  EXPECT_THAT(run("simulate small.json --plugin " + kCentral).out, HasSubstr("as expected: contact"));
+  EXPECT_THAT(run("explain c.db " + failing + " --max-time 20").out, HasSubstr("AGV"));
+}
+
 TEST_F(CentralFleet, RefusesWhatCannotBe) {
   const auto refusal = [&](const std::string& agents, const std::string& more = "") {
     campaign(agents, more);
@@ -158,6 +198,11 @@ TEST_F(CentralFleet, RefusesWhatCannotBe) {
   EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"AGV 0\"\n"), HasSubstr("is the name of an AGV"));
   EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"\"\n"), HasSubstr("computers.name"));
   EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"a\"\nat_m = [1]\n"), HasSubstr("[x, y]"));
+  const std::string faults = "[[computers]]\nname = \"a\"\n[computers.faults]\n";
+  EXPECT_THAT(refusal("\"reckless\"", faults + "restarts_per_hour = -1\n"), HasSubstr("restarts_per_hour"));
+  EXPECT_THAT(refusal("\"reckless\"", faults + "freeze_least_s = 9\n"), HasSubstr("freeze_most_s"));
+  EXPECT_THAT(refusal("\"reckless\"", faults + "named = [{ per_hour = 1 }]\n"), HasSubstr("word"));
+  EXPECT_THAT(refusal("\"reckless\"", faults + "breakdowns_per_hour = 1\n"), HasSubstr("breakdowns_per_hour"));
   EXPECT_THAT(refusal("\"reckless\"", "[[computers]]\nname = \"a\"\n[[computers]]\nname = \"a\"\n"),
               HasSubstr("two computers have one name"));
 }

@@ -152,6 +152,26 @@ TEST_F(AskedFor, AFaultOfWhatIsOutOfOrderIsAnIncident) {
   EXPECT_THAT(warnings(json), HasSubstr("/faults/2/at_s: the breakdown of \"V0\" comes at 60.5 s, after the end"));
 }
 
+TEST_F(AskedFor, ANamedFaultThatTheProgramDoesNotKnowIsAnIncident) {
+  Json json = plain();
+  json["agent"] = "scripted";
+  json["faults"] = Json::parse(
+      R"([{"kind": "named", "agv": "V0", "at_s": 20, "lasts_s": 10, "word": "dirty-scanner", "number": 2}])");
+  EXPECT_THAT(incidents(json), ElementsAre("fault-without-effect: V0 from 20.0 to 20.0 (8)"));
+  EXPECT_THAT(warnings(json), HasSubstr("/faults/0/word: the agent \"scripted\" does not know the fault "
+                                        "\"dirty-scanner\", so it never strikes"));
+  json["agent"] = "somebody-else";
+  EXPECT_THAT(warnings(json), Not(HasSubstr("dirty-scanner"))) << "a plug-in is asked when the fault strikes";
+  json["faults"][0]["kind"] = "restart";
+  EXPECT_THAT(warnings(json), HasSubstr("/faults/0: a restart has no name, so word and number change nothing"));
+  json["faults"][0]["kind"] = "named";
+  json["faults"][0]["word"] = "";
+  write("s.json", json.dump());
+  const test::Finished refused = run("check s.json");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("/faults/0/word"));
+}
+
 TEST_F(AskedFor, ALoadOfAFaultWithoutOneIsTold) {
   Json json = plain();
   json["faults"] = Json::parse(R"([{"kind": "breakdown", "agv": "V0", "at_s": 20, "lasts_s": 1}])");
