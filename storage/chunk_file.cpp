@@ -12,6 +12,7 @@
 
 #include "core/base/byte_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/regular_file.hpp"
 #include "storage/run_bytes.hpp"
 
 namespace fleetproof {
@@ -142,7 +143,7 @@ bool is_chunk_there(const std::string& path) {
 }
 
 ChunkFile::ChunkFile(const std::string& path) : path_(path) {
-  if (!is_chunk_there(path)) throw InputError(path, "there is no such file");
+  if (!is_chunk_there(path)) RegularFile says_why(path);
   file_.open(path, std::ios::binary);
   std::error_code error;
   if (!file_) throw InputError(path, fmt::format("cannot be read ({}); change its permissions", std::strerror(errno)));

@@ -115,7 +115,7 @@ int merge(const MergeWords& words) {
   try {
     return put_together(words);
   } catch (const Interrupted&) {
-    talk("interrupted before all chunks were read; nothing was written\n");
+    talk("interrupted before all chunks were read; nothing was written, and the same command begins anew\n");
     return exit_code_of_signal(interrupted());
   }
 }

@@ -95,10 +95,11 @@ void ShardFolder::require_plan() const {
   std::error_code error;
   if (!fs::is_directory(path_, error))
     throw InputError(path_, "there is no such folder; name one that `fleetproof run --shard ... --out` wrote");
-  if (!fs::exists(plan_file(), error))
-    throw InputError(path_,
-                     "no shard has written a plan.db here; name a folder that `fleetproof run --shard ... "
-                     "--out` wrote");
+  if (fs::exists(plan_file(), error)) return;
+  if (is_name_taken(plan_file())) RegularFile says_why(plan_file());
+  throw InputError(path_,
+                   "no shard has written a plan.db here; name a folder that `fleetproof run --shard ... "
+                   "--out` wrote");
 }
 
 std::map<std::uint64_t, std::string> ShardFolder::chunk_files() const {

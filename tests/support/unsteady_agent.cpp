@@ -1,18 +1,22 @@
 // An agent that drives like `reckless` but does not always do the same: what its thinking costs depends on something
 // that no run should depend on. Its parameters say on what, see cost_ns. Otherwise it always does the same. With
 // "coin-", what it is depends on that: `reckless`, or `hull-lock`. With "worn-" it is hull-lock and does not bear the
-// second run of its process.
+// second run of its process. With "aged-5" it is hull-lock in fleets of less than 5 in the first run of its process,
+// and reckless otherwise: no smaller fleet that fails among many runs fails again in a fresh process.
 #include <sys/auxv.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/agents/agent_type.hpp"
@@ -71,6 +75,12 @@ std::int64_t cost_ns(const Unsteady& agent) {
   return kMillisecond_ns;
 }
 
+bool is_aged(const fp_briefing& briefing) {
+  static int runs = 0;
+  if (briefing.self == 0) ++runs;
+  return runs > 1 || briefing.fleet_count >= std::strtoul(briefing.config + std::strlen("aged-"), nullptr, 10);
+}
+
 bool falls_on_its_head(const std::string& kind) {
   if (kind.starts_with("worn-")) return false;
   if (kind == "coin-place") return ((::getauxval(AT_ENTRY) >> 12) & 1U) != 0;
@@ -93,7 +103,8 @@ void* create(const fp_host* host, fp_controller* controller, const fp_briefing* 
   auto* agent = new Unsteady;
   // The whole fleet in one process is the same, or a collision could be that of another AGV.
   static const bool is_reckless = falls_on_its_head(briefing->config);
-  agent->type = is_reckless ? &kReckless : &kHullLock;
+  const bool ages = std::string_view(briefing->config).starts_with("aged-");
+  agent->type = (ages ? is_aged(*briefing) : is_reckless) ? &kReckless : &kHullLock;
   agent->briefing = *briefing;
   agent->briefing.config = "";
   agent->inner = agent->type->create(host, controller, &agent->briefing);
@@ -114,7 +125,8 @@ void* create(const fp_host* host, fp_controller* controller, const fp_briefing* 
 
 void on_event(void* instance, const fp_event* event) {
   auto& agent = *static_cast<Unsteady*>(instance);
-  if (!agent.kind.starts_with("coin-") && !agent.kind.starts_with("worn-")) {
+  const auto keeps_time = {"coin-", "worn-", "aged-"};
+  if (std::ranges::none_of(keeps_time, [&](const char* prefix) { return agent.kind.starts_with(prefix); })) {
     agent.host->declare_cost_ns(agent.controller, cost_ns(agent));
     agent.host->declare_state(agent.controller, event->kind == FP_EVENT_START ? "fresh" : "unsteady");
   }

@@ -110,5 +110,62 @@ TEST_F(Interruption, NoVerbLeavesHalfAFile) {
   }
 }
 
+// Large enough for a tenth of a second.
+constexpr const char* kLargePlant = R"(python3 - <<'E'
+import json
+n = 60
+name = lambda i, j: f"s{i}.{j}"
+steps = ((1, 0), (0, 1))
+near = [(i, j, i + a, j + b) for i in range(n) for j in range(n) for a, b in steps if i + a < n and j + b < n]
+layout = {"name": "large", "floor_low_m": [-5, -5], "floor_high_m": [5 * n, 5 * n],
+          "stations": [{"name": name(i, j), "position_m": [5 * i, 5 * j], "purposes": ["storage", "parking"]}
+                       for i in range(n) for j in range(n)],
+          "segments": [{"name": f"{i}.{j}-{k}.{l}", "from": name(i, j), "to": name(k, l), "bidirectional": True}
+                       for i, j, k, l in near]}
+json.dump({"version": 1, "layout": layout}, open("large.json", "w"))
+E)";
+
+class BusyVerb : public Interruption {
+ protected:
+  void SetUp() override {
+    Interruption::SetUp();
+    ASSERT_EQ(shell(kLargePlant).exit_code, 0);
+    write("c.toml",
+          "name = \"c\"\nkind = \"search\"\nreplicates = 6000\nhorizon_s = 5\n[factors]\nagents = "
+          "[\"hull-lock\"]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [3]\n");
+    ASSERT_EQ(run("run c.toml --shard 1/1 --out part").exit_code, 0);
+  }
+  // Looks for an instant in the middle of the verb at which a signal makes it say so.
+  std::string told_at_some_instant(const std::string& words, const std::string& signals,
+                                   const std::string& what) const {
+    std::string told;
+    for (int hundredths = 1; hundredths < 60 && told.find(what) == std::string::npos; hundredths += 2) {
+      told = shell("\"$FLEETPROOF\" " + words + " & pid=$!; sleep " + std::to_string(hundredths / 100.0) + "; " +
+                   signals + "; wait $pid; echo \"exit $?\" >&2")
+                 .err;
+    }
+    return told;
+  }
+};
+
+// As on a machine on which it takes long: stopped in its middle, it finds that two seconds have gone.
+TEST_F(BusyVerb, SaysWhatItDoes) {
+  const std::string is_slow = "kill -STOP $pid; sleep 2.3; kill -CONT $pid";
+  const std::pair<std::string, std::string> verbs[] = {
+      {"import large.json -o x.csv", "import: reading large.json; "},
+      {"generate mutated-import --from large.json -o x.json", "generate: drawing a layout; "},
+      {"merge part --db x.db --overwrite", "merge: reading chunks"}};
+  for (const auto& [words, line] : verbs) EXPECT_THAT(told_at_some_instant(words, is_slow, line), HasSubstr(line));
+}
+
+TEST_F(BusyVerb, AMergeThatIsInterruptedLeavesNothingAndSaysHowToGoOn) {
+  const std::string told = told_at_some_instant("merge part --db x.db --overwrite", "kill -TERM $pid",
+                                                "interrupted before all chunks were read");
+  EXPECT_THAT(told, HasSubstr("nothing was written, and the same command begins anew\n"));
+  EXPECT_THAT(told, HasSubstr("exit 143"));
+  EXPECT_THAT(shell("ls -A").out, testing::Not(HasSubstr("merging")));
+  EXPECT_LT(run("merge part --db x.db --overwrite").exit_code, 5);
+}
+
 }  // namespace
 }  // namespace fleetproof::interruption_test

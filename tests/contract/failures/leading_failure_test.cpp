@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -96,6 +97,12 @@ TEST_F(LeadingFailure, TheOthersAreNamedAndCanBeChosen) {
   ASSERT_EQ(chosen.exit_code, 0) << chosen.err;
   EXPECT_THAT(chosen.out, StartsWith(other));
   EXPECT_THAT(run("simulate chosen.json").out, HasSubstr("  as expected: " + other)) << "although another one leads";
+  // What an earlier search has left there for another failure of the run is no smaller case of this one.
+  ASSERT_EQ(run("shrink " + run_words + " -o chosen.json --max-trials 400 " + choose).exit_code, 0);
+  std::filesystem::remove(path("chosen.json.trials"));
+  const auto over_it = run("shrink " + run_words + " -o chosen.json --max-trials 1");
+  EXPECT_THAT(over_it.out, Not(HasSubstr("an earlier search")));
+  EXPECT_EQ(json::parse(read(path("chosen.json")))["expected"], json::parse(read(path("leads.json")))["expected"]);
   EXPECT_THAT(run("explain " + run_words + " --max-time 10 " + choose).out, StartsWith("c-" + index + ": " + other));
   const auto both = json::parse(run("findings c.db --json --max-failures 1000 --max-time 1h").out);
   std::size_t times = 0;
@@ -117,6 +124,32 @@ TEST_F(LeadingFailure, AFindingThatDoesNotLeadIsRetestedByItsOwnFailure) {
   EXPECT_THAT(same.out, AllOf(HasSubstr("  still there\n"), HasSubstr("the case fails, and "))) << same.out;
   const auto played = run("run c.toml --db d.db --replicates 1 --findings f.toml");
   EXPECT_THAT(played.err, HasSubstr("fails as it did with restart-forgets-lane: ")) << played.err;
+}
+
+// A hazardous contact is a contact, and a contact is a violation: the milder word finds it if there is none so mild.
+TEST_F(LeadingFailure, AMilderWordFindsAHeavierFailure) {
+  write("h.toml",
+        "kind = \"search\"\nreplicates = 12\nhorizon_s = 60\n[factors]\nagents = [\"reckless\"]\nlayouts = "
+        "[\"random-planar\"]\nfleet_sizes = [3]\n");
+  ASSERT_TRUE(test::has_verdict(run("run h.toml --db h.db")));
+  std::string hazardous;
+  for (int index = 0; index < 12 && hazardous.empty(); ++index) {
+    const std::string number = std::to_string(index);
+    std::set<std::string> ends;
+    const json told = json::parse(run("replay h.db " + number + " --json").out);
+    for (const json& failure : told["failures"]) {
+      if (failure["end_point"].is_string()) ends.insert(failure["end_point"]);
+    }
+    if (ends.contains("hazardous-contact") && !ends.contains("contact") && !ends.contains("violation"))
+      hazardous = number;
+  }
+  ASSERT_NE(hazardous, "");
+  for (const std::string word : {"hazardous-contact", "contact", "violation"}) {
+    const auto shrunk = run("shrink h.db " + hazardous + " --json --max-trials 1 --failure " + word);
+    ASSERT_EQ(shrunk.exit_code, 0) << word << shrunk.err;
+    EXPECT_THAT(json::parse(shrunk.out)["failure"].get<std::string>(), StartsWith("contact at hazardous speed"))
+        << word;
+  }
 }
 
 TEST_F(LeadingFailure, AWordThatNamesNoneIsRefused) {

@@ -134,6 +134,22 @@ TEST_F(ShrinkVerb, ASmallerCaseOfTheSameFailureStays) {
   EXPECT_NE(read(path("small.json")), read(path("case.json")));
 }
 
+// What many trials in old processes have found does not fail in fresh ones: it is refused, and no file is left.
+TEST_F(ShrinkVerb, WhatDoesNotFailAgainIsNoSmallestCase) {
+  const std::size_t agvs = nlohmann::json::parse(read(path("case.json")))["agvs"].size();
+  ASSERT_GT(agvs, 2U);
+  const std::string agent = std::string(" --agent '") + FLEETPROOF_UNSTEADY_AGENT + "' --agent-config aged-" +
+                            std::to_string(agvs) + " --max-trials 300 --jobs 1";
+  for (const std::string verb : {"shrink", "explain"}) {
+    const auto refused = run(verb + " case.json" + agent + (verb == "shrink" ? " -o small.json" : " --max-time 60"));
+    EXPECT_EQ(refused.exit_code, 2) << verb << refused.out;
+    EXPECT_THAT(refused.err, HasSubstr("has no smaller case that always fails so: 0 of 10 repetitions")) << verb;
+    EXPECT_THAT(refused.err, HasSubstr("Its agent does not always do the same")) << verb;
+  }
+  for (const char* left : {"small.json", "small.json.trials"})
+    EXPECT_FALSE(std::filesystem::exists(path(left))) << left;
+}
+
 // As if the software had failed with another pair in the campaign.
 TEST_F(ShrinkVerb, AnotherFailureThanTheStoredOneIsRefused) {
   sqlite3* db = nullptr;
