@@ -248,6 +248,35 @@ std::string meet_agent(const std::string& word, std::vector<std::string>& plugin
   return name;
 }
 
+void add_computer_option(Options& options, std::vector<std::string>& programs) {
+  options.option(
+      "--computer", programs,
+      "program of a computer of the scenario, as server=zone-server; the name may be left out if there is one "
+      "computer (default: the scenario file's); may be repeated");
+}
+
+void take_computer_programs(Scenario& scenario, const std::vector<std::string>& programs, std::string_view what) {
+  std::vector<std::string_view> names;
+  for (const ComputerSetup& computer : scenario.computers) names.emplace_back(computer.name);
+  for (const std::string& word : programs) {
+    if (names.empty())
+      throw InputError("--computer",
+                       fmt::format("{} has no computer, so {} serves nobody; leave it out", what, in_quotes(word)));
+    const std::size_t sign = word.find('=');
+    if (sign == std::string::npos && names.size() > 1)
+      throw InputError("--computer", fmt::format("{} has {} computers; say which one runs {}: --computer {}={}", what,
+                                                 names.size(), in_quotes(word), names[0], word));
+    const std::string name = sign == std::string::npos ? std::string(names[0]) : word.substr(0, sign);
+    const auto computer = std::ranges::find(scenario.computers, name, &ComputerSetup::name);
+    if (computer == scenario.computers.end())
+      throw InputError("--computer",
+                       fmt::format("{} has no computer {}{}", what, in_quotes(name), name_hint(name, names)));
+    computer->agent = sign == std::string::npos ? word : word.substr(sign + 1);
+    if (computer->agent.empty())
+      throw InputError("--computer", fmt::format("{} names no program; write {}=PROGRAM", in_quotes(word), name));
+  }
+}
+
 std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<std::string>& plugins,
                                          AgentPrograms& programs, MeetPlugin meet, bool global_symbols) {
   std::vector<ComputerPart> parts;
@@ -260,7 +289,8 @@ std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<s
     if (!is_path_of_object(computer.agent)) {
       if (std::ranges::find(programs.all(), computer.agent, &AgentProgram::name) == programs.all().end())
         throw InputError("--plugin",
-                         fmt::format("the computer {} runs {}, which is not built in; name its shared object",
+                         fmt::format("the computer {} runs {}, which is not built in; name its shared object, or "
+                                     "another program with --computer",
                                      in_quotes(computer.name), in_quotes(computer.agent)));
       continue;
     }

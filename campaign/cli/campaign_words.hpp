@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "campaign/cli/command_line.hpp"
@@ -47,6 +48,12 @@ void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentF
 // all of them are met, with RTLD_GLOBAL if they need `global_symbols`. Throws what `meet` throws.
 std::string meet_agent(const std::string& word, std::vector<std::string>& plugins, AgentPrograms& programs,
                        MeetPlugin meet, bool global_symbols);
+// The option --computer, of verbs that take scenario files: the programs of their computers, as NAME=PROGRAM; PROGRAM
+// alone for the only one.
+void add_computer_option(Options& options, std::vector<std::string>& programs);
+// Puts those programs, names or paths of shared objects, in the place of those that the scenario names. Throws
+// InputError if `what`, a file or a finding, has no such computer.
+void take_computer_programs(Scenario& scenario, const std::vector<std::string>& programs, std::string_view what);
 // Of each computer for which the scenario file names a program: that program, met as meet_agent does.
 std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<std::string>& plugins,
                                          AgentPrograms& programs, MeetPlugin meet, bool global_symbols);

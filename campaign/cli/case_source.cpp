@@ -53,6 +53,7 @@ CaseSource of_file(const CaseWords& words, AgentPrograms& programs) {
                  fmt::format("name a run of it: fleetproof {} {} RUN", words.verb, shell_word(words.source)));
   CaseSource source;
   source.scenario = read_case_file(words.source);
+  take_computer_programs(source.scenario, words.computers, words.source);
   source.name = std::filesystem::path(words.source).stem().string();
   std::vector<std::string> plugins = words.plugins;
   const std::string& named = words.agent.empty() ? source.scenario.agent : words.agent;
@@ -91,6 +92,7 @@ void add_case_options(Options& options, CaseWords& words) {
   add_failure_option(options, words.failure);
   options.option("--plugin", words.plugins,
                  "shared object with the agent (default: the file that the campaign used); may be repeated");
+  add_computer_option(options, words.computers);
   add_symbols_option(options, words.global_symbols);
 }
 
@@ -99,6 +101,8 @@ CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
   const bool is_run = !words.run.empty();
   if (is_run && (!words.agent.empty() || !words.config.empty()))
     throw InputError("--agent", "a run has its agent and its configuration; leave --agent and --agent-config out");
+  if (is_run && !words.computers.empty())
+    throw InputError("--computer", "the campaign names the programs of the computers of a run; leave it out");
   if (is_run && words.global_symbols)
     throw InputError("--global-symbols", "the campaign says which symbols the agent of a run needs; leave it out");
   CaseSource source = is_run ? of_run(words, programs) : of_file(words, programs);

@@ -18,7 +18,8 @@ struct CaseWords {
   std::string agent, config;  // of a scenario file that names none
   std::string failure;        // which failure of the run; empty: the one that leads
   std::vector<std::string> plugins;
-  bool global_symbols = false;  // of a scenario file
+  std::vector<std::string> computers;  // of a scenario file: programs of its computers, as NAME=PROGRAM
+  bool global_symbols = false;         // of a scenario file
 };
 void add_case_options(Options& options, CaseWords& words);
 

@@ -26,7 +26,7 @@ constexpr std::uint64_t kMostNeighbours = 1'000'000;
 
 struct RetestWords {
   std::string file, agent, config;
-  std::vector<std::string> plugins, ids;
+  std::vector<std::string> plugins, computers, ids;
   std::optional<std::uint64_t> jobs, neighbours;
   bool bisect = false, json = false, global_symbols = false;
 };
@@ -163,10 +163,12 @@ int retest_findings(const RetestWords& words) {
   const auto findings = chosen(file, words.ids);
   for (const KnownIssue* finding : findings) {
     failures.push_back(file.failure(*finding));
+    take_computer_programs(failures.back().smallest, words.computers, finding->id);
     const std::string config = words.config.empty() ? failures.back().smallest.agent_config : words.config;
     CaseAgent of_case{agent, config, finding->laws_left_out, finding->limits};
     of_case.computers =
         computer_parts(failures.back().smallest, plugins, programs, &AgentPrograms::know, words.global_symbols);
+    programs.require_computers(factor_of(of_case), failures.back().smallest, finding->id + ": ");
     host_of.push_back(&hosts.of(of_case));
   }
   std::vector<Retested> all;
@@ -218,9 +220,11 @@ int retest_or_skip(const RetestWords& words) {
 Action prepare_retest(Options& options) {
   auto words = std::make_shared<RetestWords>();
   options.positional("FINDINGS", words->file, "findings file, with the scenario files that it names");
-  options.option("--agent", words->agent, "the control software to test: a name, or a shared object");
+  options.option("--agent", words->agent,
+                 "the control software to test: a name, or a shared object; of a central fleet, the program on board");
   options.option("--agent-config", words->config, "text handed to the agent (default: as when the finding was found)");
   options.option("--plugin", words->plugins, "shared object with the agent; may be repeated");
+  add_computer_option(options, words->computers);
   add_symbols_option(options, words->global_symbols);
   options.option("--finding", words->ids, "only this finding, as F-1c2d3e4f; may be repeated");
   options.option("--neighbours", words->neighbours,

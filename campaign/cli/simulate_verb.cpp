@@ -35,7 +35,7 @@ namespace {
 
 struct SimulateWords {
   std::string scenario, agent, law, config;
-  std::vector<std::string> plugins;
+  std::vector<std::string> plugins, computers;
   std::string granularity;
   std::optional<std::uint64_t> draw, radio_draw;
   ObserverWords observed;
@@ -275,6 +275,7 @@ Scenario with_draws(const SimulateWords& words, Scenario scenario) {
 ReplayWords page_words(const SimulateWords& words) {
   std::string command = "fleetproof simulate " + shell_word(words.scenario) + " --agent " + shell_word(words.agent);
   for (const std::string& plugin : words.plugins) command += " --plugin " + shell_word(plugin);
+  for (const std::string& computer : words.computers) command += " --computer " + shell_word(computer);
   if (words.global_symbols) command += " --global-symbols";
   if (!words.config.empty()) command += " --agent-config " + shell_word(words.config);
   if (words.law != judge_of_violations().name) command += " --law " + shell_word(words.law);
@@ -287,6 +288,7 @@ ReplayWords page_words(const SimulateWords& words) {
 int simulate_scenario(SimulateWords words) {
   refuse_results(words.scenario, fmt::format("name a run of it: fleetproof replay {} RUN", shell_word(words.scenario)));
   Scenario scenario = with_draws(words, read_case_file(words.scenario));
+  take_computer_programs(scenario, words.computers, words.scenario);
   if (!words.granularity.empty()) scenario.law.snapshot_s = granularity_s(words.granularity);
   AgentPrograms programs;
   const bool names_agent = words.agent.empty() && !scenario.agent.empty();
@@ -360,6 +362,7 @@ Action prepare_simulate(Options& options) {
   options.option("--agent-config", words->config,
                  "text handed to the agent as its own parameters (default: the scenario file's)");
   options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
+  add_computer_option(options, words->computers);
   add_symbols_option(options, words->global_symbols);
   options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");
   options.option("--granularity", words->granularity,

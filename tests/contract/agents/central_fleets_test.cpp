@@ -233,5 +233,31 @@ TEST_F(CentralFleet, OfAScenarioFileNamesTheProgramsOfItsComputers) {
       << "another program on board";
 }
 
+// A new server in an old case, as a program of its own.
+TEST_F(CentralFleet, OfACaseMayHaveOtherProgramsOnItsComputers) {
+  campaign(central("late"), "", 4);
+  run("run c.toml --db c.db");
+  run("replay c.db 0 --scenario s.json");
+  ASSERT_EQ(shell("cp \"" + kCentral + "\" new.so").exit_code, 0);
+  const auto digest = [](const std::string& text) { return text.substr(text.find("trace digest"), 29); };
+  const std::string before = run("simulate s.json --agent reckless --plugin " + kCentral).out;
+  for (const char* computer : {"./new.so", "server=./new.so"})
+    EXPECT_EQ(digest(run("simulate s.json --agent reckless --computer " + std::string(computer)).out), digest(before));
+  const auto refusal = [&](const std::string& command) {
+    const test::Finished refused = run(command);
+    EXPECT_EQ(refused.exit_code, 2) << command;
+    return refused.err;
+  };
+  EXPECT_THAT(refusal("simulate s.json --agent reckless --computer servre=./new.so"),
+              HasSubstr("--computer: s.json has no computer \"servre\"; did you mean \"server\"?"));
+  EXPECT_THAT(refusal("shrink s.json --agent reckless --computer server="), HasSubstr("names no program"));
+  EXPECT_THAT(refusal("explain c.db 0 --computer server=./new.so"), HasSubstr("the campaign names the programs"));
+  ASSERT_EQ(run("findings c.db --file f.toml --add --max-failures 1 --max-trials 200").exit_code, 0);
+  EXPECT_NE(run("retest f.toml --agent " + kCentral + " --neighbours 40").exit_code, 2);
+  EXPECT_THAT(refusal("retest f.toml --agent ./new.so --computer server=hull-lock"),
+              HasSubstr("\"hull-lock\" does not serve computers"));
+  EXPECT_THAT(refusal("retest f.toml --agent ./new.so --computer master=hull-lock"), HasSubstr("has no computer"));
+}
+
 }  // namespace
 }  // namespace fleetproof::central_fleets_test
