@@ -10,11 +10,11 @@
 namespace fleetproof::agents::central {
 namespace {
 
-constexpr double kLead_s = 10.0;     // so long before its way ends, an AGV gets more of it
-constexpr double kSection_m = 24.0;  // a section that is as long need not be longer
-constexpr double kMostOfASection_m = 40.0;
-constexpr double kPlanAgain_s = 2.0;  // after so long, an AGV that waits may find another way
-constexpr double kLookAgain_s = 1.0;  // and so long it does not ask others again to make way
+constexpr double kLead_s = 10.0;            // so long before its way ends, an AGV gets more of it
+constexpr double kSection_m = 12.0;         // a section that is as long need not be longer
+constexpr double kMostOfASection_m = 18.0;  // on the way to a waiting place; then it ends where it blocks least
+constexpr double kPlanAgain_s = 2.0;        // after so long, an AGV that waits may find another way
+constexpr double kLookAgain_s = 1.0, kAskAgain_s = 2.0;
 // So long others may pass before an AGV that waits; then its floor is kept free.
 constexpr double kKeepsFreeAfter_s = 20.0;
 // An AGV that waits for so long itself makes way for an older one, and so long it waits before an older one makes way.
@@ -47,8 +47,7 @@ FleetPlanner::FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook
       settings_(settings),
       options_(options),
       places_(map, geometry),
-      tasks_(book.fleet_count()),
-      pushed_(book.fleet_count()) {
+      tasks_(book.fleet_count()) {
   for (std::uint32_t agv = 0; agv < book.fleet_count(); ++agv) {
     const std::uint32_t number = agents::model_of(geometry.parts().facts(), agv);
     auto& model = models_[number];
@@ -59,7 +58,16 @@ FleetPlanner::FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook
 
 // ---- work
 
-void FleetPlanner::begin(std::uint32_t agv) { tasks_[agv] = {}; }
+// What its former self was to pick, another AGV may pick now.
+void FleetPlanner::begin(std::uint32_t agv) {
+  tasks_[agv] = {};
+  for (OpenOrder& open : open_) {
+    if (open.agv == agv) open.agv = FP_NONE;
+    if (open.order.id != book_.way(agv).first_load) continue;
+    open.agv = agv;
+    tasks_[agv].goals.push_back({open.order.to, {Step::Kind::Drop, open.order.id}});
+  }
+}
 
 void FleetPlanner::take_orders(std::uint32_t agv, std::uint32_t first, std::span<const Order> orders) {
   Task& task = tasks_[agv];
@@ -70,6 +78,63 @@ void FleetPlanner::take_orders(std::uint32_t agv, std::uint32_t first, std::span
     task.goals.push_back({order.to, {Step::Kind::Drop, order.id}});
     ++task.orders;
   }
+}
+
+void FleetPlanner::take_open_order(const Order& order) { open_.push_back({order}); }
+
+void FleetPlanner::withdraw(std::uint32_t order) {
+  const auto open = std::ranges::find(open_, order, [](const OpenOrder& o) { return o.order.id; });
+  if (open == open_.end()) return;
+  if (open->agv != FP_NONE) {
+    Task& task = tasks_[open->agv];
+    const Step pick{Step::Kind::Pick, order};
+    if (std::ranges::find(task.goals, pick, &Goal::step) == task.goals.end()) return;
+    std::erase_if(task.goals,
+                  [&](const Goal& goal) { return goal.step.what == order && goal.step.kind != Step::Kind::Charge; });
+    task.wanted.reset();
+  }
+  open_.erase(open);
+}
+
+// The oldest first, each to the AGV that is there first. An AGV has at most the load on board to deliver before.
+void FleetPlanner::assign_open_orders() {
+  std::erase_if(open_, [&](const OpenOrder& open) { return open.agv != FP_NONE && !is_under_way(open); });
+  for (OpenOrder& open : open_) {
+    if (open.agv != FP_NONE) continue;
+    open.agv = quickest_free_agv(open.order.from);
+    if (open.agv == FP_NONE) continue;
+    auto& goals = tasks_[open.agv].goals;
+    goals.push_back({open.order.from, {Step::Kind::Pick, open.order.id}});
+    goals.push_back({open.order.to, {Step::Kind::Drop, open.order.id}});
+  }
+}
+
+// What is neither a goal nor a granted step is done, or turned out to be impossible.
+bool FleetPlanner::is_under_way(const OpenOrder& open) const {
+  const auto is_part = [&](const Step& step) {
+    return (step.kind == Step::Kind::Pick || step.kind == Step::Kind::Drop) && step.what == open.order.id;
+  };
+  return std::ranges::any_of(tasks_[open.agv].goals, is_part, &Goal::step) ||
+         std::ranges::any_of(book_.way(open.agv).steps, is_part);
+}
+
+std::uint32_t FleetPlanner::quickest_free_agv(std::uint32_t station) const {
+  std::uint32_t best = FP_NONE;
+  double best_s = INFINITY;
+  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
+    const Task& task = tasks_[agv];
+    const FloorBook::Way& way = book_.way(agv);
+    const bool delivers = task.goals.size() == 1 && task.goals.front().step.kind == Step::Kind::Drop;
+    if (task.charging || way.out_of_order || settings_.is_low(way.battery) || !(task.is_idle() || delivers)) continue;
+    const auto cost_s = [&](std::uint32_t from, std::uint32_t to) {
+      return double{remaining_costs_s(geometry_.parts(), model_of_[agv]->number, to)[from]};
+    };
+    const std::uint32_t end = book_.end_of_way(agv).station, last = delivers ? task.goals.front().station : end;
+    const double delivery_s = delivers ? cost_s(end, last) + kTransferTakes_s : 0.0;
+    const double takes_s = time_left_s(agv) + delivery_s + cost_s(last, station);
+    if (takes_s < best_s) best = agv, best_s = takes_s;
+  }
+  return best;
 }
 
 bool FleetPlanner::carries_load(std::uint32_t agv) const {
@@ -98,7 +163,7 @@ void FleetPlanner::plan(std::int64_t now_ns) {
   if (!book_.all_joined()) return;
   now_ns_ = now_ns;
   reserved_.clear();
-  pushed_.assign(pushed_.size(), false);
+  assign_open_orders();
   for (const std::uint32_t agv : by_age()) plan_for(agv);
 }
 
@@ -400,13 +465,14 @@ void FleetPlanner::wait(std::uint32_t agv) {
 
 void FleetPlanner::push(std::uint32_t agv, const Need& by, int depth) {
   Task& task = tasks_[agv];
-  if (pushed_[agv] || book_.way(agv).out_of_order) return;
+  if (book_.way(agv).out_of_order) return;
+  if (task.asked_ns >= 0 && seconds(now_ns_ - task.asked_ns) < kAskAgain_s) return;
   if (task.charging && !settings_.is_enough(book_.way(agv).battery)) return;
   const double waits_s = task.is_idle() ? INFINITY : task.since_ns < 0 ? 0.0 : seconds(now_ns_ - task.since_ns);
   const double asked_s = seconds(now_ns_ - tasks_[by.agv].since_ns);
   const bool insists = asked_s > kInsists_s;
   if (waits_s < kYields_s || (!task.is_idle() && is_older(agv, by.agv) && !insists)) return;
-  pushed_[agv] = true;
+  task.asked_ns = now_ns_;
   if (!task.is_idle() && is_older(agv, by.agv))
     task.stands_back_ns = now_ns_ + static_cast<std::int64_t>(kStandsBack_s * 1e9);
   evade(agv, &by, depth);

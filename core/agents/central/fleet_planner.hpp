@@ -53,6 +53,11 @@ struct Obstruction {
   bool lasts = false;  // one of those in the way stands and waits, or is out of order
 };
 
+struct OpenOrder {
+  Order order;
+  std::uint32_t agv = FP_NONE;  // the one that is to carry it out
+};
+
 // The work of one AGV.
 struct Task {
   std::deque<Goal> goals;            // that nothing was granted for
@@ -61,6 +66,7 @@ struct Task {
   std::int64_t stands_back_ns = -1;  // until then it lets the others go first
   bool charging = false;             // it is at a charger, or on the last steps to one
   std::uint32_t evaded = 0;          // so often
+  std::int64_t asked_ns = -1;        // when it was asked to make way, and tried to
   std::optional<Section> wanted;     // what it needs next, while it cannot get that
   std::int64_t planned_ns = 0;       // when that was found
   Obstruction obstruction;           // why it cannot get it
@@ -79,6 +85,9 @@ class FleetPlanner {
   // Orders of this AGV, by its own numbers from `first` on. Known ones may be among them.
   void take_orders(std::uint32_t agv, std::uint32_t first, std::span<const Order> orders);
   std::uint32_t orders_of(std::uint32_t agv) const { return tasks_[agv].orders; }
+  // Open orders: of no AGV; the planner chooses one. Withdrawn: over, unless its pick has been granted already.
+  void take_open_order(const Order& order);
+  void withdraw(std::uint32_t order);
   // Grants what can be granted now.
   void plan(std::int64_t now_ns);
 
@@ -97,6 +106,9 @@ class FleetPlanner {
     Path path;
   };
 
+  void assign_open_orders();
+  bool is_under_way(const OpenOrder& open) const;
+  std::uint32_t quickest_free_agv(std::uint32_t station) const;
   std::vector<std::uint32_t> by_age() const;
   bool is_older(std::uint32_t a, std::uint32_t b) const;
   void plan_for(std::uint32_t agv);
@@ -128,10 +140,10 @@ class FleetPlanner {
   std::map<std::uint32_t, std::unique_ptr<Model>> models_;
   std::vector<Model*> model_of_;  // by AGV
   std::vector<Task> tasks_;       // by AGV
+  std::vector<OpenOrder> open_;   // not done, the oldest first
   // Of the present call.
   std::int64_t now_ns_ = 0;
   std::vector<Need> reserved_;  // floor that is kept free for AGVs that have waited long
-  std::vector<bool> pushed_;    // by AGV
 };
 
 }  // namespace fleetproof::agents::central

@@ -42,7 +42,7 @@ void Follower::on_event(const fp_event& event) {
       start();
       break;
     case FP_EVENT_ORDER:
-      orders_.push_back({{event.order_id, event.from, event.to}});
+      orders_.push_back({{event.order_id, event.from, event.to}, controller_.order_on_board() == event.order_id});
       break;
     case FP_EVENT_MESSAGE:
       controller_.drain_inbox([&](std::uint32_t sender, std::span<const std::byte> bytes) {
@@ -120,7 +120,8 @@ void Follower::begin_way() {
   way_.heading = held_.heading;
   way_.known = way_.done = 0;
   way_.load = controller_.order_on_board();
-  std::erase_if(orders_, [](const OwnOrder& own) { return own.done; });
+  // Its former self may have put down a load that was still on board when the orders came.
+  std::erase_if(orders_, [&](const OwnOrder& own) { return own.done || (own.on_board && own.order.id != way_.load); });
   orders_told_ = 0;
 }
 

@@ -35,6 +35,7 @@ class Follower {
   enum class Phase : std::uint8_t { Lost, Ending, OnWay };
   struct OwnOrder {
     Order order;
+    bool on_board = false;  // when it came: after a restart
     bool done = false;
   };
 

@@ -32,6 +32,8 @@ void ZoneServer::on_event(const fp_event& event) {
         [&](std::uint32_t sender, std::span<const std::byte> bytes) { news = hear(sender, bytes) || news; });
     if (news) plan();
   }
+  // An order of no AGV comes to the server; after a restart again, until it is done.
+  if (event.kind == FP_EVENT_ORDER) planner_.take_open_order({event.order_id, event.from, event.to});
   if (event.kind == FP_EVENT_START || event.kind == FP_EVENT_TIMER) tick();
 }
 
