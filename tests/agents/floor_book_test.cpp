@@ -61,14 +61,14 @@ class FloorBookInARow : public ::testing::Test {
 };
 
 TEST_F(FloorBookInARow, GrantsNothingBeforeAllHaveJoined) {
-  book.hear(0, standing(0));
-  EXPECT_FALSE(grant(0, {row.lane(0, 1)}));
-  State moves = standing(4);
-  moves.stands = false;
-  EXPECT_EQ(book.hear(1, moves), News::None);
-  EXPECT_FALSE(grant(0, {row.lane(0, 1)})) << "the other AGV does not rest yet";
   book.hear(1, standing(4));
-  EXPECT_TRUE(grant(0, {row.lane(0, 1)}));
+  EXPECT_FALSE(grant(1, {row.lane(4, 3)}));
+  State moves = standing(0);
+  moves.stands = false;
+  EXPECT_EQ(book.hear(0, moves), News::None);
+  EXPECT_FALSE(grant(1, {row.lane(4, 3)})) << "the other AGV does not rest yet";
+  book.hear(0, standing(0));
+  EXPECT_TRUE(grant(1, {row.lane(4, 3)}));
 }
 
 TEST_F(FloorBookInARow, GrantsEachFloorToOneAgv) {
@@ -111,6 +111,7 @@ TEST_F(FloorBookInARow, ARestartedAgvBeginsAWayWhereItStands) {
   EXPECT_EQ(book.hear(0, again), News::Joined);
   EXPECT_EQ(book.number_of(0), (WayNumber{0, 1}));
   EXPECT_TRUE(book.way(0).steps.empty());
+  EXPECT_TRUE(grant(0, {row.lane(1, 0)}));
   EXPECT_EQ(hear_of(2, 2, 9), News::None) << "a late message of its former self";
   EXPECT_EQ(book.way(0).held.station, 1U);
   EXPECT_TRUE(grant(1, {row.lane(4, 3), row.lane(3, 2)}));
