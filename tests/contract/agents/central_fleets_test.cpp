@@ -178,6 +178,25 @@ TEST_F(CentralFleet, KeepsItsFaultsInASavedCase) {
   EXPECT_THAT(run("explain c.db " + failing + " --max-time 20").out, HasSubstr("AGV"));
 }
 
+// The reference pair, and the same from a shared object.
+TEST_F(CentralFleet, RunsTheSameFromASharedObject) {
+  std::string both = FLEETPROOF_PLUGIN;
+  both.replace(both.find("agents_plugin"), std::string_view("agents_plugin").size(), "central_plugin");
+  const auto runs_of = [&](const std::string& vehicle, const std::string& computer, const std::string& db) {
+    campaign("{ vehicle = \"" + vehicle + "\", computer = \"" + computer + "\", name = \"pair\" }", "", 20);
+    run("run c.toml --db " + db);
+    std::vector<std::string> found = rows(db, "pair");
+    // The digest of the run is the last column that is compared: that of the scenario names the programs.
+    for (std::string& row : found) {
+      for (int column = 0; column < 5; ++column) row.erase(row.rfind(','));
+    }
+    return found;
+  };
+  const auto built_in = runs_of("follower", "zone-server", "built-in.db");
+  EXPECT_EQ(built_in.size(), 20U);
+  EXPECT_EQ(built_in, runs_of(both, both, "object.db"));
+}
+
 TEST_F(CentralFleet, RefusesWhatCannotBe) {
   const auto refusal = [&](const std::string& agents, const std::string& more = "") {
     campaign(agents, more);
@@ -187,6 +206,8 @@ TEST_F(CentralFleet, RefusesWhatCannotBe) {
   };
   EXPECT_THAT(refusal(R"({ vehicle = "reckless", computer = "hull-lock" })"),
               HasSubstr("\"hull-lock\" does not serve computers"));
+  EXPECT_THAT(refusal(R"({ vehicle = "follower", computer = "follower" })"),
+              HasSubstr("\"follower\" does not serve computers"));
   EXPECT_THAT(refusal(R"({ vehicle = "reckless" })"), HasSubstr("either computer = "));
   EXPECT_THAT(refusal(R"({ computer = "reckless" })"), HasSubstr("vehicle = "));
   EXPECT_THAT(refusal("{ vehicle = \"reckless\", computers = { masted = \"" + kCentral + "\" } }",
