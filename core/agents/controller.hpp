@@ -84,6 +84,9 @@ class Controller {
     declared_ = agv;
     host_.waiting_for(handle_, agv);
   }
+  // Of the program of a computer: which order an AGV works on, and for which other AGV it waits.
+  void works_on(std::uint32_t agv, std::uint32_t order_id) { host_.works_on(handle_, agv, order_id); }
+  void declare_waiting(std::uint32_t agv, std::uint32_t for_agv) { host_.declare_waiting(handle_, agv, for_agv); }
   void sometimes(const char* probe) { host_.sometimes(handle_, probe); }
 
   // Notes for people who look at a trace. A host of an older minor version takes none.

@@ -78,7 +78,7 @@ TEST(CameBefore, FaultsOfOthersOrLaterOnesDoNotTouchThePair) {
 TEST(CameBefore, AFaultOfAComputerTouchesEveryPair) {
   const auto cause = first_cause(run_with({violation(0, 1, 20.0)}, {fault(Fault::Kind::DiskLoss, kAgvs + 1, 17.5)}));
   EXPECT_EQ(cause->before, CameBefore::KnownFault);
-  EXPECT_EQ(fault_text(*cause, kAgvs), "2.50 s after the disk-loss of computer 1 began");
+  EXPECT_EQ(fault_text(*cause, "computer 1"), "2.50 s after the disk-loss of computer 1 began");
 }
 
 TEST(CameBefore, OfAFallenLoadNoSoftwareIsTold) {

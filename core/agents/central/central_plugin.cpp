@@ -36,7 +36,8 @@ constinit const fp_agent_type kBoth{sizeof(fp_agent_type),
                                     "zone-server on the computer, follower on board",
                                     create,
                                     on_event,
-                                    destroy};
+                                    destroy,
+                                    nullptr};
 }  // namespace
 
 extern "C" [[gnu::visibility("default")]] const fp_agent_type* fp_agent_query(uint32_t host_abi_major) {

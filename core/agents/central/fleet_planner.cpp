@@ -96,6 +96,16 @@ void FleetPlanner::withdraw(std::uint32_t order) {
   open_.erase(open);
 }
 
+std::uint32_t FleetPlanner::work_of(std::uint32_t agv) const {
+  const auto open = std::ranges::find(open_, agv, &OpenOrder::agv);
+  return open == open_.end() ? FP_NONE : open->order.id;
+}
+
+std::uint32_t FleetPlanner::waits_for(std::uint32_t agv) const {
+  const Task& task = tasks_[agv];
+  return task.wanted && book_.way(agv).is_waiting() ? task.obstruction.by : FP_NONE;
+}
+
 // The oldest first, each to the AGV that is there first. An AGV has at most the load on board to deliver before.
 void FleetPlanner::assign_open_orders() {
   std::erase_if(open_, [&](const OpenOrder& open) { return open.agv != FP_NONE && !is_under_way(open); });

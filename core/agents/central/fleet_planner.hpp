@@ -88,6 +88,9 @@ class FleetPlanner {
   // Open orders: of no AGV; the planner chooses one. Withdrawn: over, unless its pick has been granted already.
   void take_open_order(const Order& order);
   void withdraw(std::uint32_t order);
+  // The open order that an AGV is to carry out, and the AGV for which it waits; FP_NONE: none.
+  std::uint32_t work_of(std::uint32_t agv) const;
+  std::uint32_t waits_for(std::uint32_t agv) const;
   // Grants what can be granted now.
   void plan(std::int64_t now_ns);
 

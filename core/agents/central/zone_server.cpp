@@ -18,6 +18,7 @@ ZoneServer::ZoneServer(const fp_host& host, fp_controller* handle, const fp_brie
       geometry_(map_, briefing),
       book_(map_, geometry_, briefing.fleet_count, briefing.boot, options),
       planner_(map_, geometry_, book_, settings_, options),
+      declared_(briefing.fleet_count),
       owes_(briefing.fleet_count, briefing.boot > 0),
       told_(briefing.fleet_count),
       heard_ns_(briefing.fleet_count) {
@@ -33,6 +34,7 @@ void ZoneServer::on_event(const fp_event& event) {
     if (news) plan();
   }
   // An order of no AGV comes to the server; after a restart again, until it is done.
+  if (event.kind == FP_EVENT_WITHDRAWN) planner_.withdraw(event.order_id);
   if (event.kind == FP_EVENT_ORDER) planner_.take_open_order({event.order_id, event.from, event.to});
   if (event.kind == FP_EVENT_START || event.kind == FP_EVENT_TIMER) tick();
 }
@@ -87,6 +89,18 @@ void ZoneServer::plan() {
     if (told_[agv] >= book_.way(agv).granted()) continue;
     controller_.sometimes("grant");
     send(agv);
+  }
+  declare();
+}
+
+// For results: whose work an open order is before its load is picked, and who is to blame if an AGV stands.
+void ZoneServer::declare() {
+  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
+    const Declared now{planner_.work_of(agv), planner_.waits_for(agv)};
+    Declared& known = declared_[agv];
+    if (now.work != known.work) controller_.works_on(agv, now.work);
+    if (now.waits_for != known.waits_for) controller_.declare_waiting(agv, now.waits_for);
+    known = now;
   }
 }
 

@@ -36,6 +36,7 @@ class ZoneServer {
   bool is_possible(std::uint32_t sender, const State& state) const;
   void plan();
   void send(std::uint32_t agv);
+  void declare();
 
   ServerOptions options_;
   Controller controller_;
@@ -45,6 +46,10 @@ class ZoneServer {
   HullGeometry geometry_;
   FloorBook book_;
   FleetPlanner planner_;
+  struct Declared {
+    std::uint32_t work = FP_NONE, waits_for = FP_NONE;
+  };
+  std::vector<Declared> declared_;      // by AGV
   std::vector<bool> owes_;              // by AGV: an answer to what it told
   std::vector<std::uint32_t> told_;     // by AGV: so many steps were sent at least once
   std::vector<std::int64_t> heard_ns_;  // by AGV: when; only a faulty server looks
