@@ -49,17 +49,20 @@ AgentFactor sound_of(const CampaignPlan& plan) {
 }
 
 // The same with the faulty agent in the place of its original. None: it is a copy of nothing there.
-std::optional<AgentFactor> with_fault(AgentFactor agent, const fp_agent_type& faulty) {
-  const std::string original = fp_sound_agent(&faulty)->name;
+std::optional<AgentFactor> with_fault(AgentFactor agent, const std::string& name) {
+  const std::vector<const fp_agent_type*> all = faulty_agents();
+  const auto faulty = std::ranges::find(all, name, &fp_agent_type::name);
+  if (faulty == all.end()) return std::nullopt;
+  const std::string original = fp_sound_agent(*faulty)->name;
   bool replaced = false;
   const auto replace = [&](ProgramPart& part) {
     if (part.program != original) return;
-    part.program = faulty.name;
+    part.program = name;
     replaced = true;
   };
   replace(agent);
   for (ComputerPart& part : agent.computers) replace(part);
-  agent.name = faulty.name;
+  agent.name = name;
   return replaced ? std::optional(agent) : std::nullopt;
 }
 
@@ -154,7 +157,7 @@ std::vector<std::string> faulty_agent_names(const CampaignPlan& plan) {
   const AgentFactor sound = sound_of(plan);
   std::vector<std::string> names;
   for (const fp_agent_type* faulty : faulty_agents()) {
-    if (with_fault(sound, *faulty)) names.emplace_back(faulty->name);
+    if (with_fault(sound, faulty->name)) names.emplace_back(faulty->name);
   }
   return names;
 }
@@ -171,12 +174,8 @@ Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& p
   }
   Sensitivity result;
   result.sound = tally_of(with_agent(plan, sound), programs, options, false);
-  for (const fp_agent_type* faulty : faulty_agents()) {
-    const auto agent = with_fault(sound, *faulty);
-    const bool asked_for =
-        options.agents.empty() || std::ranges::find(options.agents, faulty->name) != options.agents.end();
-    if (!agent || !asked_for) continue;
-    const CampaignPlan worlds = with_agent(plan, *agent);
+  for (const std::string& name : options.agents.empty() ? known : options.agents) {
+    const CampaignPlan worlds = with_agent(plan, with_fault(sound, name).value());
     const bool until_violation = result.sound.all.with(kAccusedOfViolation) == 0;
     AgentTally tally = tally_of(worlds, programs, options, until_violation);
     if (is_over(options)) break;  // not all of its runs are there

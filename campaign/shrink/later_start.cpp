@@ -9,9 +9,12 @@
 namespace fleetproof {
 namespace {
 
+// A file knows one zero only, and agents may send a heading as it is.
+Vec2 as_in_a_file(const Vec2& heading) { return heading + Vec2::Zero(); }
+
 void start_at(AgvSetup& agv, StationId station, const Vec2& heading) {
   agv.start = station;
-  agv.heading = heading;
+  agv.heading = as_in_a_file(heading);
 }
 
 // An AGV that has arrived looks where it sets out to next: it need not turn first.
@@ -19,7 +22,7 @@ void place(AgvSetup& setup, AgvId agv, const Itinerary& itinerary, SimTime t, Be
   for (const Departure& departure : itinerary.departures) {
     if (departure.agv != agv) continue;
     if (departure.at > t) {
-      if (setup.start == departure.from) setup.heading = departure.heading;
+      if (setup.start == departure.from) setup.heading = as_in_a_file(departure.heading);
       return;
     }
     const bool behind = departure.arrives > t && between == Between::Behind;

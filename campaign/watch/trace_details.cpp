@@ -74,6 +74,10 @@ std::string order_text(const TraceRecord& record) {
   return work.valid() ? number(work) : "nothing";
 }
 
+std::string waiting_text(const traced::WaitingFor& waiting, const Scenario& scenario) {
+  return waiting.agv.valid() ? body_name(scenario, waiting.agv) : "nobody";
+}
+
 std::string kept_text(const traced::Kept& kept) {
   return kept.size == 0 ? fmt::format("record {} no more", kept.number)
                         : fmt::format("record {}, {} bytes", kept.number, kept.size);
@@ -156,10 +160,8 @@ std::string trace_details(const TraceRecord& record, std::string_view text, cons
       return read<traced::StoppedByAgent>(record).on ? "begins" : "ends";
     case TraceKind::Kept:
       return kept_text(read<traced::Kept>(record));
-    case TraceKind::WaitingFor: {
-      const auto waiting = read<traced::WaitingFor>(record);
-      return waiting.agv.valid() ? body(waiting.agv) : "nobody";
-    }
+    case TraceKind::WaitingFor:
+      return waiting_text(read<traced::WaitingFor>(record), scenario);
     case TraceKind::LoadMoves: {
       const auto [load, to] = read<traced::LoadMoves>(record);
       return fmt::format("{} {}", load.value, holder_text(scenario, to));

@@ -47,9 +47,9 @@ std::string end_words(WorkerState state, const WorkerDeath& death, const WorkerS
 
 std::string call_words(const CallNote& call) {
   if (call.number.load() == 0) return "before the first call of an agent";
-  constexpr std::array kEvents{"event start", "event order",       "event message",
-                               "event timer", "event action done", "event fault"};
-  static_assert(FP_EVENT_START == 0 && FP_EVENT_FAULT == kEvents.size() - 1);
+  constexpr std::array kEvents{"event start",       "event order", "event message",  "event timer",
+                               "event action done", "event fault", "event withdrawn"};
+  static_assert(FP_EVENT_START == 0 && FP_EVENT_WITHDRAWN == kEvents.size() - 1);
   constexpr std::uint32_t kLastEvent = kEvents.size() - 1;
   const std::uint32_t event = call.event.load();
   const char* const called = event == CallNote::kDestroy      ? "destroy()"

@@ -48,13 +48,13 @@ std::optional<bool> LaneConflicts::answer(const fp_occupancy& a, const fp_occupa
   if (!first || !second || !(margin_m >= 0.0 && margin_m <= kLargestMargin_m)) return std::nullopt;
   if (margin_m != margin_m_ || answers_.size() >= kMostAnswers) answers_.clear();
   margin_m_ = margin_m;
-  const auto [known, is_new] = answers_.try_emplace({std::min(*first, *second), std::max(*first, *second)});
-  if (is_new) {
-    if (sweeps_.size() >= kMostSweeps) sweeps_.clear();
-    const Sweep& one = sweep_of(*first, a);
-    known->second = may_come_closer(one, sweep_of(*second, b), safety_distance_m_ + margin_m);
-  }
-  return known->second;
+  const std::array pair{std::min(*first, *second), std::max(*first, *second)};
+  if (const auto known = answers_.find(pair); known != answers_.end()) return known->second;
+  if (sweeps_.size() >= kMostSweeps) sweeps_.clear();
+  const Sweep& one = sweep_of(*first, a);
+  const bool found = may_come_closer(one, sweep_of(*second, b), safety_distance_m_ + margin_m);
+  answers_.emplace(pair, found);
+  return found;
 }
 
 std::optional<LaneConflicts::Key> LaneConflicts::key_of(const fp_occupancy& occupancy) const {

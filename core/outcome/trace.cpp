@@ -97,9 +97,8 @@ const char* name_of(TraceKind kind) {
     case TraceKind::OperatorAssists:
       return "operator assists";
     case TraceKind::Appears:
-      return "appears";
     case TraceKind::Leaves:
-      return "leaves";
+      return kind == TraceKind::Appears ? "appears" : "leaves";
     case TraceKind::StoppedByAgent:
       return "stop by agent";
     case TraceKind::OrderWithdrawn:

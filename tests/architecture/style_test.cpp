@@ -35,6 +35,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"core/outcome/counters.hpp Counters", "plain data: one number for each counter"},
     {"core/scenario/radio_setup.hpp RadioSetup", "plain data: everything that a scenario says of its radio"},
     {"core/engine/agent_host.hpp AgentHost", "all that happens to agents, in one order"},
+    {"core/agents/controller.hpp Controller", "one function for each call of an agent"},
     {"core/engine/agv_controller.hpp AgvController", "one function for each call of an agent"},
     {"core/engine/engine.hpp Parts", "one member for each part of the engine"},
     {"core/outcome/outcome.hpp Outcome", "plain data: everything that a run leaves"},

@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kWrongClock = 1.02;  // clocks may run wrong by up to 1 %
 
+bool has_nothing_under_way(std::uint32_t action) {
+  return action == FP_IDLE || action == FP_PARKED || action == FP_CHARGING_NOW;
+}
+
 }  // namespace
 
 Follower::Follower(const fp_host& host, fp_controller* handle, const fp_briefing& briefing,
@@ -19,8 +23,7 @@ Follower::Follower(const fp_host& host, fp_controller* handle, const fp_briefing
       controller_(host, handle, briefing.boot),
       facts_(briefing),
       map_(facts_.shared()),
-      settings_(read_settings(briefing.config)),
-      server_(briefing.fleet_count) {
+      settings_(read_settings(briefing.config)) {
   way_.way.agv_boot = briefing.boot;
   held_.station = briefing.start_station;
   // Its former self has begun these. What else the former self was granted, it does not know and does not use.
@@ -46,7 +49,7 @@ void Follower::on_event(const fp_event& event) {
       break;
     case FP_EVENT_MESSAGE:
       controller_.drain_inbox([&](std::uint32_t sender, std::span<const std::byte> bytes) {
-        if (sender == server_) obey(bytes);
+        if (sender == server()) obey(bytes);
       });
       break;
     case FP_EVENT_TIMER:
@@ -88,7 +91,7 @@ void Follower::tick() {
 // An AGV that a contact stopped is out of order; it may be beside the station.
 void Follower::find_place() {
   const std::uint32_t action = controller_.action();
-  const bool idle = action == FP_IDLE || action == FP_PARKED || action == FP_CHARGING_NOW;
+  const bool idle = has_nothing_under_way(action);
   const bool was_idle = seen_idle_;
   seen_idle_ = idle;
   if (!idle)
@@ -189,7 +192,7 @@ void Follower::act() {
       under_way_ = 1;
       break;
     }
-    if (steps_.front().kind != Step::Kind::Pick || controller_.action() != FP_IDLE) return;
+    if (steps_.front().kind != Step::Kind::Pick || !has_nothing_under_way(controller_.action())) return;
     finish_order(steps_.front().what);  // its load is not here
     finish_step();
   }
@@ -248,13 +251,14 @@ void Follower::report() {
     state.orders.push_back(orders_[i].order);
   controller_.describe(
       ("STATE: " + std::to_string(way_.done) + " of " + std::to_string(way_.known) + " steps").c_str());
-  controller_.send(encode(state), server_);
+  controller_.send(encode(state), server());
 }
 
 const char* Follower::activity() const {
   if (phase_ == Phase::Lost) return "finding its place";
   if (under_way_ > 0) return name_of(steps_.front().kind);
-  return orders_.empty() || orders_.back().done ? "idle" : "waiting";
+  const bool has_work = controller_.order_on_board() != FP_NONE || (!orders_.empty() && !orders_.back().done);
+  return has_work ? "waiting" : "idle";
 }
 
 void* create_follower(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,

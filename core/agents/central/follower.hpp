@@ -52,6 +52,7 @@ class Follower {
   bool begin(const Step& step);
   bool is_needless(const Step& transfer);
   void roll_on();
+  std::uint32_t server() const { return facts_.shared().fleet_count; }
   bool is_restarted() const { return way_.way.agv_boot > 0; }
   void finish_step();
   void finish_order(std::uint32_t id);
@@ -63,7 +64,6 @@ class Follower {
   Facts facts_;
   MapView map_;
   Settings settings_;
-  std::uint32_t server_;  // its number
 
   Phase phase_ = Phase::Lost;
   bool seen_idle_ = false;          // Lost: at the last look, and no action has ended since

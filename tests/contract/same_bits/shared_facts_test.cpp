@@ -4,6 +4,8 @@
 #include <string>
 
 #include "campaign/run/agent_programs.hpp"
+#include "core/agents/agents.h"
+#include "core/engine/fleet_software.hpp"
 #include "core/engine/simulation.hpp"
 #include "laws/laws.hpp"
 #include "tests/support/hard_world.hpp"
@@ -23,10 +25,18 @@ Scenario hard_scenario(std::uint64_t seed, FamilyRange family) {
   return scenario;
 }
 
-Outcome outcome_of(const Scenario& scenario, const fp_agent_type& agent, bool share_facts) {
+// On board, with a zone-server if it is a follower; or on a computer, with followers.
+Outcome outcome_of(Scenario scenario, const fp_agent_type& agent, bool share_facts) {
   RunWatch watch;
   watch.share_facts = share_facts;
-  return simulate(scenario, agent, make_default_laws(scenario), nullptr, "", watch);
+  const AgentPrograms programs;
+  const fp_agent_type &server = programs.find("zone-server", ""), &follower = programs.find("follower", "");
+  const bool serves = serves_computers(agent), follows = &agent == &follower || fp_sound_agent(&agent) == &follower;
+  FleetSoftware software({&agent, ""}, {});
+  if (serves) software = FleetSoftware({&follower, ""}, {{&agent, ""}});
+  if (follows) software = FleetSoftware({&agent, ""}, {{&server, ""}});
+  if (serves || follows) scenario.computers.push_back({.name = "server"});
+  return simulate(scenario, software, make_default_laws(scenario), nullptr, watch);
 }
 
 TEST(SharedFacts, EveryAgentOfTheProgramDoesTheSameWithAndWithoutThem) {
