@@ -81,6 +81,40 @@ TEST_F(UserPages, APlantOfOnesOwnIsDemonstratedAsThePageSays) {
   EXPECT_EQ(shown, 2U);
 }
 
+// The commands are typed in the folder of the sources: here one that has what they name.
+TEST_F(UserPages, ACentralFleetIsTriedAndItsFaultFoundAsThePageSays) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the page builds the fleet without sanitizers";
+#endif
+  ASSERT_EQ(shell("ln -s '" + source("core") +
+                  "' core && mkdir -p build/default tests && ln -s \"$FLEETPROOF\" "
+                  "build/default/fleetproof && cp -r '" +
+                  source("tests/examples") + "' tests/")
+                .exit_code,
+            0);
+  const std::vector<Block> blocks = blocks_of(read(source("core/sdk/central-fleet.md")));
+  const test::Finished finished = follow(blocks);
+  EXPECT_EQ(finished.exit_code, 1) << "the last command shows the smallest failure; " << finished.err;
+  EXPECT_NE(finished.out.find("as expected: contact"), std::string::npos) << finished.out << finished.err;
+  std::size_t shown = 0;
+  for (const Block& block : blocks) {
+    if (block.language != "text") continue;
+    ++shown;
+    EXPECT_NE(finished.out.find(block.text), std::string::npos) << block.text << finished.out << finished.err;
+  }
+  EXPECT_EQ(shown, 2U);
+  EXPECT_EQ(run("report depot.db").exit_code, 0) << "it is safe, and delivers loads";
+  EXPECT_EQ(run("report impatient.db").exit_code, 1);
+  for (const char* page : {"good.html", "run.html", "small.html"})
+    EXPECT_NE(read(path(page)).find("</html>"), std::string::npos) << page;
+}
+
+// An installation has the same campaign beside the source; only the place of the shared object differs.
+TEST_F(UserPages, TheInstalledCampaignOfTheCentralFleetIsThatOfThePage) {
+  const test::Finished finished = shell("sed 's|../../build/|build/|g' '" + source("tests/examples/depot.toml") + "'");
+  EXPECT_EQ(finished.out, read(source("tests/examples/installed/depot.toml")));
+}
+
 class OtherLanguages : public UserPages {
  protected:
   void SetUp() override {
