@@ -48,10 +48,11 @@ TEST_F(Package, BuildsAndTriesAgentsOutsideTheSourcesAsItsReadmeSays) {
     const bool judges = command.starts_with("fleetproof run") || command.starts_with("fleetproof report");
     script += command + (judges ? " || [ $? = 1 ]\n" : "\n");
   }
-  write("walk.sh", script + "fleetproof run beacon.toml --exit-zero\n");
+  write("walk.sh", script + "fleetproof run beacon.toml --exit-zero\nfleetproof run depot.toml\n");
   ASSERT_EQ(shell("sh walk.sh"), 0) << script << read(path("said"));
   EXPECT_NE(read(path("said")).find("rover  violation"), std::string::npos) << read(path("said"));
   EXPECT_NE(read(path("said")).find("beacon"), std::string::npos);
+  EXPECT_NE(read(path("said")).find("demonstrated | depot broke"), std::string::npos);
   for (const char* page : {"agents/report.html", "agents/run.html"})
     EXPECT_NE(read(path(page)).find("</html>"), std::string::npos) << page;
 }
