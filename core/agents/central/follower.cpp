@@ -254,7 +254,7 @@ void Follower::report() {
   controller_.send(encode(state), server());
 }
 
-const char* Follower::activity() const {
+const char* Follower::activity() {
   if (phase_ == Phase::Lost) return "finding its place";
   if (under_way_ > 0) return name_of(steps_.front().kind);
   const bool has_work = controller_.order_on_board() != FP_NONE || (!orders_.empty() && !orders_.back().done);

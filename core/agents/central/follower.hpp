@@ -57,7 +57,7 @@ class Follower {
   void finish_step();
   void finish_order(std::uint32_t id);
   void report();
-  const char* activity() const;
+  const char* activity();
 
   FollowerOptions options_;
   Controller controller_;
