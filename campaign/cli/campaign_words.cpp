@@ -26,6 +26,7 @@
 #include "generators/map/permitted_types.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/worlds/world_maker.hpp"
+#include "storage/target_file.hpp"
 
 namespace fleetproof::cli {
 namespace {

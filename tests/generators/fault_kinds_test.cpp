@@ -1,5 +1,6 @@
 // What is drawn of each kind of fault: how many, when, for how long, where. Every law is that which the table of the
 // campaign file promises, and no kind moves another one.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -63,7 +63,7 @@ inline WorldSpec hard_world(double horizon_s) {
   f.freezes_per_agv_hour = 60.0;
   f.power_failures_per_agv_hour = 20.0;
   f.power_back_s = 20.0;
-  f.disk_losses_per_agv_hour = 5.0;
+  f.disk_losses_per_agv_hour = 2.0;
   f.disk_loss_s = 5.0;
   for (const RecurringFault& fault : kRecurringFaults) {
     if (f.*fault.per_agv_hour == 0.0) f.*fault.per_agv_hour = 20.0;  // a kind that nobody has added here

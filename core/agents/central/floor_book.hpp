@@ -32,8 +32,8 @@
 //
 // Time occurs nowhere: no floor becomes free because a clock says so, and a silent AGV keeps what it holds. At the
 // start, bodies are apart, but loads may be larger: the book grants a pick only if the loaded body is clear of all
-// others. Nothing is proved of an AGV that was set down elsewhere by hand after a contact: it has restarted and begins a
-// way there, but until its State arrives the book has its old place.
+// others. Nothing is proved of an AGV that was set down elsewhere by hand after a contact: it has restarted and begins
+// a way there, but until its State arrives the book has its old place.
 #pragma once
 
 #include <cstdint>
