@@ -53,7 +53,7 @@ Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& p
                                 const SensitivityOptions& options,
                                 const std::function<void(const FaultDetection&)>& told = {});
 
-// The names of the faulty agents that are tried in the worlds of this plan, in the order of the catalogue.
+// The faulty agents that measure_sensitivity() tries for this plan, by name, as `fleetproof list agents` lists them.
 std::vector<std::string> faulty_agent_names(const CampaignPlan& plan);
 
 }  // namespace fleetproof

@@ -16,7 +16,7 @@ using Keeps = std::function<bool(std::size_t place)>;
 // AGVs with their orders, faults and messages. The others keep the numbers under which they draw.
 Scenario with_agvs(const Scenario& scenario, const Keeps& keeps);
 
-// A computer that goes takes its faults and messages with it. The others keep the numbers under which they draw.
+// If a computer is taken out, so are its faults and messages. What is random about the others stays the same.
 Scenario with_computers(const Scenario& scenario, const Keeps& keeps);
 
 // The same fleet, numbered from AGV `first` on, and then from 0: with its orders, faults, messages and draws.

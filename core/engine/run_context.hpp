@@ -62,7 +62,7 @@ struct RunContext {
   void progressed(AgvId agv) { last_progress = status(agv).last_progress = now; }
 
   bool transports_are_open() const;
-  // The participants that are told of a transport: these ids, the last one excluded.
+  // The participants that are told of a transport: those from the first id on, up to the second one, without it.
   struct Audience {
     std::uint32_t first, end;
     bool has(EntityId participant) const { return first <= participant.value && participant.value < end; }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "core/scenario/order_table.hpp"
@@ -66,6 +67,20 @@ TEST(LaterStart, PutsAgvsWhereTheyWere) {
   EXPECT_EQ(placed(3, Between::Ahead), std::tuple(8U, 0.0, -1.0)) << "or where it went, and as it left there";
   EXPECT_EQ(placed(5, Between::Behind), std::tuple(8U, 0.0, -1.0)) << "it has arrived";
   EXPECT_EQ(placed(20, Between::Behind), std::tuple(9U, -1.0, 0.0)) << "it stays where it arrived last";
+}
+
+// A case file has no negative zero. Headings reach agents, and from there messages and digests.
+TEST(LaterStart, HeadingsHaveNoNegativeZero) {
+  Night night;
+  const AgvId agv{0U};
+  Itinerary known;
+  known.departures = {
+      {agv, kStart + seconds(2), kStart + seconds(4), StationId{7U}, StationId{8U}, {-0.0, 1.0}, {1.0, -0.0}},
+      {agv, kStart + seconds(9), kStart + seconds(12), StationId{8U}, StationId{9U}, {-1.0, -0.0}, {-0.0, -1.0}}};
+  for (const int from_s : {3, 5, 20}) {
+    const Vec2 heading = with_later_start(night.scenario, known, seconds(from_s), Between::Behind).agvs[0].heading;
+    for (const double along : {heading.x(), heading.y()}) EXPECT_FALSE(along == 0.0 && std::signbit(along)) << from_s;
+  }
 }
 
 TEST(LaterStart, TakesTheTimeBeforeOutOfAllInstants) {

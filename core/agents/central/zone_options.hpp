@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-// What the safety and the progress of a central fleet rest on, one member for each rule. The defaults are the sound
+// The rules that make a central fleet safe and keep it moving, one member for each. The defaults are the sound
 // programs. Each faulty program of core/agents/faulty breaks one rule.
 namespace fleetproof::agents::central {
 
