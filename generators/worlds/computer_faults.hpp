@@ -44,8 +44,9 @@ void visit_fields(Rate& rate, Visit&& visit) {
     return Field{
         .key = key, .text = text, .lenient = Lenient::none("its program alone knows it"), .high = 4294967295.0};
   };
+  // While it lasts, the fleet is not accused of standing still.
   const auto time = [](std::string_view key, std::string_view text) {
-    return Field{.key = key, .text = text, .lenient = Lenient::none("its program alone knows it"), .high = kDay_s};
+    return Field{.key = key, .text = text, .lenient = Lenient::up(Weight::Load), .high = kDay_s};
   };
   visit(Field{.key = "word", .text = "what its program calls the fault", .lenient = kIsName, .needed = true}, word);
   visit(Field{.key = "per_hour", .text = "it strikes so often", .lenient = Lenient::down(Weight::Load), .high = 3600.0},
