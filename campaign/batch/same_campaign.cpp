@@ -80,6 +80,19 @@ std::string engine_differences(const EngineIdentity& stored, const EngineIdentit
   return text;
 }
 
+namespace {
+
+// Plug-ins stand behind the libraries.
+bool differ_only_in_plugins(EngineIdentity stored, EngineIdentity now) {
+  for (EngineIdentity* engine : {&stored, &now}) {
+    const std::string_view own = own_libraries(*engine);
+    engine->libraries = std::string(own.substr(0, own.find(", plug-in ")));
+  }
+  return engine_differences(stored, now).empty();
+}
+
+}  // namespace
+
 bool has_one_engine(const EngineIdentity& stored, const EngineIdentity& now) {
   return engine_differences(stored, now).empty() && !has_several_programs(stored);
 }
@@ -110,10 +123,13 @@ void require_same_campaign(const std::string& path, const CampaignRecord& stored
   }
   if (const auto differences = engine_differences(stored.engine, now.engine); !differences.empty()) {
     if (!allow_drift) {
-      throw InputError(path, fmt::format("another engine wrote this file ({}); its runs and those to come could not be "
-                                         "compared; use that program, --allow-drift to go on and record it, or another "
-                                         "name with --db",
-                                         differences));
+      throw InputError(
+          path, fmt::format("{} wrote this file ({}); its runs and those to come could not be compared; "
+                            "--overwrite begins again, another name with --db keeps both, and "
+                            "--allow-drift goes on and records the change",
+                            differ_only_in_plugins(stored.engine, now.engine) ? "another build of the control software"
+                                                                              : "another engine",
+                            differences));
     }
     now.engine.libraries += begun_by(stored.engine);
     return;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -26,7 +27,9 @@ namespace fleetproof::cli {
 namespace {
 
 constexpr std::string_view kDefaultTime = "60";
-constexpr double kLastLooks = 3.0;  // runs for which time is kept: the result is simulated again at the end
+// Time is kept for so many runs, and at least such a share of all: the result is simulated again at the end, in new
+// processes, which a busy machine starts late.
+constexpr double kLastLooks = 3.0, kLastShare = 0.1;
 
 struct ShrinkWords {
   CaseWords from;
@@ -179,7 +182,8 @@ int shrink_case(ShrinkWords words) {
   FailurePattern pattern;
   ShrinkResult result;
   {
-    const TimeLimit limit(time.end_before(source.plugin.empty() ? 0.0 : kLastLooks * examined.run_s), is_interrupted);
+    const double last_looks_s = std::max(kLastLooks * examined.run_s, kLastShare * time.allowed_s());
+    const TimeLimit limit(time.end_before(source.plugin.empty() ? 0.0 : last_looks_s), is_interrupted);
     CaseHost searching = looking.within(limit);
     result = search(words, searching, trials, examined.failing, source, *progress, pattern);
   }

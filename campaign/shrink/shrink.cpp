@@ -226,6 +226,9 @@ ShrinkResult shrink(CaseHost& host, TrialCache& cache, const FailingCase& origin
     result.ended = true;
   }
   result.before = CaseSize::of(original.scenario);
+  // A search that was broken off may have made the run longer, so that it fails on other timelines, and nothing
+  // smaller.
+  if (result.before.is_smaller_than(CaseSize::of(result.best.scenario))) result.best = original;
   result.after = CaseSize::of(result.best.scenario);
   result.trials = trials.count();
   result.why_not = why_not_known(result, result.ended);

@@ -53,6 +53,9 @@ std::string value_text(const Incident& incident) {
     case IncidentKind::FaultInjected:
     case IncidentKind::FaultWithoutEffect:
       return std::string(fault_word(incident));
+    case IncidentKind::Deadlock:
+      if (incident.value == 0) return "no circle known";
+      return fmt::format("AGVs in the circle: {}", incident.value);
     case IncidentKind::ForeignBody:
       return is_fallen_load(incident) ? "a fallen load" : "an obstacle";
     case IncidentKind::LoadDidNotFall:

@@ -55,7 +55,7 @@ constexpr auto kKinds = std::to_array<IncidentKindInfo>({
     {LoadMovedByNobody, Accusation, EndPoint::WrongLoad, "load-moved-by-nobody", "load",
      "a load moved although no AGV at its place was picking or dropping it"},
     {Deadlock, Accusation, EndPoint::Deadlock, "deadlock", "AGVs in the circle; 0: no circle known",
-     "AGVs with open transports waited for each other; without an AGV: a fleet with open transports stood still"},
+     "AGVs that had work waited for each other, or the fleet stood still although there was work"},
     {WaitsDeclared, Link, std::nullopt, "waits", "1: in the circle",
      "an AGV of a deadlock declared that it waited for another AGV"},
     {WaitsInferred, Link, std::nullopt, "waits-inferred", "1: in the circle",

@@ -64,7 +64,7 @@ void Breakdown::add(const RunRecord& run) {
   for (const std::size_t index : groups_of_cell_[run.cell]) {
     Group& group = groups_[index];
     group.worlds.add(run, violation);
-    group.stalls |= stalled;
+    if (stalled && !group.stalls_in) group.stalls_in = run.run_index;
   }
   if (run.cell + 1 == groups_of_cell_.size()) finish_replicate();
 }
@@ -78,7 +78,10 @@ void Breakdown::finish_replicate() {
   for (std::size_t cell = 0; cell < tallies_.size(); ++cell) tallies_[cell].add(pending_tallies_[cell]);
   for (Group& group : groups_) {
     group.worlds.finish_replicate();
-    group.stalled += std::exchange(group.stalls, false) ? 1 : 0;
+    if (!group.stalls_in) continue;
+    ++group.stalled;
+    if (!group.first_stalled) group.first_stalled = group.stalls_in;
+    group.stalls_in.reset();
   }
 }
 
@@ -87,7 +90,7 @@ std::vector<BreakdownRow> Breakdown::rows() const {
   for (const Group& group : groups_) {
     Tally tally;
     for (const std::uint32_t cell : group.worlds.pool().cells) tally.add(tallies_[cell]);
-    list.push_back({group.key, tally, group.worlds.pool(), group.cells, group.stalled,
+    list.push_back({group.key, tally, group.worlds.pool(), group.cells, group.stalled, group.first_stalled,
                     static_cast<double>(tally.longest_ns) / 1e9});
   }
   return list;

@@ -55,7 +55,7 @@ std::vector<Remark> stall_notes(const ReportInput& input) {
         "result (livelock), or one was left without progress (starvation), and no contact explains it.",
         printable(row.key.agent, 40), row.stalled, row.violations.worlds.units);
     if (!has_gate_on_progress(input.evidence, row.key.agent)) text += " No gate judges that.";
-    notes.emplace_back().text = std::move(text);
+    notes.push_back({std::move(text), replay_command(input.archive_path, *row.first_stalled)});
   }
   return notes;
 }

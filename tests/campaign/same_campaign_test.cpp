@@ -113,5 +113,16 @@ TEST(SameCampaign, AnotherEngineIsRefusedOrRecorded) {
   EXPECT_THAT(third.engine.libraries, HasSubstr("begun by fleetproof 1.0 sha256 aaaa"));
 }
 
+TEST(SameCampaign, AnotherBuildOfThePluginIsNoOtherEngine) {
+  CampaignRecord stored = record_of(test::small_plan());
+  stored.engine.libraries = "TBB 1, plug-in x sha256 1";
+  CampaignRecord now = stored;
+  now.engine.libraries = "TBB 1, plug-in x sha256 2, plug-in y sha256 3";
+  EXPECT_THAT(refusal(stored, now), HasSubstr("another build of the control software wrote this file"));
+  EXPECT_THAT(refusal(stored, now), HasSubstr("--overwrite begins again"));
+  now.engine.libraries = "TBB 2, plug-in x sha256 1";
+  EXPECT_THAT(refusal(stored, now), HasSubstr("another engine wrote this file"));
+}
+
 }  // namespace
 }  // namespace fleetproof::same_campaign_test

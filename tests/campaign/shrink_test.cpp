@@ -203,6 +203,19 @@ TEST(Shrink, EndsInTime) {
   EXPECT_EQ(scenario_digest(result.best.scenario), scenario_digest(failing.scenario));
 }
 
+// A longer run may fail on other timelines, so one is tried first.
+TEST(Shrink, ASearchThatIsBrokenOffDoesNotMakeTheRunLonger) {
+  Bench bench("timeout-grant");
+  FailingCase failing = bench.failing_by_radio(1);
+  failing.scenario.horizon = failing.failure.seen - kStart + std::chrono::seconds(1);
+  const auto failure = failure_of(bench.host(failing.scenario));
+  ASSERT_TRUE(failure);
+  failing.failure = *failure;
+  const ShrinkResult result = bench.shrunk(failing, {1});
+  EXPECT_TRUE(result.ended);
+  EXPECT_EQ(result.after.horizon, result.before.horizon);
+}
+
 // ---- what it rests on
 
 // The run is the same when its deliveries are written down instead of drawn.

@@ -4,6 +4,7 @@
 // silence.
 #include <algorithm>
 #include <cstring>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -124,7 +125,7 @@ struct Server : Participant {
     if (event.kind == FP_EVENT_MESSAGE) read<State>([this](uint32_t agv, const State& said) { hear(agv, said); });
     const bool is_late = driver != FP_NONE && event.now_ns - given_at_ns > kPatience_ns;
     if (is_late && std::string_view(briefing->config) == "impatient") given_up = driver, driver = FP_NONE;
-    if (event.kind == FP_EVENT_TIMER && driver != FP_NONE) send(trip, driver, "TRIP: again");
+    if (event.kind == FP_EVENT_TIMER && driver != FP_NONE) send(trip, driver, text_of(trip, "again, ").c_str());
     if (driver == FP_NONE) plan(event.now_ns);
     if (event.kind == FP_EVENT_START || event.kind == FP_EVENT_TIMER) host->set_timer(self, 0, event.now_ns + kTick_ns);
   }
@@ -174,6 +175,11 @@ struct Server : Participant {
     if (best != FP_NONE) give_token(best, best_way, is_on_board ? FP_CALL_DROP : FP_CALL_PICK, order.id, now_ns);
     return best != FP_NONE;
   }
+  // For people who look at a trace: what stands before ": " is the kind of the message.
+  std::string text_of(const Trip& of, const char* repeated = "") const {
+    const char* end = of.at_end == FP_CALL_PICK ? ", pick" : of.at_end == FP_CALL_DROP ? ", drop" : "";
+    return "TRIP: " + (repeated + std::to_string(of.lane_count)) + " lanes" + end;
+  }
   void give_token(uint32_t agv, const Lanes& way, uint32_t at_end, uint32_t order, int64_t now_ns) {
     const bool is_whole = way.size() <= kLanesMax;  // if not, the next trip goes on from there
     trip = {trip.server, fleet[agv].agv_boot, trip.number + 1, is_whole ? at_end : FP_NONE, order};
@@ -181,7 +187,7 @@ struct Server : Participant {
     std::copy_n(way.begin(), trip.lane_count, trip.lanes);
     driver = agv, given_at_ns = now_ns;
     host->works_on(self, agv, order);
-    send(trip, agv, "TRIP");
+    send(trip, agv, text_of(trip).c_str());
   }
   // On these lanes, the AGV keeps the safety distance from every AGV that stands, whatever their headings and loads.
   Lanes free_lanes(uint32_t agv) const {

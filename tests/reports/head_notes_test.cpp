@@ -7,7 +7,9 @@
 namespace fleetproof::head_notes_test {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::Field;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -41,9 +43,19 @@ TEST(HeadNotes, TellTheStalledWorldsOfTheAgentUnderTestWithinTheContract) {
     if (run.replicate == 5 && run.cell == 0) stall(run, IncidentKind::Starvation);
     if (run.replicate == 6 && run.cell == 1) stall(run, IncidentKind::Livelock);  // beyond the contract
   });
-  EXPECT_THAT(stall_notes(input),
-              ElementsAre(Field(&Remark::text, HasSubstr("ours stalled in 4 of 20 worlds of the contract region"))));
+  EXPECT_THAT(
+      stall_notes(input),
+      ElementsAre(AllOf(Field(&Remark::text, HasSubstr("ours stalled in 4 of 20 worlds of the contract region")),
+                        Field(&Remark::command, EndsWith(" 0")))));
   EXPECT_THAT(texts(stall_notes(input)), HasSubstr("No gate judges that."));
+}
+
+TEST(HeadNotes, NameTheFirstRunThatStalledInTheFirstOfTheseWorlds) {
+  const auto input = stalling(EndPoint::Violation, [](RunRecord& run) {
+    if (run.replicate >= 5) stall(run, IncidentKind::Starvation);
+    if (run.replicate == 2 && run.cell == 1) stall(run, IncidentKind::Livelock);  // beyond the contract
+  });
+  EXPECT_THAT(stall_notes(input), ElementsAre(Field(&Remark::command, EndsWith(" 20"))));
 }
 
 TEST(HeadNotes, AGateOnProgressJudgesThem) {

@@ -78,7 +78,7 @@ TEST_F(UserPages, APlantOfOnesOwnIsDemonstratedAsThePageSays) {
       EXPECT_EQ(read(path("vehicles.toml")), block.text);
     }
   }
-  EXPECT_EQ(shown, 2U);
+  EXPECT_EQ(shown, 3U);
 }
 
 // The commands are typed in the folder of the sources: here one that has what they name.
@@ -105,7 +105,7 @@ TEST_F(UserPages, ACentralFleetIsTriedAndItsFaultFoundAsThePageSays) {
   EXPECT_EQ(shown, 2U);
   EXPECT_EQ(run("report depot.db").exit_code, 0) << "it is safe, and delivers loads";
   EXPECT_EQ(run("report impatient.db").exit_code, 1);
-  for (const char* page : {"good.html", "run.html", "small.html"})
+  for (const char* page : {"build/good.html", "build/run.html", "build/small.html"})
     EXPECT_NE(read(path(page)).find("</html>"), std::string::npos) << page;
 }
 
