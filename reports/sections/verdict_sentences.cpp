@@ -198,9 +198,12 @@ std::vector<Headline> warnings(const ReportInput& input) {
 
 std::vector<Headline> verdicts(const ReportInput& input) {
   if (!input.gates.empty()) return {claim(input)};
-  return {{name_of(Verdict::NotDemonstrated),
-           "this campaign has no gate (acceptance criterion), so nothing can be demonstrated.",
-           {}}};
+  Headline headline{name_of(Verdict::NotDemonstrated),
+                    "this campaign has no gate (acceptance criterion), so nothing can be demonstrated.",
+                    {}};
+  for (auto notes : {stall_notes(input), crash_notes(input)})
+    std::ranges::move(notes, std::back_inserter(headline.details));
+  return {std::move(headline)};
 }
 
 std::vector<Headline> foreign_body_notes(const ReportInput& input) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "reports/sections/verdict_sentences.hpp"
 #include "tests/reports/sample_campaign.hpp"
 
 namespace fleetproof::head_notes_test {
@@ -56,6 +57,15 @@ TEST(HeadNotes, NameTheFirstRunThatStalledInTheFirstOfTheseWorlds) {
     if (run.replicate == 2 && run.cell == 1) stall(run, IncidentKind::Livelock);  // beyond the contract
   });
   EXPECT_THAT(stall_notes(input), ElementsAre(Field(&Remark::command, EndsWith(" 20"))));
+}
+
+TEST(HeadNotes, ACampaignWithoutGatesTellsThemBesideThatItDemonstratesNothing) {
+  const auto stalls = [](RunRecord& run) { stall(run, IncidentKind::Starvation); };
+  const auto input = samples::report_of(samples::campaign_of("search", 20),
+                                        samples::grid({"ours", "theirs"}, {0.4, 0.8}, {1.0}), {}, stalls);
+  const std::vector<Headline> head = verdicts(input);
+  ASSERT_EQ(head.size(), 1U);
+  EXPECT_THAT(texts(head.front().details), HasSubstr("ours stalled in 20 of 20 worlds"));
 }
 
 TEST(HeadNotes, AGateOnProgressJudgesThem) {
