@@ -4,7 +4,7 @@ namespace fleetproof {
 
 AuditCounts::AuditCounts(const CampaignPlan& plan, const AgentPrograms& programs)
     : has_audits_(plan.audit.share > 0.0) {
-  for (const AgentFactor& agent : plan.agents) agents_.push_back({programs.is_plugin(agent), {}});
+  for (const AgentFactor& agent : plan.agents) agents_.push_back({programs.needs_worker(agent), {}});
 }
 
 void AuditCounts::add(const AuditedRun& finding) {

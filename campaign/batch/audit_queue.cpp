@@ -34,7 +34,7 @@ AuditQueue::AuditQueue(const CampaignPlan& plan, const AgentPrograms& programs, 
       threads_wanted_(threads_for(plan.audit.share, workers)),
       wanted_(kFirstBatch),
       begun_(plan.agents.size()) {
-  for (const AgentFactor& agent : plan.agents) is_plugin_.push_back(programs.is_plugin(agent));
+  for (const AgentFactor& agent : plan.agents) is_plugin_.push_back(programs.needs_worker(agent));
   if (!audits || plan.audit.share <= 0.0) return;
   Hosting hosting;
   hosting.workers = threads_wanted_;

@@ -129,7 +129,7 @@ class CampaignPolicy final : public SessionPolicy {
 
   // What a plug-in failed in would take a worker and its limits again. A claim counts it as failing anyway.
   bool is_sampled(const RunRecord& run) const {
-    return !run.outcome.is_failure() || !programs_.is_plugin(plan_.agent_of_cell(run.run_index));
+    return !run.outcome.is_failure() || !programs_.needs_worker(plan_.agent_of_cell(run.run_index));
   }
 
   // Somebody may have taken the failure out of a row, and not what belongs to it.

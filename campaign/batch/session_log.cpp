@@ -100,11 +100,8 @@ void SessionLog::begin(const RunOptions& options, const AgentPrograms& programs,
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   Json plugins = Json::object();
-  for (const AgentProgram& program : programs.all()) {
-    if (program.is_plugin())
-      plugins[program.name] = {{"file", std::filesystem::weakly_canonical(program.file).string()},
-                               {"sha256", program.sha256}};
-  }
+  for (const AgentProgram* program : programs.foreign())
+    plugins[program->name] = {{"file", lasting_word_of(program->source)}, {"sha256", program->source.sha256}};
   const MachineFacts machine = machine_facts();
   Json line = {{"started_utc", utc_now()},
                {"host", host.data()},

@@ -15,7 +15,7 @@ namespace fleetproof {
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs) {
   std::vector<std::string> names;
   for (const AgentFactor& agent : plan.agents) {
-    if (programs.is_plugin(agent)) names.push_back(agent.name);
+    if (programs.needs_worker(agent)) names.push_back(agent.name);
   }
   return names;
 }
@@ -40,8 +40,8 @@ CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& pr
   record.plugin_agents = plugin_agents(plan, programs);
   std::vector<bool> is_plugin;
   for (const AgentFactor& agent : plan.agents) {
-    is_plugin.push_back(programs.is_plugin(agent));
-    if (programs.is_plugin(agent) && programs.is_deterministic(agent))
+    is_plugin.push_back(programs.needs_worker(agent));
+    if (programs.needs_worker(agent) && programs.is_deterministic(agent))
       record.deterministic_agents.push_back(agent.name);
   }
   record.agents_under_test = agents_under_test(plan, is_plugin);

@@ -48,7 +48,7 @@ TakenOver StoredSample::simulate_again(Session& session, const CampaignPlan& pla
     ++taken.simulated_again;
     taken.drawn += place < named_.size() ? 0 : 1;
     if (row_checksum(run) == runs[place].second) return;
-    if (!programs.is_plugin(plan.agent_of_cell(run.run_index)))
+    if (!programs.needs_worker(plan.agent_of_cell(run.run_index)))
       throw EngineError(
           fmt::format("{}: run {} is stored otherwise than this program simulates it; somebody has changed "
                       "the file, or a computer is at fault. Begin again with --overwrite",

@@ -174,7 +174,7 @@ CampaignFile load_campaign(const std::string& path, AgentPrograms& programs) {
   warn_of_idle_gates(file);
   warn_of_units(file);
   std::vector<bool> is_plugin;
-  for (const AgentFactor& agent : agents) is_plugin.push_back(programs.is_plugin(agent));
+  for (const AgentFactor& agent : agents) is_plugin.push_back(programs.needs_worker(agent));
   require_room_for_agents(file, programs);
   if (file.fresh_seed) file.plan.seed = fresh_seed(file.plan, programs);
   say_where_fleets_are(file.places, [&] { add_default_gates(file.plan, is_plugin); });
@@ -226,13 +226,13 @@ void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentF
   std::set<std::string> told;
   for (const AgentFactor& factor : agents) {
     for (const AgentProgram* part : programs.parts_of(factor, "--plugin")) {
-      if (!part->is_plugin() || !told.insert(part->name).second) continue;
+      if (part->is_built_in() || !told.insert(part->name).second) continue;
       std::vector<std::string> stored = stored_plugins(campaign.engine, part->name);
-      if (stored == std::vector{part->sha256}) continue;
+      if (stored == std::vector{part->source.sha256}) continue;
       for (std::string& digest : stored) digest = digest.substr(0, kToldDigits) + "...";
       talk("warning: {} is not the one of the campaign (stored {}, now {}...); what follows is about this one\n",
-           part->file, stored.empty() ? "nothing" : fmt::format("{}", fmt::join(stored, " and ")),
-           part->sha256.substr(0, kToldDigits));
+           part->source.file, stored.empty() ? "nothing" : fmt::format("{}", fmt::join(stored, " and ")),
+           part->source.sha256.substr(0, kToldDigits));
     }
   }
 }
@@ -295,7 +295,8 @@ std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<s
                                      in_quotes(computer.name), in_quotes(computer.agent)));
       continue;
     }
-    const auto known = std::ranges::find(programs.all(), absolute_name(computer.agent), &AgentProgram::file);
+    const auto known = std::ranges::find(programs.all(), absolute_name(computer.agent),
+                                         [](const AgentProgram& program) { return program.source.file; });
     part.program = known != programs.all().end() ? known->name : (programs.*meet)(computer.agent, global_symbols);
     if (std::ranges::find(plugins, computer.agent) == plugins.end()) plugins.push_back(computer.agent);
   }
@@ -309,7 +310,7 @@ void add_symbols_option(Options& options, bool& global_symbols) {
 }
 
 void refuse_idle_symbols(bool global_symbols, const AgentFactor& agent, const AgentPrograms& programs) {
-  if (global_symbols && !programs.is_plugin(agent))
+  if (global_symbols && !programs.needs_worker(agent))
     throw InputError("--global-symbols", fmt::format("has no meaning for {}, which comes from no shared object; name "
                                                      "one with --plugin",
                                                      in_quotes(name_of_parts(agent))));
@@ -318,10 +319,9 @@ void refuse_idle_symbols(bool global_symbols, const AgentFactor& agent, const Ag
 std::string plugin_options(const AgentFactor& agent, const AgentPrograms& programs, const std::string& folder) {
   std::string words;
   bool global_symbols = false;
-  for (const AgentProgram* object : programs.objects_of(agent)) {
-    const auto file = std::filesystem::path(object->file).lexically_normal();
-    words += " --plugin " + shell_word(folder.empty() ? object->file : file.lexically_proximate(folder).string());
-    global_symbols = global_symbols || object->global_symbols;
+  for (const AgentProgram* program : programs.foreign_parts_of(agent)) {
+    words += " --plugin " + shell_word(word_of(program->source, folder));
+    global_symbols = global_symbols || program->source.global_symbols;
   }
   return words + (global_symbols ? " --global-symbols" : "");
 }

@@ -114,7 +114,7 @@ CaseSource read_case(const CaseWords& words, AgentPrograms& programs) {
   source.identity = fmt::format("{:016x} {}", scenario_digest(source.scenario), engine_identity().program_sha256);
   for (const AgentProgram* part : programs.parts_of(agent, where)) {
     require_room(*part, *source.scenario.map, source.scenario.agvs.size(), "the scenario", where);
-    source.identity += fmt::format(" {} {}", part->name, part->is_plugin() ? part->sha256 : "built in");
+    source.identity += fmt::format(" {} {}", part->name, part->is_built_in() ? "built in" : part->source.sha256);
   }
   require_distribution(programs.program(agent.program, where), !source.scenario.open_orders.empty(),
                        !source.scenario.computers.empty(), where);

@@ -61,7 +61,7 @@ void tell_rejections(const CampaignPlan& plan) {
 
 // Of programs that are in this process; the others are asked when a fault strikes.
 bool is_unknown_fault(const AgentProgram& program, const std::string& word) {
-  return program.type != nullptr && !knows_fault(*program.type, word.c_str());
+  return program.opened.type != nullptr && !knows_fault(*program.opened.type, word.c_str());
 }
 
 std::string sentence_on_fault(const AgentProgram& program, const std::string& word) {

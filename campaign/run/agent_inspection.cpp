@@ -30,7 +30,8 @@ constexpr int kKillsOfInspection = 3;           // more, and the object is the r
 std::string text_of(const AgentProgram& program) {
   std::string text = "y";
   for (const std::string& field :
-       {program.name, program.description, std::to_string(program.flags), program.file, program.sha256})
+       {program.name, program.description, std::to_string(program.flags), program.source.file, program.source.sha256,
+        std::to_string(static_cast<int>(program.source.kind))})
     text.append(field).push_back('\0');
   return text;
 }
@@ -102,10 +103,10 @@ std::string end_of(const Inspection& inspection) {
 }
 
 AgentProgram program_of(std::string_view fields) {
-  std::array<std::string, 5> parts;
+  std::array<std::string, 6> parts;
   for (std::string& part : parts) {
     const auto end = fields.find('\0');
-    ensure(end != std::string_view::npos, "an inspection answers with five fields");
+    ensure(end != std::string_view::npos, "an inspection answers with six fields");
     part = fields.substr(0, end);
     fields.remove_prefix(end + 1);
   }
@@ -113,8 +114,9 @@ AgentProgram program_of(std::string_view fields) {
   program.name = parts[0];
   program.description = parts[1];
   program.flags = static_cast<std::uint32_t>(std::stoul(parts[2]));
-  program.file = parts[3];
-  program.sha256 = parts[4];
+  program.source.file = parts[3];
+  program.source.sha256 = parts[4];
+  program.source.kind = static_cast<ProgramKind>(std::stoi(parts[5]));
   return program;
 }
 
@@ -151,7 +153,7 @@ AgentProgram inspect_agent(const std::string& path, bool global_symbols, const L
   const std::string_view text = inspection.text;
   if (text.starts_with('y')) {
     AgentProgram program = program_of(text.substr(1));
-    program.global_symbols = global_symbols;
+    program.source.global_symbols = global_symbols;
     return program;
   }
   if (!text.starts_with('n')) throw InputError(path, "cannot be loaded: " + end_of(inspection));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "campaign/plan/plan.hpp"
+#include "campaign/run/program_door.hpp"
 #include "core/engine/fleet_software.hpp"
 #include "core/engine/foreign_calls.hpp"
 #include "core/scenario/layout.hpp"
@@ -18,15 +19,13 @@ namespace fleetproof {
 // Control software that a campaign may test.
 struct AgentProgram {
   std::string name, description;
-  std::uint32_t flags = 0;                    // FP_DETERMINISTIC, ...
-  std::string file, sha256;                   // of the shared object; both empty: a reference agent
-  bool global_symbols = false;                // it is loaded with RTLD_GLOBAL: embedded Python needs it
-  const fp_agent_type* type = nullptr;        // null: the shared object is not loaded into this process
-  std::shared_ptr<ForeignHandles> handles{};  // of a shared object that is loaded into this process
-  // Of stations, drives and AGVs, so many each at most; FP_NONE: a shared object says it when it starts.
+  std::uint32_t flags = 0;  // FP_DETERMINISTIC, ...
+  ProgramSource source{};
+  OpenedProgram opened{};  // its type is null: it is not open in this process
+  // Of stations, drives and AGVs, so many each at most; FP_NONE: a program that is not built in says it when it starts.
   std::uint32_t most_of_each = FP_NONE;
 
-  bool is_plugin() const { return !file.empty(); }
+  bool is_built_in() const { return source.kind == ProgramKind::BuiltIn; }
 };
 
 // Throws InputError, at `where`, if this agent cannot start on the map with so many AGVs. `place`: what has the map, as
@@ -41,37 +40,36 @@ void require_distribution(const AgentProgram& program, bool are_open, bool has_c
 // The name of an agent that has none of its own: its programs, those on computers first.
 std::string name_of_parts(const AgentFactor& agent);
 
-// The reference agents, and the shared objects that a campaign names. The object owns the loaded shared objects.
+// The reference agents, and the programs that a campaign names. The object owns those that it has opened.
 class AgentPrograms {
  public:
   AgentPrograms();
-  ~AgentPrograms();
   AgentPrograms(const AgentPrograms&) = delete;
   AgentPrograms& operator=(const AgentPrograms&) = delete;
 
-  // Loads a shared object into this process and returns the name that its agent gives itself. Throws InputError if
-  // there is no such file, if it has no fp_agent_query or another ABI, and if the name is taken, longer than 100 bytes,
-  // or not plain UTF-8. Code of the shared object runs in this process from now on.
-  std::string load(const std::string& path, bool global_symbols = false);
-  // The same, but a process of its own loads the object and tells what it is (agent_inspection.hpp). No code of the
-  // object runs in this process.
-  std::string know(const std::string& path, bool global_symbols = false);
+  // Opens in this process the program that `word` names (program_door.hpp), and returns the name that it gives itself.
+  // Throws InputError if it cannot be opened or if the name is taken. Its code runs in this process from now on.
+  std::string load(const std::string& word, bool global_symbols = false);
+  // The same, but a process of its own opens the program and tells what it is (agent_inspection.hpp). None of its code
+  // runs in this process.
+  std::string know(const std::string& word, bool global_symbols = false);
   // What that process may use, from now on.
   void limit_inspections(const LimitSetup& limits) { limits_ = limits; }
-  // Loads a plug-in that another AgentPrograms knows. Throws EngineError if its file has changed since.
-  void load_unchanged(const AgentProgram& known);
+  // Opens what another AgentPrograms knows. Throws MachineError if it has changed since.
+  void load_unchanged(const ProgramSource& known);
 
   // Throws InputError with the nearest known name if there is no such agent.
   const AgentProgram& program(std::string_view name, std::string_view where) const;
-  // The same. Requires: the agent is loaded into this process.
+  // The same. Requires: the agent is open in this process.
   const fp_agent_type& find(std::string_view name, std::string_view where) const;
   const std::deque<AgentProgram>& all() const { return programs_; }
-  // Whether a part of it comes from a shared object. Parts may be missing among the programs.
-  bool is_plugin(const AgentFactor& agent) const;
+  // Whether its runs belong to worker processes: a part of it is not built in. Parts may be missing among the programs.
+  bool needs_worker(const AgentFactor& agent) const;
   // The program on board, then those on its computers. Throws InputError if one is not known.
   std::vector<const AgentProgram*> parts_of(const AgentFactor& agent, std::string_view where) const;
-  // The shared objects of its parts, each once.
-  std::vector<const AgentProgram*> objects_of(const AgentFactor& agent) const;
+  // Those that are not built in, each once: of its parts, and of all.
+  std::vector<const AgentProgram*> foreign_parts_of(const AgentFactor& agent) const;
+  std::vector<const AgentProgram*> foreign() const;
   // Whether each part promises that it is deterministic.
   bool is_deterministic(const AgentFactor& agent) const;
   // Of a shared object among its parts; null: there is none.
@@ -84,15 +82,14 @@ class AgentPrograms {
   // For the computers of this scenario. `config`: of parts that have none. Requires: its parts are loaded into this
   // process; agent and config outlive the result. Throws what require_computers() throws.
   FleetSoftware software(const AgentFactor& agent, const std::string& config, const Scenario& scenario) const;
-  // "NAME sha256 HEX" of every plug-in: part of the engine's identity in the archive.
+  // "NAME sha256 HEX" of each that is not built in: part of the engine's identity in the archive.
   std::vector<std::string> plugin_identities() const;
 
  private:
-  const AgentProgram& add(AgentProgram program, const std::string& path);
+  const AgentProgram& add(AgentProgram program, const std::string& word);
 
   LimitSetup limits_;
   std::deque<AgentProgram> programs_;
-  std::vector<void*> objects_;
 };
 
 }  // namespace fleetproof

@@ -21,7 +21,7 @@ constexpr std::uint64_t kLargestSeed = 0x7fff'ffff'ffff'ffff;  // as a campaign 
 
 std::string release_digest(const CampaignPlan& plan, const AgentPrograms& programs) {
   std::vector<bool> is_plugin;
-  for (const AgentFactor& agent : plan.agents) is_plugin.push_back(programs.is_plugin(agent));
+  for (const AgentFactor& agent : plan.agents) is_plugin.push_back(programs.needs_worker(agent));
   const std::vector<std::string> judged = agents_under_test(plan, is_plugin);
   std::string bytes;
   for (const AgentFactor& agent : plan.agents) {
@@ -29,7 +29,7 @@ std::string release_digest(const CampaignPlan& plan, const AgentPrograms& progra
     add(bytes, agent.name);
     for (const ProgramPart* part : agent.parts()) {
       const AgentProgram& program = programs.program(part->program, "factors.agents");
-      add(bytes, program.is_plugin() ? program.sha256 : engine_identity().program_sha256);
+      add(bytes, program.is_built_in() ? engine_identity().program_sha256 : program.source.sha256);
       add(bytes, plan.config_of(*part));
     }
   }

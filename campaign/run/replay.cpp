@@ -111,11 +111,11 @@ std::vector<std::string> stored_plugins(const EngineIdentity& stored, const std:
 
 std::string software_difference(const EngineIdentity& stored, const std::vector<const AgentProgram*>& parts) {
   for (const AgentProgram* part : parts) {
-    if (!part->is_plugin()) continue;
+    if (part->is_built_in()) continue;
     const auto then = stored_plugins(stored, part->name);
-    if (then != std::vector{part->sha256})
+    if (then != std::vector{part->source.sha256})
       return fmt::format("the software differs (plug-in {}: sha256 {} then, {} now)", part->name,
-                         then.empty() ? "unknown" : fmt::format("{}", fmt::join(then, " and ")), part->sha256);
+                         then.empty() ? "unknown" : fmt::format("{}", fmt::join(then, " and ")), part->source.sha256);
   }
   const EngineIdentity now = engine_identity();
   std::vector<std::string> then{stored.program_sha256};
@@ -246,7 +246,7 @@ ReplayResult replay(const ArchiveReader& archive, const CampaignPlan& plan, std:
   } else if (result.verdict == ReplayVerdict::Diverged) {
     const AuditCount audits = audits_of(archive, plan, factor);
     const bool is_deterministic = programs.is_deterministic(factor);
-    if (!is_trusted(programs.is_plugin(factor), is_deterministic, audits)) {
+    if (!is_trusted(programs.needs_worker(factor), is_deterministic, audits)) {
       result.verdict = ReplayVerdict::NotDeterministic;
       result.explanation += "; " + why_not_trusted(is_deterministic, audits);
     }

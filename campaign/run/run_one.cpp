@@ -15,7 +15,7 @@ RunOne::RunOne(const CampaignPlan& plan, const AgentPrograms& programs)
 // An agent that calls too late is an agent of its own factor, whatever else its software runs as.
 ForeignHandles* RunOne::handles_of(std::uint64_t cell) const {
   const AgentFactor& agent = plan_.agent_of_cell(cell);
-  if (!programs_.is_plugin(agent)) return nullptr;
+  if (!programs_.needs_worker(agent)) return nullptr;
   const std::lock_guard lock(mutex_);
   auto& handles = handles_[agent_of_run(cell, plan_.agents.size())];
   if (handles == nullptr) handles = std::make_unique<ForeignHandles>(programs_.changed_processor(agent));
@@ -25,7 +25,7 @@ ForeignHandles* RunOne::handles_of(std::uint64_t cell) const {
 // A tape plays for every agent: any type will do.
 FleetSoftware RunOne::software_of(const AgentFactor& agent, const Scenario& scenario, bool is_played) const {
   if (!is_played) return programs_.software(agent, plan_.agent_config, scenario);
-  const RoleSoftware any{programs_.all().front().type};
+  const RoleSoftware any{programs_.all().front().opened.type};
   return {any, std::vector<RoleSoftware>(scenario.computers.size(), any)};
 }
 

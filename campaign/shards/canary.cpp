@@ -107,7 +107,7 @@ std::string canary_text(const CampaignPlan& plan, const AgentPrograms& programs,
   std::string text =
       fmt::format("{} {}\n", digest_of_runs(reference, programs, kReferenceRuns, 1, workers), kReference);
   for (const AgentFactor& agent : plan.agents) {
-    if (programs.is_plugin(agent))
+    if (programs.needs_worker(agent))
       text += fmt::format("{} {}\n", digest_of_runs(with_agent(plan, agent), programs, kPluginRuns, 2, workers),
                           printable(agent.name));
   }

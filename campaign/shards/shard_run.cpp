@@ -126,7 +126,7 @@ ShardResult run_shard(const CampaignPlan& plan, const AgentPrograms& programs, c
   Session session(plan, programs, options, listener.campaign);
   // Which failed runs may be simulated again is known when all shards are put together.
   for (std::size_t agent = 0; agent < plan.agents.size(); ++agent)
-    session.runs().record(agent, plan.audit.share > 0.0 && programs.is_plugin(plan.agents[agent]));
+    session.runs().record(agent, plan.audit.share > 0.0 && programs.needs_worker(plan.agents[agent]));
   ShardPolicy policy(session, plan, ours, folder, shard);
   listener.campaign.started();
   listener.planned(policy.owned(), policy.published());

@@ -13,7 +13,7 @@ struct CaseHost::Shared {
     plan.agent_config = agent.config;
     plan.laws_left_out = agent.laws_left_out;
     plan.limits = agent.limits;
-    if (!programs.is_plugin(plan.agents.front())) return;
+    if (!programs.needs_worker(plan.agents.front())) return;
     Hosting hosting;
     hosting.workers = workers;
     isolated = std::make_unique<IsolatedRuns>(plan, programs, hosting);

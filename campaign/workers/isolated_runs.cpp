@@ -319,7 +319,7 @@ IsolatedRuns::Attempt IsolatedRuns::lost(Member& member, std::uint64_t run_index
 
 // Reference agents have no limit: in a campaign they run in the main process.
 double IsolatedRuns::cpu_limit_s(std::uint64_t run_index) const {
-  if (!programs_.is_plugin(plan_.agent_of_cell(run_index))) return std::numeric_limits<double>::infinity();
+  if (!programs_.needs_worker(plan_.agent_of_cell(run_index))) return std::numeric_limits<double>::infinity();
   return std::max(plan_.limits.cpu_s, kTimesSlowest * 1e-9 * static_cast<double>(slowest_ns_.load()));
 }
 

@@ -6,7 +6,7 @@ namespace fleetproof {
 
 RunHost::RunHost(const CampaignPlan& plan, const AgentPrograms& programs, const Hosting& hosting)
     : run_one_(plan, programs), records_(plan.agents.size()) {
-  for (const AgentFactor& agent : plan.agents) is_plugin_.push_back(programs.is_plugin(agent));
+  for (const AgentFactor& agent : plan.agents) is_plugin_.push_back(programs.needs_worker(agent));
   if (std::ranges::count(is_plugin_, true) > 0) isolated_ = std::make_unique<IsolatedRuns>(plan, programs, hosting);
 }
 

@@ -33,7 +33,7 @@ namespace {
 
 constexpr std::string_view kWorkerWord = "take-orders";  // then slots, number of slots, channel, slot
 constexpr int kWorkerWords = 6;
-constexpr std::size_t kShortestPlugin = 4 + 4 + 1;
+constexpr std::size_t kShortestSource = 1 + 4 + 4 + 1;
 
 // A worker hosts runs for so many times the CPU time of its start, its first run included. What software takes from its
 // process (addresses, a process number) then varies within a campaign, and shows as a rate.
@@ -49,18 +49,19 @@ std::uint64_t cpu_ns() {
 
 struct Setup {
   CampaignPlan plan;
-  std::vector<AgentProgram> plugins;
+  std::vector<ProgramSource> programs;
 };
 
 Setup decode_setup(std::string_view bytes) {
   ByteSource source(bytes, "the setup of a worker");
   Setup setup;
   setup.plan = parse_plan(source.text(), PlanCells::MayBeNone);
-  setup.plugins.resize(source.count(kShortestPlugin));
-  for (AgentProgram& plugin : setup.plugins) {
-    plugin.file = source.text();
-    plugin.sha256 = source.text();
-    plugin.global_symbols = source.flag();
+  setup.programs.resize(source.count(kShortestSource));
+  for (ProgramSource& program : setup.programs) {
+    program.kind = static_cast<ProgramKind>(source.u8());
+    program.file = source.text();
+    program.sha256 = source.text();
+    program.global_symbols = source.flag();
   }
   source.end();
   return setup;
@@ -118,7 +119,7 @@ class Worker {
     disturbance_.renew(0, Disturbance::Fill::Next);
     own_bytes_ = mapped_bytes();
     limit_memory(plan_.limits.memory_mb, own_bytes_);  // a plug-in may use as much while it is loaded
-    for (const AgentProgram& plugin : setup.plugins) programs_.load_unchanged(plugin);
+    for (const ProgramSource& program : setup.programs) programs_.load_unchanged(program);
     log_.label_start();
     left_behind_.emplace();
   }
@@ -152,7 +153,7 @@ class Worker {
     if (before_unlimited_) own_bytes_ += std::max(mapped_bytes(), *before_unlimited_) - *before_unlimited_;
     disturb(order);
     // Reference agents have no limit in a campaign either: there they run in the main process.
-    const bool limited = programs_.is_plugin(plan_.agent_of_cell(order.run_index));
+    const bool limited = programs_.needs_worker(plan_.agent_of_cell(order.run_index));
     before_unlimited_ = limited ? std::nullopt : std::optional(mapped_bytes());
     limit_memory(limited ? plan_.limits.memory_mb : 0, own_bytes_);
   }
@@ -265,14 +266,13 @@ WorkerProgram worker_program(const SharedSlots& slots, const WorkerLogs& logs) {
 std::string encode_setup(const CampaignPlan& plan, const AgentPrograms& programs) {
   ByteSink sink;
   sink.text(plan_text(plan));
-  std::uint32_t count = 0;
-  for (const AgentProgram& program : programs.all()) count += program.is_plugin() ? 1 : 0;
-  sink.u32(count);
-  for (const AgentProgram& program : programs.all()) {
-    if (!program.is_plugin()) continue;
-    sink.text(program.file);
-    sink.text(program.sha256);
-    sink.u8(program.global_symbols ? 1 : 0);
+  const auto foreign = programs.foreign();
+  sink.u32(static_cast<std::uint32_t>(foreign.size()));
+  for (const AgentProgram* program : foreign) {
+    sink.u8(static_cast<std::uint8_t>(program->source.kind));
+    sink.text(program->source.file);
+    sink.text(program->source.sha256);
+    sink.u8(program->source.global_symbols ? 1 : 0);
   }
   return sink.take();
 }
