@@ -54,6 +54,7 @@ std::string call_words(const CallNote& call) {
   const std::uint32_t event = call.event.load();
   const char* const called = event == CallNote::kDestroy      ? "destroy()"
                              : event == CallNote::kKnowsFault ? "knows_fault()"
+                             : event == CallNote::kRunEnds    ? "run_ends()"
                                                               : kEvents.at(std::min(event, kLastEvent));
   return fmt::format("in {} at {:.9f} s", called, to_seconds(at_ns(call.at_ns.load())));
 }

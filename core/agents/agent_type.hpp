@@ -20,6 +20,7 @@ constexpr fp_agent_type agent_type(const char* name, const char* description, Cr
           create,
           [](void* agent, const fp_event* event) { static_cast<Agent*>(agent)->on_event(*event); },
           [](void* agent) { delete static_cast<Agent*>(agent); },
+          nullptr,
           nullptr};
 }
 

@@ -33,6 +33,11 @@ const AgentFailure* AgentCaller::destroy(const AgentCall& call, void* agent) {
   return make_otherwise(call, counter_.next(call.agv, call.kind(), call.at), agent);
 }
 
+const AgentFailure* AgentCaller::end_run(const AgentCall& call) {
+  void* no_agent = nullptr;
+  return make_otherwise(call, counter_.next(call.agv, call.kind(), call.at), no_agent);
+}
+
 const AgentFailure* AgentCaller::ask(const AgentCall& question, void* agent) {
   return make_otherwise(question, counter_.next(question.agv, question.kind(), question.at), agent);
 }
@@ -49,14 +54,21 @@ const AgentFailure* AgentCaller::ask(const AgentCall& question, void* agent) {
     return failure ? failed(failure->hang, failure->message) : nullptr;
   }
   if (tape_ != nullptr) return record(call, known, agent);
-  return known != nullptr ? failed(known->hang, known->message) : make(call, agent);
+  return known != nullptr ? failed(known->hang, known->message) : own_failure(call, make(call, agent));
+}
+
+const AgentFailure* AgentCaller::own_failure(const AgentCall& call, const AgentFailure* otherwise) {
+  if (call.controller == nullptr || call.controller->failure == nullptr) return otherwise;
+  failure_ = *call.controller->failure;
+  return &failure_;
 }
 
 const AgentFailure* AgentCaller::record(const AgentCall& call, const KnownEnd* known, void*& agent) {
   const std::uint64_t changes_before = processor_changes();
   tape_->call_begins(call.agv, call.kind());
   if (call.controller != nullptr) call.controller->tape = tape_;
-  const AgentFailure* failure = known != nullptr ? failed(known->hang, known->message) : make(call, agent);
+  const AgentFailure* failure =
+      known != nullptr ? failed(known->hang, known->message) : own_failure(call, make(call, agent));
   if (call.controller != nullptr) call.controller->tape = nullptr;
   if (processor_changes() > changes_before) tape_->processor_changed();
   if (failure != nullptr) {
@@ -74,6 +86,11 @@ std::uint64_t AgentCaller::processor_changes() const {
 }
 
 const AgentFailure* AgentCaller::make_foreign(const AgentCall& call, void*& agent) {
+  if (call.is_run_end) {
+    const AgentFailure* failure = reach(call, nullptr, agent);
+    foreign_->look_at_processor();
+    return failure;
+  }
   fp_controller* handle = call.is_start() ? foreign_->lend(call.agv, call.controller) : nullptr;
   const AgentFailure* failure = nullptr;
   {
@@ -90,6 +107,8 @@ const AgentFailure* AgentCaller::reach(const AgentCall& call, fp_controller* han
   if (call.is_start()) return create_and_start(call, handle, agent);
   if (call.is_question()) return guarded([&] { *call.question.knows = knows_fault(call.type, call.question.word); });
   if (call.event != nullptr) return hear(call.type, *call.event, agent);
+  if (const fp_bridge* bridge = bridge_of(call.type); call.is_run_end)
+    return guarded([&] { bridge->run_ends(bridge->own); });
   try {
     call.type.destroy(agent);
     return nullptr;
@@ -101,9 +120,18 @@ const AgentFailure* AgentCaller::reach(const AgentCall& call, fp_controller* han
 const AgentFailure* AgentCaller::create_and_start(const AgentCall& call, fp_controller* handle, void*& agent) {
   std::string why_not;
   call.controller->why_not = &why_not;
-  const AgentFailure* failure = guarded([&] { agent = call.type.create(host_, handle, call.briefing); });
+  const fp_bridge* bridge = bridge_of(call.type);
+  const bool is_in = bridge != nullptr && bridge->create_in != nullptr;
+  const AgentFailure* failure = guarded([&] {
+    agent = is_in ? bridge->create_in(bridge->own, host_, handle, call.briefing)
+                  : call.type.create(host_, handle, call.briefing);
+  });
   call.controller->why_not = nullptr;
   if (failure != nullptr) return failure;
+  if (call.controller->failure != nullptr) {
+    if (tape_ != nullptr && agent != nullptr) tape_->agent_created();
+    return nullptr;  // it has said so itself
+  }
   if (agent == nullptr) return failed(false, "create() returned null" + (why_not.empty() ? "" : ": " + why_not));
   if (tape_ != nullptr) tape_->agent_created();
   return hear(call.type, *call.event, agent);

@@ -27,13 +27,20 @@ class AgentCaller {
   const AgentFailure* start(const AgentCall& call, void*& agent);
   const AgentFailure* tell(const fp_agent_type& type, EntityId agv, SimTime at, const fp_event& event,
                            fp_controller* controller, void* agent) {
-    if (!is_watched_) [[likely]]
-      return hear(type, event, agent);
-    return tell_watched({type, agv, at, &event, controller}, agent);
+    if (is_watched_) [[unlikely]]
+      return tell_watched({type, agv, at, &event, controller}, agent);
+    const AgentFailure* failure = hear(type, event, agent);
+    if (failure != nullptr) [[unlikely]]
+      return own_failure({type, agv, at, &event, controller}, failure);
+    return nullptr;
   }
   const AgentFailure* destroy(const AgentCall& call, void* agent);
   // `agent`: one of this type, which exists.
   const AgentFailure* ask(const AgentCall& question, void* agent);
+  // The run is over for this program.
+  const AgentFailure* end_run(const AgentCall& call);
+  // Whether the next call of the tape is that. Requires: a tape is played.
+  bool tape_ends_run_for(EntityId first) const { return player_->ends_run_for(first); }
   // At the end of the run. Throws EngineError if the tape holds more calls.
   void finish() const;
   // How many calls have left another state of the processor behind.
@@ -66,6 +73,8 @@ class AgentCaller {
   const AgentFailure* make(const AgentCall& call, void*& agent) {
     return foreign_ ? make_foreign(call, agent) : reach(call, call.controller, agent);
   }
+  // What the agent itself has filed during the call counts before how the call ended.
+  const AgentFailure* own_failure(const AgentCall& call, const AgentFailure* otherwise);
   const AgentFailure* make_foreign(const AgentCall& call, void*& agent);
   const AgentFailure* reach(const AgentCall& call, fp_controller* handle, void*& agent);
   const AgentFailure* create_and_start(const AgentCall& call, fp_controller* handle, void*& agent);

@@ -48,7 +48,26 @@ AgentHost::~AgentHost() {
 
 void AgentHost::close() {
   for (std::size_t i = 0; i < agv_states_.size(); ++i) destroy(AgvId{i});
+  if (!std::exchange(is_over_, true)) tell_end_of_run();
   caller_.finish();
+}
+
+// Each program with data of its own, once; a played run knows no programs.
+void AgentHost::tell_end_of_run() {
+  std::vector<const fp_bridge*> told;
+  for (std::size_t i = 0; i < agv_states_.size(); ++i) {
+    const EntityId first{i};
+    if (caller_.plays()) {
+      if (!caller_.tape_ends_run_for(first)) continue;
+    } else {
+      const fp_bridge* bridge = bridge_of(*agv_states_[i].type);
+      if (bridge == nullptr || bridge->run_ends == nullptr || std::ranges::find(told, bridge) != told.end()) continue;
+      told.push_back(bridge);
+    }
+    AgentCall end{*agv_states_[i].type, first, run_.now};
+    end.is_run_end = true;
+    if (const AgentFailure* failure = caller_.end_run(end)) file_failure(first, failure->hang, failure->message);
+  }
 }
 
 // ---- activations
@@ -116,8 +135,13 @@ void AgentHost::freeze_until(AgvId agv, SimTime until) {
     wake(agv, agv_state);
 }
 
-// An activation has taken time or broken a limit.
+// An activation has taken time, broken a limit, or filed a failure.
 [[gnu::noinline]] void AgentHost::settle(AgvId agv, AgvState& agv_state) {
+  if (const auto& failure = agv_state.controller->failure) {
+    // A tape does not have the calls that came after it.
+    run_.counters.agent_calls -= agv_state.controller->calls + agv_state.controller->services - failure->calls;
+    give_up(agv, failure->hang, failure->message);
+  }
   if (const char* limit = agv_state.controller->broken_limit()) give_up(agv, true, limit);
   agv_state.free_at = std::max(agv_state.free_at, run_.now + agv_state.controller->cost);
 }

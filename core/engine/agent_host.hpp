@@ -115,6 +115,7 @@ class AgentHost {
   void tell_again(AgvId agv, const Load& load);
   void renew_briefing(AgvId agv);
   void destroy(AgvId agv);
+  void tell_end_of_run();
 
   RunContext& run_;
   Ports ports_;
@@ -122,7 +123,7 @@ class AgentHost {
   Briefings briefings_;
   AgentCaller caller_;
   std::uint64_t activations_max_;  // of one agent in this run
-  bool crash_ = false, hang_ = false;
+  bool crash_ = false, hang_ = false, is_over_ = false;
   std::string message_;
   std::vector<AgvState> agv_states_;  // by participant
 };

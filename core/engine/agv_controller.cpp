@@ -53,6 +53,18 @@ bool AgvController::end_activation(fp_controller& handle) {
   return handle.cost > Duration::zero() || handle.broken_limit() != nullptr;
 }
 
+// A tape ends here, so what follows must not count. The cost makes the host look at the activation.
+void AgvController::fail(fp_controller& handle, bool hang, std::string_view text) {
+  if (handle.failure != nullptr) return;
+  handle.failure = std::make_unique<FiledFailure>();
+  handle.failure->hang = hang;
+  handle.failure->message = text;
+  handle.failure->calls = handle.calls + handle.services;
+  handle.tape = nullptr;
+  handle.calls_max = 0;
+  handle.cost = std::max(handle.cost, Duration{1});
+}
+
 void AgvController::forget(AgvId agv) {
   AgvState& agv_state = agv_states_[agv.index()];
   ports_.timers.forget(agv);

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/engine/agent_call.hpp"
 #include "core/engine/call_limits.hpp"
 #include "core/engine/disks.hpp"
 #include "core/engine/ports.hpp"
@@ -16,6 +18,11 @@ namespace fleetproof {
 class AgvController;
 class CallTape;
 class ToldPlant;
+
+// A failure that the agent has filed itself.
+struct FiledFailure : AgentFailure {
+  std::uint64_t calls = 0;  // of the activation until then, services among them
+};
 }  // namespace fleetproof
 
 // The handle that an agent holds: which AGV or computer of which run, and what the activation under way has used so
@@ -28,6 +35,7 @@ struct fp_controller {
   fleetproof::CallTape* tape = nullptr;    // takes the calls of the activation; null: nobody records them
   fleetproof::ToldPlant* plant = nullptr;  // map and fleet, as agents see them
   std::string* why_not = nullptr;          // takes why the agent cannot start; null: it is not being created
+  std::unique_ptr<fleetproof::FiledFailure> failure{};  // by the agent itself; null: none
   fleetproof::Duration cost{};             // of its calls
   std::uint64_t calls = 0, services = 0;   // so many
   std::uint64_t calls_max = 0;             // so many are admitted; none outside an activation
@@ -69,6 +77,9 @@ class AgvController {
   void forget(AgvId agv);
   // The event. Pending calls take effect in the order in which they were made.
   void call_takes_effect(AgvId agv);
+
+  // The agent has failed. Nothing happens if it has said so before.
+  static void fail(fp_controller& handle, bool hang, std::string_view text);
 
   // ---- calls
   // Counts the call and its cost. False: the call is not carried out.

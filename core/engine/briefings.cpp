@@ -1,7 +1,12 @@
 #include "core/engine/briefings.hpp"
 
+#include "core/base/random.hpp"
+
 namespace fleetproof {
 namespace {
+
+// No participant draws under this key: `random` of the controller has the number of a participant at the last place.
+constexpr Block kSeedOfSoftware{0, 0, 0, FP_NONE};
 
 // As the agent's calls name it.
 std::uint32_t segment_of(const Lane* lane) {
@@ -47,6 +52,7 @@ fp_briefing Briefings::common(const Scenario& scenario, const ToldPlant& plant, 
   briefing.start_segment = FP_NONE;
   briefing.next_segment = FP_NONE;
   briefing.facts = &facts;
+  briefing.seed = word64(philox(stream_key(scenario.seed_of(Stream::Agent), Stream::Agent), kSeedOfSoftware), 0);
   briefing.orders = scenario.open_orders.empty() ? FP_ORDERS_ASSIGNED : FP_ORDERS_OPEN;
   briefing.computer_count = static_cast<std::uint32_t>(computers_.size());
   briefing.computer_stride = sizeof(fp_computer);

@@ -198,6 +198,38 @@ std::int32_t conflict(fp_controller* controller, const fp_occupancy* a, const fp
   return FP_OK;
 }
 
+// Neither of these two is a call of the controller.
+std::int32_t fail(fp_controller* controller, std::uint32_t hang, const char* text) {
+  constexpr std::size_t kLongest = 1000;
+  if (!controller->in_activation()) return FP_SUSPENDED;
+  if (text == nullptr) return FP_INVALID;
+  AgvController::fail(*controller, hang != 0, {text, ::strnlen(text, kLongest)});
+  return FP_OK;
+}
+
+std::int32_t perceive(fp_controller* controller, fp_perceived* out) {
+  if (!controller->in_activation()) return FP_SUSPENDED;
+  if (out == nullptr || out->struct_size < sizeof(fp_perceived)) return FP_INVALID;
+  const AgvController::Ports& ports = controller->part->ports();
+  const AgvId agv = controller->agv;
+  const auto unread = ports.messenger.unread(agv);
+  out->messages = unread.data();
+  out->message_count = static_cast<std::uint32_t>(unread.size());
+  out->message_stride = sizeof(fp_message);
+  out->now_ns = ports.timers.now_ns(agv);
+  out->action = 0;
+  out->battery_level = 0.0;
+  out->pose = {};
+  out->order_id = FP_NONE;
+  if (controller->is_computer) return FP_OK;
+  const Pose pose = ports.sensor.perceived(agv);
+  out->pose = {pose.position_m.x(), pose.position_m.y(), pose.heading.x(), pose.heading.y()};
+  out->battery_level = ports.battery.level(agv);
+  out->action = ports.actions.doing(agv);
+  out->order_id = controller->part->order_on_board(agv);
+  return FP_OK;
+}
+
 // ---- notes. Mostly, nobody hears them.
 
 void describe(fp_controller* controller, const char* kind) {
@@ -260,6 +292,8 @@ const fp_host kHost = {
     conflict,
     works_on,
     declare_waiting,
+    fail,
+    perceive,
 };
 
 }  // namespace fleetproof

@@ -80,10 +80,14 @@ ForeignCalls::UnderWay::UnderWay(ForeignCalls& calls, AgvId agv) : calls_(calls)
 
 ForeignCalls::UnderWay::~UnderWay() {
   handle_.caller.store(nullptr, std::memory_order_relaxed);
+  calls_.look_at_processor();
+}
+
+void ForeignCalls::look_at_processor() {
   if (has_engine_processor_state()) [[likely]]
     return;
   set_engine_processor_state();
-  ++calls_.processor_changes_;
+  ++processor_changes_;
 }
 
 }  // namespace fleetproof

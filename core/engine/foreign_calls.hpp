@@ -74,6 +74,8 @@ class ForeignCalls {
   std::string take_back(AgvId agv);
   // How many calls have left another state of the processor behind.
   std::uint64_t processor_changes() const { return processor_changes_; }
+  // After a call: from here on the thread computes as the engine does.
+  void look_at_processor();
 
   // A call that is under way: the agent may call back. After it, the thread computes as the engine does.
   class UnderWay {

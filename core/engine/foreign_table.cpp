@@ -69,7 +69,9 @@ void record(CallTape& tape, TapeItem item, std::uint32_t number, const void* byt
 
 void record(CallTape& tape, TapeItem item, std::uint32_t, fp_record*) { tape.controller_call(item); }  // recall
 
-// A question that nothing depends on.
+// Questions that nothing depends on, and a failure: a crash is on the tape with its message.
+void record(CallTape&, TapeItem, fp_perceived*) {}
+void record(CallTape&, TapeItem, std::uint32_t, const char*) {}
 void record(CallTape&, TapeItem, const fp_occupancy*, const fp_occupancy*, double, std::uint32_t*) {}
 
 void record(CallTape& tape, TapeItem, std::uint32_t, std::uint64_t) { tape.service(); }  // random
@@ -154,6 +156,8 @@ const fp_host kForeignHost = {
     guarded<&fp_host::conflict, TapeItem::NoEffect>,
     guarded<&fp_host::works_on, TapeItem::WorksOn>,
     guarded<&fp_host::declare_waiting, TapeItem::DeclareWaiting>,
+    guarded<&fp_host::fail, TapeItem::NoEffect>,
+    guarded<&fp_host::perceive, TapeItem::NoEffect>,
 };
 
 }  // namespace fleetproof

@@ -277,6 +277,16 @@ bool Messenger::read(AgvId agv, fp_message& out) {
   return true;
 }
 
+[[gnu::noinline]] std::span<const fp_message> Messenger::unread(AgvId agv) {
+  unread_.clear();
+  for (const std::uint32_t slot : agv_state_of(agv).inbox.unread()) {
+    const Message& message = pool_[slot];
+    unread_.push_back({sizeof(fp_message), message.sender.value, static_cast<std::uint32_t>(message.bytes.size()),
+                       message.bytes.data()});
+  }
+  return unread_;
+}
+
 void Messenger::put_down(AgvState& agv_state) {
   if (agv_state.in_hand == FP_NONE) return;
   pool_.release(agv_state.in_hand);

@@ -82,6 +82,8 @@ class Messenger {
 
   // The oldest message of the inbox, whose bytes stay valid until the next `read`; false: there is none.
   bool read(AgvId agv, fp_message& out);
+  // The messages of the inbox, oldest first, which stay there. Valid until the next call of this object.
+  std::span<const fp_message> unread(AgvId agv);
   void forget_inbox(AgvId agv);
   // At the end of the run: what becomes of messages that were never sent.
   void settle_accounts();
@@ -142,6 +144,7 @@ class Messenger {
   } wire_;
   std::vector<AgvState> agv_states_;  // by participant
   std::vector<Block> draws_;          // of those who hear the message being sent
+  std::vector<fp_message> unread_;    // as somebody has asked for them last
 };
 
 }  // namespace fleetproof

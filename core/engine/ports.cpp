@@ -35,6 +35,7 @@ void MessengerPort::transmit(AgvId sender, std::uint32_t slot, std::uint32_t rec
 }
 void MessengerPort::withdraw(std::uint32_t slot) const { part_->withdraw(slot); }
 bool MessengerPort::read(AgvId agv, fp_message& out) const { return part_->read(agv, out); }
+std::span<const fp_message> MessengerPort::unread(AgvId agv) const { return part_->unread(agv); }
 void MessengerPort::forget_inbox(AgvId agv) const { part_->forget_inbox(agv); }
 
 void ActivitiesPort::begin(AgvId agv, const Activity& activity, std::uint64_t subject) const {

@@ -70,6 +70,7 @@ class MessengerPort {
   void spare(std::uint32_t slot) const;
   void withdraw(std::uint32_t slot) const;
   bool read(AgvId agv, fp_message& out) const;
+  std::span<const fp_message> unread(AgvId agv) const;
   void forget_inbox(AgvId agv) const;
 
  private:

@@ -17,16 +17,17 @@ class CallTape;
 class ForeignHandles;
 class ToldPlant;
 
-// The last call into an agent: create, on_event, destroy or knows_fault. It may lie in memory that another process
+// The last call into an agent: create, on_event, destroy, knows_fault or run_ends. It may lie in memory that another process
 // reads, so that it outlives a run whose agent ends the process. Threads: one writes, any number read.
 struct CallNote {
   static constexpr std::uint32_t kDestroy = 0xffffffff;     // `event` of a call of destroy
   static constexpr std::uint32_t kKnowsFault = 0xfffffffe;  // `event` of a call of knows_fault
+  static constexpr std::uint32_t kRunEnds = 0xfffffffd;     // `event` of a call of run_ends
 
   std::atomic<std::uint64_t> number{0};  // of the calls of this run, from 1; 0: no call yet
   std::atomic<std::int64_t> at_ns{0};    // simulated time
   std::atomic<std::uint32_t> agv{0};     // or computer: its id
-  std::atomic<std::uint32_t> event{0};   // FP_EVENT_..., or one of these two
+  std::atomic<std::uint32_t> event{0};   // FP_EVENT_..., or one of these three
   std::atomic<std::uint32_t> fleet{0};   // so many AGVs; the ids of computers follow
 };
 

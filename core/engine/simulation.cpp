@@ -20,8 +20,9 @@ void check_abi(const fp_agent_type& agent) {
   }
   if (agent.name == nullptr || agent.name[0] == '\0')
     throw InputError("agent", "has no name; give its fp_agent_type one");
-  if (agent.description == nullptr || agent.create == nullptr || agent.on_event == nullptr ||
-      agent.destroy == nullptr) {
+  const fp_bridge* bridge = bridge_of(agent);
+  const bool has_create = agent.create != nullptr || (bridge != nullptr && bridge->create_in != nullptr);
+  if (agent.description == nullptr || !has_create || agent.on_event == nullptr || agent.destroy == nullptr) {
     throw InputError(
         agent.name,
         "has a null member in its fp_agent_type; description, create, on_event and destroy must all be there");

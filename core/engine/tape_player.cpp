@@ -27,7 +27,7 @@ std::optional<AgentFailure> TapePlayer::play(const AgentCall& call, void*& agent
     const TapeItem next = item();
     switch (next) {
       case TapeItem::Returned:
-        if (agent == nullptr) fail("a call returns without an agent");
+        if (agent == nullptr && !call.is_run_end) fail("a call returns without an agent");
         return std::nullopt;
       case TapeItem::Crashed:
       case TapeItem::Hung:
@@ -48,6 +48,12 @@ std::optional<AgentFailure> TapePlayer::play(const AgentCall& call, void*& agent
         play_controller_call(next, call.controller);
     }
   }
+}
+
+bool TapePlayer::ends_run_for(EntityId first) const {
+  if (rest_.empty()) return false;
+  TapePlayer ahead = *this;
+  return ahead.id() == first.value && ahead.id() == CallNote::kRunEnds;
 }
 
 // ---- calls

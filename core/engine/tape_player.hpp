@@ -19,6 +19,8 @@ class TapePlayer {
 
   // The next call of the tape. If it creates an agent, `agent` is not null afterwards: an address that nobody may use.
   std::optional<AgentFailure> play(const AgentCall& call, void*& agent);
+  // Whether the next call tells the program of this participant that the run is over.
+  bool ends_run_for(EntityId first) const;
   // At the end of the run: all calls of the tape have been played.
   void finish() const;
   std::uint64_t processor_changes() const { return processor_changes_; }

@@ -30,6 +30,7 @@ const fp_agent_type kRacyAgent = {sizeof(fp_agent_type),
                                     self->host->set_timer(self->controller, 1, event->now_ns + 10'000'000);
                                   },
                                   [](void* agent) { delete static_cast<Agent*>(agent); },
+                                  nullptr,
                                   nullptr};
 
 }  // namespace

@@ -30,6 +30,7 @@ const fp_agent_type kUndecidedAgent = {sizeof(fp_agent_type),
                                          self->host->set_timer(self->controller, 1, event->now_ns + 1'000'000'000);
                                        },
                                        [](void* agent) { delete static_cast<Agent*>(agent); },
+                                       nullptr,
                                        nullptr};
 
 }  // namespace

@@ -31,6 +31,7 @@ const fp_agent_type kForgetfulAgent = {sizeof(fp_agent_type),
                                          self->host->set_timer(self->controller, 1, event->now_ns + delay_ns);
                                        },
                                        [](void* agent) { delete static_cast<Agent*>(agent); },
+                                       nullptr,
                                        nullptr};
 
 }  // namespace

@@ -63,6 +63,7 @@ const fp_agent_type kMoody = {
       self.host->log(self.controller, "destroy");
       current_mood->leaves();
     },
+    nullptr,
     nullptr};
 
 // AGV 0 drives, and its computer restarts twice.

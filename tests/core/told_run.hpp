@@ -81,7 +81,8 @@ inline const fp_agent_type& untouchable_agent() {
                                      [](const char*) -> uint32_t {
                                        ADD_FAILURE() << "knows_fault() was called";
                                        return 0;
-                                     }};
+                                     },
+                                     nullptr};
   return type;
 }
 

@@ -241,6 +241,7 @@ extern "C" const fp_agent_type* fp_agent_query(uint32_t) {
                                        create,
                                        on_event,
                                        destroy,
+                                       nullptr,
                                        nullptr};
   return &kDepot;
 }

@@ -23,6 +23,6 @@ static void destroy(void* agent) { delete static_cast<Rover*>(agent); }
 
 extern "C" const fp_agent_type* fp_agent_query(uint32_t) {
   static const fp_agent_type kRover = {sizeof(fp_agent_type), FP_ABI_MAJOR, FP_ABI_MINOR, FP_DETERMINISTIC, "rover",
-                                       "drives at random",    create,       on_event,     destroy,          nullptr};
+                                       "drives at random",    create,       on_event,     destroy,          nullptr, nullptr};
   return &kRover;
 }

@@ -270,6 +270,7 @@ extern "C" __attribute__((visibility("default"))) const fp_agent_type* fp_agent_
       create,
       on_event,
       destroy,
-      [](const char* word) -> uint32_t { return std::string_view(word) == "deaf" ? 1 : 0; }};
+      [](const char* word) -> uint32_t { return std::string_view(word) == "deaf" ? 1 : 0; },
+      nullptr};
   return &type;
 }

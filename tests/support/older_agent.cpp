@@ -77,6 +77,11 @@ void look_at_later_members(const Agent& self, uint32_t order) {
   if (self.host->keep == nullptr || self.host->recall == nullptr) log(self, "recall", order);
   if (self.briefing->agv_names[self.briefing->self][0] == 0) log(self, "name", order);
 #endif
+#if FP_ABI_MINOR >= 6
+  fp_perceived seen{};
+  seen.struct_size = sizeof seen;
+  if (self.host->perceive(self.agv, &seen) != FP_OK || seen.battery_level <= 0.0) log(self, "perceive", order);
+#endif
   (void)self, (void)order;
 }
 
@@ -117,6 +122,10 @@ extern "C" [[gnu::visibility("default")]] const fp_agent_type* fp_agent_query(ui
     on_event,
     [](void* agent) { delete static_cast<Agent*>(agent); }
 #if FP_ABI_MINOR >= 5
+    ,
+    nullptr
+#endif
+#if FP_ABI_MINOR >= 6
     ,
     nullptr
 #endif

@@ -76,7 +76,8 @@ inline const fp_agent_type& handler_agent() {
         (*current_handler)(*self->host, self->controller, *self->briefing, *event);
       },
       [](void* agent) { delete static_cast<HandlerAgent*>(agent); },
-      [](const char* word) -> uint32_t { return std::string_view(word).starts_with("known") ? 1 : 0; }};
+      [](const char* word) -> uint32_t { return std::string_view(word).starts_with("known") ? 1 : 0; },
+      nullptr};
   return type;
 }
 

@@ -37,6 +37,7 @@ constinit const fp_agent_type kBoth{sizeof(fp_agent_type),
                                     create,
                                     on_event,
                                     destroy,
+                                    nullptr,
                                     nullptr};
 }  // namespace
 

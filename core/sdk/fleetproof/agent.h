@@ -52,7 +52,7 @@ extern "C" {
 #endif
 
 #define FP_ABI_MAJOR 1u
-#define FP_ABI_MINOR 5u
+#define FP_ABI_MINOR 6u
 
 #define FP_NONE 0xffffffffu /* no station, no segment, no AGV, no computer, no order */
 #define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
@@ -153,6 +153,9 @@ typedef struct fp_briefing {
   const char* const* vehicle_type_names; /* by vehicle_type of fp_agv */
   const char* const* segment_names;      /* by number of the segment */
   uint32_t orders;                       /* fp_orders */
+  /* Since minor 6. 64 bits of this run, the same for all participants and in every boot: software with random numbers of
+   * its own begins them with it. */
+  uint64_t seed;
 } fp_briefing;
 
 /* ---- events ---------------------------------------------------------------------------------------------- */
@@ -217,6 +220,20 @@ typedef struct fp_record {
   uint32_t size;
   const void* bytes; /* valid until the next `keep` or the end of the activation */
 } fp_record;
+
+/* Since minor 6. What `perceive` finds, as of the beginning of the activation. Of a computer, all that only an AGV has is
+ * 0, and order_id is FP_NONE. */
+typedef struct fp_perceived {
+  uint32_t struct_size;
+  uint32_t action;   /* as get_action */
+  uint32_t order_id; /* as get_load */
+  uint32_t message_count;
+  const fp_message* messages; /* that are not read yet, oldest first; valid until the next call of the controller */
+  uint32_t message_stride;    /* in bytes */
+  double battery_level;       /* as get_battery_level */
+  fp_pose pose;               /* as get_position */
+  int64_t now_ns;
+} fp_perceived;
 
 /* ---- the AGV controller ---------------------------------------------------------------------------------- */
 
@@ -327,6 +344,17 @@ typedef struct fp_host {
      `declare_waiting`: as `waiting_for`. */
   int32_t (*works_on)(fp_controller*, uint32_t agv, uint32_t order_id);
   int32_t (*declare_waiting)(fp_controller*, uint32_t agv, uint32_t for_agv);
+
+  /* Since minor 6. For bridges to software elsewhere, and for wrappers. Neither is a call: it takes no simulated time and
+     counts nowhere, and outside an activation it is FP_SUSPENDED.
+     `fail`: the agent has failed. It is filed as crashed, or as hung if `hang` is not 0, with this text for people, of
+     which at least 150 characters are kept. Its further calls return FP_SUSPENDED, it receives no event, and a restart
+     does not bring it back. In `create`, too, whatever that returns. The first call counts.
+     `perceive`: everything that an agent nearly always asks for, read ahead of it and left where it is: messages stay
+     unread. A bridge makes the calls for which it has answered in that way when its software has asked, so that software
+     behind a bridge pays what it would pay without. Set out->struct_size first. */
+  int32_t (*fail)(fp_controller*, uint32_t hang, const char* text);
+  int32_t (*perceive)(fp_controller*, fp_perceived* out);
 } fp_host;
 
 /* ---- the agent ------------------------------------------------------------------------------------------- */
@@ -336,6 +364,20 @@ typedef struct fp_host {
 #define FP_DETERMINISTIC 1u
 /* Since minor 5. The agent may be the program of a computer: it looks at `role`. Others serve AGVs only. */
 #define FP_SERVES_COMPUTERS 2u
+
+/* Since minor 6. For types that are made while the program runs, one for each program behind a bridge: a type with data of
+ * its own. Functions that are null are not called. */
+typedef struct fp_bridge {
+  uint32_t struct_size;
+  void* own; /* given to each of these functions */
+  /* In the place of the type's `create`, which may then be null. */
+  void* (*create_in)(void* own, const fp_host* host, fp_controller* controller, const fp_briefing* briefing);
+  /* A run is over, after `destroy` of its last agent, also if the run was broken off. A run stays on one thread, which
+     makes this call, too. A restart is no end of a run. No controller call may be made. */
+  void (*run_ends)(void* own);
+  /* In the place of the type's `knows_fault`. */
+  uint32_t (*knows_fault_in)(void* own, const char* word);
+} fp_bridge;
 
 typedef struct fp_agent_type {
   uint32_t struct_size;
@@ -351,6 +393,7 @@ typedef struct fp_agent_type {
   /* Since minor 5. Whether agents of this type take FP_EVENT_FAULT with this word; null: with none. A fault whose word
      is not known does not strike. Make no controller call in here, and answer one word always alike. */
   uint32_t (*knows_fault)(const char* word);
+  const fp_bridge* bridge; /* since minor 6; null: the type has no data of its own */
 } fp_agent_type;
 
 /* A shared object exports this one symbol. It returns null if it does not support the host's major version. */
