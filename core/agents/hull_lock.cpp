@@ -96,7 +96,8 @@ void HullLock::start() {
 void HullLock::start_again(const Path& standing) {
   controller_.sometimes("restarted");
   Path driving = standing;
-  const bool drives = append_lane(driving, start_segment_), drives_next = append_lane(driving, next_segment_);
+  const bool drives = append_segment(map_, driving, start_segment_);
+  const bool drives_next = append_segment(map_, driving, next_segment_);
   // The AGV may still be turning to the first lane, from anywhere: the hull of half a turn is a disc.
   const double away = options_.holding.turns_over_restarts ? -1.0 : 1.0;
   if (!driving.empty()) driving.heading = map_.start_heading(driving.lane_ids[0]) * away;
@@ -110,14 +111,6 @@ void HullLock::start_again(const Path& standing) {
   place_known_ = false;
   place_known_after_s_ = now_s() + kClockMargin * settings_.position_late_s + 0.1;
   protocol_.know_own_place(false);
-}
-
-// The lane that leaves the end of the path by this segment. False if there is none.
-bool HullLock::append_lane(Path& path, std::uint32_t segment) const {
-  for (const std::uint32_t lane : map_.lanes_from(end_of(map_, path).station)) {
-    if (map_.action_segment(lane) == segment) return path.append(lane);
-  }
-  return false;
 }
 
 void HullLock::tick() {

@@ -39,7 +39,6 @@ class HullLock {
 
   void start();
   void start_again(const Path& standing);
-  bool append_lane(Path& path, std::uint32_t segment) const;
   void action_done(std::int32_t result);
   void tick();
   void repeat();

@@ -35,6 +35,13 @@ double length_m(const MapView& map, const Path& path) {
   return sum_m;
 }
 
+bool append_segment(const MapView& map, Path& path, std::uint32_t segment) {
+  for (const std::uint32_t lane : map.lanes_from(end_of(map, path).station)) {
+    if (map.action_segment(lane) == segment) return path.append(lane);
+  }
+  return false;
+}
+
 bool share_a_station(const MapView& map, const Path& a, const Path& b) {
   const auto passes = [&](const Path& path, std::uint32_t station) {
     return path.station == station ||

@@ -47,6 +47,8 @@ bool is_identical(const Path& a, const Path& b);
 bool is_driveable(const MapView& map, const Path& path);
 // A path without lanes, at the end of this path.
 Path end_of(const MapView& map, const Path& path);
+// Appends the lane that leaves the end of the path by this segment, named as in actions. False if there is none.
+bool append_segment(const MapView& map, Path& path, std::uint32_t segment);
 double length_m(const MapView& map, const Path& path);
 // True if the AGV stands at one station or passes it on both paths.
 bool share_a_station(const MapView& map, const Path& a, const Path& b);
