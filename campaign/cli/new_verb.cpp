@@ -38,8 +38,8 @@ constexpr InPlace kCentral[] = {
     {"[world]\n",
      "# The server, whose faults are drawn as those of the AGVs are.\n[[computers]]\nname = \"server\"\n\n"
      "[computers.faults]\nrestarts_per_hour = 4\nrestart_s = 2\npower_failures_per_hour = 1\npower_back_s = 10\n"
-     "freezes_per_hour = 4\n\n[world]\ntransports = \"open\"  # the server hears of them, and says who fetches "
-     "which\n"},
+     "freezes_per_hour = 4\ndisk_losses_per_hour = 2\ndisk_loss_s = 2\n\n[world]\n"
+     "transports = \"open\"  # the server hears of them, and says who fetches which\nwithdrawn_share = 0.1\n"},
 };
 
 std::string central(std::string_view usual) {

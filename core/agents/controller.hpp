@@ -87,6 +87,17 @@ class Controller {
   // Of the program of a computer: which order an AGV works on, and for which other AGV it waits.
   void works_on(std::uint32_t agv, std::uint32_t order_id) { host_.works_on(handle_, agv, order_id); }
   void declare_waiting(std::uint32_t agv, std::uint32_t for_agv) { host_.declare_waiting(handle_, agv, for_agv); }
+  // The disk. Of a computer: a host that knows computers has one. False: the record was not taken.
+  bool keep(std::uint32_t record, std::span<const std::byte> bytes) {
+    return host_.keep(handle_, record, bytes.data(), static_cast<std::uint32_t>(bytes.size())) == FP_OK;
+  }
+  // Empty if there is no such record. Valid until the next `keep` or the end of the activation.
+  std::span<const std::byte> recall(std::uint32_t record) {
+    fp_record found{};
+    found.struct_size = sizeof(fp_record);
+    if (host_.recall(handle_, record, &found) != FP_OK) return {};
+    return {static_cast<const std::byte*>(found.bytes), found.size};
+  }
   void sometimes(const char* probe) { host_.sometimes(handle_, probe); }
 
   // Notes for people who look at a trace. A host of an older minor version takes none.

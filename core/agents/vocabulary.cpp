@@ -33,7 +33,9 @@ constexpr Word kWords[] = {
     {"learning", "the zone-server does not know yet where each AGV stands, and grants nothing"},
     {"finding its place", "since a restart, the follower waits until it surely rests"},
     {"grant", "the zone-server granted steps"},
-    {"server-restarted", "the follower heard that its zone-server has started anew"},
+    {"server-restarted", "the follower heard that its zone-server has started anew, without its book"},
+    {"recalled", "the zone-server has started anew, and had its book on its disk"},
+    {"set-down-in-the-way", "an AGV was set down on floor that others hold: it gets no steps before they have passed"},
     {"grant-of-another-way", "the follower got a GRANT from before a restart of the server, or of its own computer"},
 };
 

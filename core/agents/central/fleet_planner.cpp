@@ -71,6 +71,8 @@ void FleetPlanner::begin(std::uint32_t agv) {
 
 void FleetPlanner::take_orders(std::uint32_t agv, std::uint32_t first, std::span<const Order> orders) {
   Task& task = tasks_[agv];
+  if (task.cancelling && !carries_load(agv)) task.goals.clear();
+  task.cancelling = false;
   for (std::size_t i = 0; i < orders.size(); ++i) {
     if (first + i != task.orders) continue;
     const Order& order = orders[i];
@@ -80,7 +82,26 @@ void FleetPlanner::take_orders(std::uint32_t agv, std::uint32_t first, std::span
   }
 }
 
-void FleetPlanner::take_open_order(const Order& order) { open_.push_back({order}); }
+void FleetPlanner::put_work(std::uint32_t agv, AgvRecord& record) const {
+  const Task& task = tasks_[agv];
+  record.grant.orders = task.orders;
+  record.goals.assign(task.goals.begin(), task.goals.end());
+  record.charging = task.charging;
+}
+
+void FleetPlanner::recall(std::uint32_t agv, const AgvRecord& record) {
+  tasks_[agv].orders = record.grant.orders;
+  tasks_[agv].goals.assign(record.goals.begin(), record.goals.end());
+  tasks_[agv].charging = record.charging;
+}
+
+// After a restart of the server, an AGV may be carrying it out.
+void FleetPlanner::take_open_order(const Order& order) {
+  OpenOrder open{order, 0};
+  while (open.agv < book_.fleet_count() && !is_under_way(open)) ++open.agv;
+  if (open.agv == book_.fleet_count()) open.agv = FP_NONE;
+  open_.push_back(open);
+}
 
 void FleetPlanner::withdraw(std::uint32_t order) {
   const auto open = std::ranges::find(open_, order, [](const OpenOrder& o) { return o.order.id; });
@@ -92,6 +113,7 @@ void FleetPlanner::withdraw(std::uint32_t order) {
     std::erase_if(task.goals,
                   [&](const Goal& goal) { return goal.step.what == order && goal.step.kind != Step::Kind::Charge; });
     task.wanted.reset();
+    task.cancelling = !options_.cancels_name_an_order;
   }
   open_.erase(open);
 }
@@ -478,6 +500,8 @@ void FleetPlanner::push(std::uint32_t agv, const Need& by, int depth) {
   if (book_.way(agv).out_of_order) return;
   if (task.asked_ns >= 0 && seconds(now_ns_ - task.asked_ns) < kAskAgain_s) return;
   if (task.charging && !settings_.is_enough(book_.way(agv).battery)) return;
+  if (!options_.ways_to_chargers_are_whole && !task.goals.empty() && task.goals.front().step.kind == Step::Kind::Charge)
+    return;
   const double waits_s = task.is_idle() ? INFINITY : task.since_ns < 0 ? 0.0 : seconds(now_ns_ - task.since_ns);
   const double asked_s = seconds(now_ns_ - tasks_[by.agv].since_ns);
   const bool insists = asked_s > kInsists_s;

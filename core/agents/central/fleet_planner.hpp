@@ -22,12 +22,6 @@
 
 namespace fleetproof::agents::central {
 
-// A station to go to, and what to do there.
-struct Goal {
-  std::uint32_t station = FP_NONE;
-  Step step;
-};
-
 // What could be granted next, from the end of what an AGV holds.
 struct Section {
   // A part of it after which the AGV blocks no other AGV.
@@ -65,6 +59,7 @@ struct Task {
   std::int64_t since_ns = -1;        // since when it has wanted to reach its next goal; below 0: it does not wait
   std::int64_t stands_back_ns = -1;  // until then it lets the others go first
   bool charging = false;             // it is at a charger, or on the last steps to one
+  bool cancelling = false;           // of a faulty server: the AGV has not answered a cancel yet
   std::uint32_t evaded = 0;          // so often
   std::int64_t asked_ns = -1;        // when it was asked to make way, and tried to
   std::optional<Section> wanted;     // what it needs next, while it cannot get that
@@ -85,6 +80,9 @@ class FleetPlanner {
   // Orders of this AGV, by its own numbers from `first` on. Known ones may be among them.
   void take_orders(std::uint32_t agv, std::uint32_t first, std::span<const Order> orders);
   std::uint32_t orders_of(std::uint32_t agv) const { return tasks_[agv].orders; }
+  // The work of an AGV, on the disk of the server and back.
+  void put_work(std::uint32_t agv, AgvRecord& record) const;
+  void recall(std::uint32_t agv, const AgvRecord& record);
   // Open orders: of no AGV; the planner chooses one. Withdrawn: over, unless its pick has been granted already.
   void take_open_order(const Order& order);
   void withdraw(std::uint32_t order);

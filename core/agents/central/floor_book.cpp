@@ -4,8 +4,39 @@
 
 namespace fleetproof::agents::central {
 
+void FloorBook::recall(std::span<const AgvRecord> records) {
+  for (std::uint32_t agv = 0; agv < records.size(); ++agv) {
+    const auto& [state, grant, goals, charging] = records[agv];
+    Way& way = ways_[agv];
+    server_boot_ = state.way.server_boot;
+    begin(way, state);
+    way.done = way.known = grant.first;
+    way.steps.assign(grant.steps.begin(), grant.steps.end());
+    for (const Step& step : grant.steps) {
+      if (step.drives()) way.held.append(step.what);
+    }
+  }
+}
+
+AgvRecord FloorBook::record_of(std::uint32_t agv) const {
+  const Way& way = ways_[agv];
+  AgvRecord record;
+  record.state.way = number_of(agv);
+  record.state.station = way.held.station;
+  record.state.heading = way.held.heading;
+  record.state.load = way.first_load;
+  record.grant = {number_of(agv), way.done, {way.steps.begin(), way.steps.end()}};
+  return record;
+}
+
+bool FloorBook::all_joined() const {
+  return std::ranges::all_of(
+      ways_, [&](const Way& way) { return way.joined || (way.out_of_order && !options_.failed_ones_join); });
+}
+
 FloorBook::News FloorBook::hear(std::uint32_t agv, const State& state) {
   Way& way = ways_[agv];
+  if (!way.joined) way.out_of_order = state.out_of_order;
   const bool fails_early = state.out_of_order && state.known < way.granted();
   const bool starts_again = way.is_waiting() && state.way.agv_boot > way.boot && !state.stands;
   way.lost = (fails_early && !options_.failures_keep_floor) || (starts_again && !options_.restarts_keep_floor);
@@ -25,7 +56,6 @@ FloorBook::News FloorBook::hear(std::uint32_t agv, const State& state) {
 }
 
 void FloorBook::begin(Way& way, const State& state) {
-  joined_ += way.joined ? 0 : 1;
   const std::uint32_t changes = way.changes + 1;
   way = {};
   way.changes = changes;
@@ -70,7 +100,7 @@ bool FloorBook::grant(std::uint32_t agv, std::span<const Step> steps) {
 
 Grant FloorBook::unknown_steps(std::uint32_t agv) const {
   const Way& way = ways_[agv];
-  Grant grant{number_of(agv), std::max(way.known, way.done), {}, 0};
+  Grant grant{number_of(agv), std::max(way.known, way.done), {}};
   for (std::uint32_t i = grant.first; i < way.granted() && grant.steps.size() < kMostStepsInAMessage; ++i)
     grant.steps.push_back(way.steps[i - way.done]);
   return grant;

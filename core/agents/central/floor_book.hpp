@@ -7,17 +7,17 @@
 // - covers(i): the floor that i may cover by the steps that it knows: the hull of the path from its last station over
 //   the lanes of these steps that it has not left behind; at rest, its standing body. i drives the lanes in their
 //   order and nothing else, so its body is in covers(i), whatever stops, delays or frees it.
-// - holds(i): the hull of the path that this book has for i. It contains all steps that were ever granted to the way,
-//   but for those of which i said that it has left them behind.
+// - holds(i): the hull of the path that this book has for i. It contains all steps that were ever sent to the way, but
+//   for those of which i said that it has left them behind.
 //
-// Invariant, while the server has this boot and every AGV has joined it:
+// Invariant, while the ways are of this boot and every AGV has joined it:
 //   (A) holds(i) contains covers(i).     (B) What two AGVs may cover never conflicts.
 // From both follows that no two bodies come too close.
 //
 // Every step keeps them:
-// - i joins. A State with the server's boot and a new boot of i says where i began that way. Nothing was granted to
-//   this way before, and i takes no steps of other ways, so i still stands there: (A). i moved only in covers(i) until
-//   it rested, so covers(i) has not grown: (B). An older way of i gets no more steps, and i has ended it.
+// - i joins. A State with the server's boot and a new boot of i says where i began that way. Nothing was sent to this
+//   way before, and i takes no steps of other ways, so i still stands there: (A). i moved only in covers(i) until it
+//   rested, so covers(i) has not grown: (B). An older way of i gets no more steps, and i has ended it.
 // - i restarts. covers(i) only shrinks: the new self takes no step until it has begun a way, and its former actions end
 //   within what the former self knew. holds(i) does not change before the State of the new way arrives.
 // - The server grants i a step. It does that only when every AGV has joined, and only if the floor of the step
@@ -27,13 +27,25 @@
 //   its present way, and only if it has all steps before it; a step of a number is always the same step.
 // - A State arrives late, twice or out of order. What it says has been done stays done, and States of older ways are
 //   ignored. The book only drops lanes that are behind i: (A).
-// - The server restarts. The new book grants nothing before every AGV has joined it. An AGV that has joined takes no
-//   steps from an earlier boot. Until then it goes on with steps that it knows: covers(i) only shrinks.
+// - The server restarts and finds its disk whole (server_disk.hpp). It goes on with the boot of the ways there, and
+//   nobody joins. Before a Grant was sent, the disk had all steps of its way up to those in it. So if the newest way of
+//   i is the one on the disk: (A), and a step that was not on the disk was never sent, so its number may be given to
+//   another one. If i has begun a later way since, nothing was sent to that, and its former self ended within the way
+//   on the disk. So i stands in holds(i): (A), and it joins with that later way as ever. A late State of the way on the
+//   disk is true of that way, and i never went back in it: (A). covers(i) does not change: (B).
+// - The server restarts otherwise: the disk was lost, torn, or of an older start. The new book has the boot of this
+//   start, which is later than all before, and grants nothing before every AGV has joined it. An AGV that has joined
+//   takes no steps from an earlier boot. Until then it goes on with steps that it knows: covers(i) only shrinks.
 //
 // Time occurs nowhere: no floor becomes free because a clock says so, and a silent AGV keeps what it holds. At the
 // start, bodies are apart, but loads may be larger: the book grants a pick only if the loaded body is clear of all
-// others. Nothing is proved of an AGV that was set down elsewhere by hand after a contact: it has restarted and begins
-// a way there, but until its State arrives the book has its old place.
+// others.
+//
+// An AGV i that was set down elsewhere by hand, after a contact, breaks (B) if its new place conflicts with covers(j):
+// nothing that was granted to j can be taken back. When the State from there arrives, holds(i) is the new place: (A).
+// From then on, steps of others that conflict with it are refused, and so is every step of i while holds(j) conflicts
+// with where i stands. So what may still go wrong was granted before that State arrived, and ends when those AGVs have
+// passed. The server tells such a place by the probe "set-down-in-the-way".
 #pragma once
 
 #include <cstdint>
@@ -77,9 +89,15 @@ class FloorBook {
 
   std::uint32_t fleet_count() const { return static_cast<std::uint32_t>(ways_.size()); }
   const Way& way(std::uint32_t agv) const { return ways_[agv]; }
-  bool all_joined() const { return joined_ == ways_.size() || !options_.all_join_first; }
+  bool all_joined() const;
+  std::uint32_t server_boot() const { return server_boot_; }  // that began the ways
   WayNumber number_of(std::uint32_t agv) const { return {server_boot_, ways_[agv].boot}; }
   Path end_of_way(std::uint32_t agv) const { return end_of(map_, ways_[agv].held); }
+
+  // What its former self had on its disk, of each AGV: the book goes on with that. Without records, nothing changes.
+  void recall(std::span<const AgvRecord> records);
+  // What has to be on the disk before the AGV hears more of its way: all but its work.
+  AgvRecord record_of(std::uint32_t agv) const;
 
   // Requires: the station exists.
   News hear(std::uint32_t agv, const State& state);
@@ -106,7 +124,6 @@ class FloorBook {
   std::uint32_t server_boot_;
   ServerOptions options_;
   std::vector<Way> ways_;  // by AGV
-  std::uint32_t joined_ = 0;
 };
 
 }  // namespace fleetproof::agents::central

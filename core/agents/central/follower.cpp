@@ -27,14 +27,8 @@ Follower::Follower(const fp_host& host, fp_controller* handle, const fp_briefing
   way_.way.agv_boot = briefing.boot;
   held_.station = briefing.start_station;
   // Its former self has begun these. What else the former self was granted, it does not know and does not use.
-  for (const std::uint32_t segment : {briefing.start_segment, briefing.next_segment}) {
-    for (const std::uint32_t lane : map_.lanes_from(end_of(map_, held_).station)) {
-      if (is_restarted() && map_.action_segment(lane) == segment) {
-        held_.append(lane);
-        break;
-      }
-    }
-  }
+  for (const std::uint32_t segment : {briefing.start_segment, briefing.next_segment})
+    append_segment(map_, held_, segment);
   held_ = end_of(map_, held_);
 }
 
@@ -134,6 +128,7 @@ void Follower::obey(std::span<const std::byte> bytes) {
   if (grant->way.server_boot > way_.way.server_boot) follow_boot(grant->way.server_boot);
   if (phase_ != Phase::OnWay || (options_.ways_count && grant->way != way_.way))
     return controller_.sometimes("grant-of-another-way");
+  way_.has_work = grant->has_work;
   orders_told_ = std::clamp(grant->orders, orders_told_, static_cast<std::uint32_t>(orders_.size()));
   take_steps(*grant);
 }
@@ -153,7 +148,7 @@ void Follower::follow_boot(std::uint32_t server_boot) {
 
 // The first steps of the message may be known already; if others are missing before them, it waits for these.
 void Follower::take_steps(const Grant& grant) {
-  const std::uint32_t first = options_.numbers_count ? grant.first : way_.known;
+  const std::uint32_t first = options_.gaps_count ? grant.first : std::min(grant.first, way_.known);
   if (first > way_.known) return controller_.sometimes("grant-lost");
   const auto last = static_cast<std::uint32_t>(first + grant.steps.size());
   if (last <= way_.known) return;
@@ -245,7 +240,7 @@ void Follower::report() {
   State state = way_;
   state.battery = controller_.battery_level();
   state.out_of_order = controller_.out_of_order();
-  state.done += !options_.lanes_to_their_end && under_way_ == 2 ? 1 : 0;
+  state.done += !options_.lanes_to_their_end && under_way_ == 2 && state.out_of_order ? 1 : 0;
   state.first_order = orders_told_;
   for (std::size_t i = orders_told_; i < orders_.size() && state.orders.size() < kMostOrdersInAMessage; ++i)
     state.orders.push_back(orders_[i].order);
@@ -257,8 +252,8 @@ void Follower::report() {
 const char* Follower::activity() {
   if (phase_ == Phase::Lost) return "finding its place";
   if (under_way_ > 0) return name_of(steps_.front().kind);
-  const bool has_work = controller_.order_on_board() != FP_NONE || (!orders_.empty() && !orders_.back().done);
-  return has_work ? "waiting" : "idle";
+  const bool has_orders = !orders_.empty() && !orders_.back().done;
+  return has_orders || way_.has_work || controller_.order_on_board() != FP_NONE ? "waiting" : "idle";
 }
 
 void* create_follower(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,

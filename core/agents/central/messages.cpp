@@ -6,116 +6,144 @@
 namespace fleetproof::agents::central {
 namespace {
 
-constexpr std::uint32_t kStateMark = 0xB1, kGrantMark = 0xB2;  // the first byte of a message
-constexpr std::uint32_t kStandsFlag = 1, kOutOfOrderFlag = 2;  // flags of a state
-constexpr double kFullBattery = 1e6;                           // as it travels
-constexpr double kUnitLength = 1e-9;                           // a heading may be off by so much
+constexpr std::uint32_t kStateMark = 0xB1, kGrantMark = 0xB2, kRecordMark = 0xB3;
+constexpr double kUnitLength = 1e-9;  // a heading may be off by so much
 
-// Little-endian fields of fixed size.
+// Little-endian fields of fixed size. Writer and Reader have the same calls, so that a message has one list of fields.
 class Writer {
  public:
   template <class... Values>
-  void put(Values... values) {
-    (put_bytes(values, 4), ...);
+  void operator()(Values&... values) {
+    (put(values), ...);
   }
-  void put_byte(std::uint32_t value) { put_bytes(value, 1); }
-  void put_double(double value) { put_bytes(std::bit_cast<std::uint64_t>(value), 8); }
+  void mark(std::uint32_t mark) { put_bytes(mark, 1); }
   std::vector<std::byte> bytes;
 
  private:
   void put_bytes(std::uint64_t value, int count) {
     for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::byte>(value >> (8 * i)));
   }
+  void put(std::uint32_t value) { put_bytes(value, 4); }
+  void put(bool value) { put_bytes(value ? 1 : 0, 1); }
+  void put(double value) { put_bytes(std::bit_cast<std::uint64_t>(value), 8); }
+  void put(Step::Kind kind) { put_bytes(static_cast<std::uint64_t>(kind), 1); }
+  template <class Item>
+  void put(std::vector<Item>& items) {
+    put(static_cast<std::uint32_t>(items.size()));
+    for (Item& item : items) fields_of(*this, item);
+  }
+  template <class Group>
+  void put(Group& group) {
+    fields_of(*this, group);
+  }
 };
 
-// Behind the end it reads zeros, and `complete` is false.
+// Behind the end, or after a value that is not possible, it reads zeros, and `complete` is false.
 class Reader {
  public:
   explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   template <class... Values>
-  void take(Values&... values) {
-    ((values = static_cast<std::uint32_t>(take_bytes(4))), ...);
+  void operator()(Values&... values) {
+    (take(values), ...);
   }
-  std::uint32_t take_byte() { return static_cast<std::uint32_t>(take_bytes(1)); }
-  double take_double() { return std::bit_cast<double>(take_bytes(8)); }
-  bool complete() const { return enough_ && rest_.empty(); }
+  void mark(std::uint32_t mark) { require(take_bytes(1) == mark); }
+  bool complete() const { return possible_ && rest_.empty(); }
 
  private:
+  void require(bool condition) { possible_ = possible_ && condition; }
   std::uint64_t take_bytes(std::size_t count) {
-    enough_ = enough_ && rest_.size() >= count;
-    if (!enough_) return 0;
+    require(rest_.size() >= count);
+    if (!possible_) return 0;
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < count; ++i) value |= std::to_integer<std::uint64_t>(rest_[i]) << (8 * i);
     rest_ = rest_.subspan(count);
     return value;
   }
+  void take(std::uint32_t& value) { value = static_cast<std::uint32_t>(take_bytes(4)); }
+  void take(bool& value) { value = take_bytes(1) != 0; }
+  void take(double& value) { value = std::bit_cast<double>(take_bytes(8)); }
+  void take(Step::Kind& kind) {
+    const std::uint64_t number = take_bytes(1);
+    require(number <= static_cast<std::uint64_t>(Step::Kind::Charge));
+    if (possible_) kind = static_cast<Step::Kind>(number);
+  }
+  template <class Item>
+  void take(std::vector<Item>& items) {
+    std::uint32_t count = 0;
+    take(count);
+    require(count <= rest_.size());
+    items.resize(possible_ ? count : 0);
+    for (Item& item : items) fields_of(*this, item);
+  }
+  template <class Group>
+  void take(Group& group) {
+    fields_of(*this, group);
+  }
 
   std::span<const std::byte> rest_;
-  bool enough_ = true;
+  bool possible_ = true;
 };
+
+template <class Io>
+void fields_of(Io& io, WayNumber& way) {
+  io(way.server_boot, way.agv_boot);
+}
+template <class Io>
+void fields_of(Io& io, Order& order) {
+  io(order.id, order.from, order.to);
+}
+template <class Io>
+void fields_of(Io& io, Step& step) {
+  io(step.kind, step.what);
+}
+template <class Io>
+void fields_of(Io& io, Goal& goal) {
+  io(goal.station, goal.step);
+}
+template <class Io>
+void fields_of(Io& io, State& state) {
+  io.mark(kStateMark);
+  io(state.way, state.stands, state.station, state.heading.x, state.heading.y, state.load, state.known, state.done);
+  io(state.number, state.battery, state.out_of_order, state.has_work, state.first_order, state.orders);
+}
+template <class Io>
+void fields_of(Io& io, Grant& grant) {
+  io.mark(kGrantMark);
+  io(grant.way, grant.first, grant.steps, grant.orders, grant.has_work);
+}
+template <class Io>
+void fields_of(Io& io, AgvRecord& record) {
+  io.mark(kRecordMark);
+  io(record.state, record.grant, record.goals, record.charging);
+}
+
+template <class Message>
+std::vector<std::byte> encoded(Message message) {
+  Writer out;
+  fields_of(out, message);
+  return std::move(out.bytes);
+}
+template <class Message>
+std::optional<Message> decoded(std::span<const std::byte> bytes) {
+  Reader in(bytes);
+  Message message;
+  fields_of(in, message);
+  return in.complete() ? std::optional(std::move(message)) : std::nullopt;
+}
 
 }  // namespace
 
-std::vector<std::byte> encode(const State& state) {
-  Writer out;
-  out.put_byte(kStateMark);
-  out.put_byte((state.stands ? kStandsFlag : 0U) | (state.out_of_order ? kOutOfOrderFlag : 0U));
-  out.put(state.way.server_boot, state.way.agv_boot, state.station, state.load, state.known, state.done, state.number);
-  out.put_double(state.heading.x);
-  out.put_double(state.heading.y);
-  out.put(static_cast<std::uint32_t>(state.battery * kFullBattery), state.first_order);
-  out.put_byte(static_cast<std::uint32_t>(state.orders.size()));
-  for (const Order& order : state.orders) out.put(order.id, order.from, order.to);
-  return std::move(out.bytes);
-}
+std::vector<std::byte> encode(const State& state) { return encoded(state); }
+std::vector<std::byte> encode(const Grant& grant) { return encoded(grant); }
+std::vector<std::byte> encode(const AgvRecord& record) { return encoded(record); }
 
 std::optional<State> decode_state(std::span<const std::byte> bytes) {
-  Reader in(bytes);
-  State state;
-  if (in.take_byte() != kStateMark) return std::nullopt;
-  const std::uint32_t flags = in.take_byte();
-  state.stands = (flags & kStandsFlag) != 0;
-  state.out_of_order = (flags & kOutOfOrderFlag) != 0;
-  in.take(state.way.server_boot, state.way.agv_boot, state.station, state.load, state.known, state.done, state.number);
-  state.heading.x = in.take_double();
-  state.heading.y = in.take_double();
-  std::uint32_t battery = 0;
-  in.take(battery, state.first_order);
-  state.battery = battery / kFullBattery;
-  state.orders.resize(in.take_byte());
-  for (Order& order : state.orders) in.take(order.id, order.from, order.to);
-  const bool is_unit = std::abs(length(state.heading) - 1.0) < kUnitLength;
-  if (!in.complete() || !is_unit || state.done > state.known) return std::nullopt;
-  return state;
+  std::optional<State> state = decoded<State>(bytes);
+  const bool is_possible = state && std::abs(length(state->heading) - 1.0) < kUnitLength && state->done <= state->known;
+  return is_possible ? state : std::nullopt;
 }
-
-std::vector<std::byte> encode(const Grant& grant) {
-  Writer out;
-  out.put_byte(kGrantMark);
-  out.put(grant.way.server_boot, grant.way.agv_boot, grant.first, grant.orders);
-  out.put_byte(static_cast<std::uint32_t>(grant.steps.size()));
-  for (const Step& step : grant.steps) {
-    out.put_byte(static_cast<std::uint32_t>(step.kind));
-    out.put(step.what);
-  }
-  return std::move(out.bytes);
-}
-
-std::optional<Grant> decode_grant(std::span<const std::byte> bytes) {
-  Reader in(bytes);
-  Grant grant;
-  if (in.take_byte() != kGrantMark) return std::nullopt;
-  in.take(grant.way.server_boot, grant.way.agv_boot, grant.first, grant.orders);
-  grant.steps.resize(in.take_byte());
-  for (Step& step : grant.steps) {
-    const std::uint32_t kind = in.take_byte();
-    if (kind > static_cast<std::uint32_t>(Step::Kind::Charge)) return std::nullopt;
-    step.kind = static_cast<Step::Kind>(kind);
-    in.take(step.what);
-  }
-  if (!in.complete()) return std::nullopt;
-  return grant;
-}
+std::optional<Grant> decode_grant(std::span<const std::byte> bytes) { return decoded<Grant>(bytes); }
+std::optional<AgvRecord> decode_record(std::span<const std::byte> bytes) { return decoded<AgvRecord>(bytes); }
 
 }  // namespace fleetproof::agents::central

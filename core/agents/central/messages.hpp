@@ -1,4 +1,4 @@
-// What a follower and its zone-server tell each other.
+// What a follower and its zone-server tell each other, and what the server keeps on its disk of each follower.
 #pragma once
 
 #include <cstddef>
@@ -45,6 +45,12 @@ struct Order {
   friend bool operator==(const Order&, const Order&) = default;
 };
 
+// A station to go to, and what to do there.
+struct Goal {
+  std::uint32_t station = FP_NONE;
+  Step step;
+};
+
 // From a follower. All numbers of steps and orders count from the beginning of its way.
 struct State {
   WayNumber way;
@@ -57,6 +63,7 @@ struct State {
   std::uint32_t number = 0;      // of this message, since the boot
   double battery = 1.0;
   bool out_of_order = false;
+  bool has_work = false;          // as the newest Grant says
   std::uint32_t first_order = 0;  // the number of the first of these
   std::vector<Order> orders;      // that the server may not have
 };
@@ -67,6 +74,15 @@ struct Grant {
   std::uint32_t first = 0;  // the number of the first of these steps
   std::vector<Step> steps;
   std::uint32_t orders = 0;  // the server has so many orders of this way
+  bool has_work = false;     // an open order is for this AGV
+};
+
+// All that the server has told an AGV, and that is not done.
+struct AgvRecord {
+  State state;  // as if the AGV had begun its way where the path begins that the book has for it
+  Grant grant;  // all steps from there
+  std::vector<Goal> goals;
+  bool charging = false;
 };
 
 // No message is longer than FP_MESSAGE_BYTES_MAX.
@@ -74,8 +90,10 @@ inline constexpr std::size_t kMostOrdersInAMessage = 48, kMostStepsInAMessage = 
 
 std::vector<std::byte> encode(const State& state);
 std::vector<std::byte> encode(const Grant& grant);
+std::vector<std::byte> encode(const AgvRecord& record);
 // The message, if the bytes are exactly one. The caller must check that stations and lanes exist on its map.
 std::optional<State> decode_state(std::span<const std::byte> bytes);
 std::optional<Grant> decode_grant(std::span<const std::byte> bytes);
+std::optional<AgvRecord> decode_record(std::span<const std::byte> bytes);
 
 }  // namespace fleetproof::agents::central

@@ -9,21 +9,23 @@ namespace fleetproof::agents::central {
 // Of the zone-server.
 struct ServerOptions {
   std::int64_t silence_frees_after_ns = 0;  // the floor of an AGV that is silent for so long; 0: time frees nothing
-  bool all_join_first = true;               // a server that has started grants nothing before every AGV has joined it
+  bool failed_ones_join = true;             // false: a server that starts does not wait for AGVs that are out of order
   bool failures_keep_floor = true;          // false: not of an AGV that fails before it has all of its steps
   bool restarts_keep_floor = true;          // false: not of an AGV that stands while its computer starts again
   bool restarts_are_believed = true;        // false: it first has to finish what its former self was granted
+  std::int64_t writes_every_ns = 0;         // what was granted, to the disk; 0: before each grant is sent
   bool repeats_grants = true;               // until the AGV is known to have them
+  bool cancels_name_an_order = true;        // false: they end what the AGV is to do when it answers
   bool ways_to_chargers_are_whole = true;   // an AGV on its way to a charger never waits in between
 };
 
 // Of the follower.
 struct FollowerOptions {
-  bool numbers_count = true;       // a step of a number is taken once, after those before it
+  bool gaps_count = true;          // a step is taken only if all steps before it are known
   bool ways_count = true;          // a Grant is for one way only
   bool ways_begin_at_rest = true;  // false: a new way begins in the middle of a lane
   bool former_steps_end = true;    // what a former boot of the server granted is not driven any more
-  bool lanes_to_their_end = true;  // false: a lane counts as left when the AGV is about to leave it
+  bool lanes_to_their_end = true;  // false: an AGV that fails while it drives on to the next lane has left this one
   std::int64_t patience_ns = 0;    // a request that is not granted for so long is given up and made anew; 0: never
 };
 

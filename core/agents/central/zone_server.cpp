@@ -16,13 +16,23 @@ ZoneServer::ZoneServer(const fp_host& host, fp_controller* handle, const fp_brie
       facts_(briefing),
       map_(facts_.shared()),
       geometry_(map_, briefing),
+      disk_(controller_, map_, briefing.fleet_count, briefing.boot),
       book_(map_, geometry_, briefing.fleet_count, briefing.boot, options),
       planner_(map_, geometry_, book_, settings_, options),
       declared_(briefing.fleet_count),
+      kept_(briefing.fleet_count),
       owes_(briefing.fleet_count, briefing.boot > 0),
       told_(briefing.fleet_count),
-      heard_ns_(briefing.fleet_count) {
-  if (briefing.boot > 0) controller_.sometimes("restarted");
+      heard_ns_(briefing.fleet_count, controller_.now_ns()) {
+  if (briefing.boot == 0) return;
+  const std::vector<AgvRecord> records = disk_.recall();
+  controller_.sometimes("restarted");
+  if (!records.empty()) controller_.sometimes("recalled");
+  book_.recall(records);
+  for (std::uint32_t agv = 0; agv < records.size(); ++agv) {
+    planner_.recall(agv, records[agv]);
+    kept_[agv] = kept_now(agv);
+  }
 }
 
 void ZoneServer::on_event(const fp_event& event) {
@@ -42,6 +52,8 @@ void ZoneServer::on_event(const fp_event& event) {
 void ZoneServer::tick() {
   const double pause_s = kPulse_s * (0.8 + 0.4 * controller_.random(kPulseDraws));
   controller_.set_timer(kPulseTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
+  disk_.open(book_.server_boot());
+  if (options_.writes_every_ns > 0) write_late();
   if (options_.silence_frees_after_ns > 0) lose_the_silent();
   plan();
   for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
@@ -60,17 +72,30 @@ void ZoneServer::lose_the_silent() {
   }
 }
 
+// Of a faulty server.
+void ZoneServer::write_late() {
+  if (controller_.now_ns() - written_ns_ < options_.writes_every_ns) return;
+  written_ns_ = controller_.now_ns();
+  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) keep(agv);
+}
+
 // True if there may be something new to grant.
 bool ZoneServer::hear(std::uint32_t sender, std::span<const std::byte> bytes) {
   const std::optional<State> state = decode_state(bytes);
   if (!state || !is_possible(sender, *state)) return false;
   heard_ns_[sender] = controller_.now_ns();
+  const Path held = book_.way(sender).held;
+  const bool knew = book_.way(sender).joined;
   const FloorBook::News news = book_.hear(sender, *state);
+  if (news == FloorBook::News::Joined && knew && !share_a_station(map_, held, book_.way(sender).held) &&
+      !book_.is_free(sender, book_.way(sender).held))
+    controller_.sometimes("set-down-in-the-way");
   if (news == FloorBook::News::Joined) {
     planner_.begin(sender);
     told_[sender] = 0;
   }
-  owes_[sender] = owes_[sender] || !state->orders.empty() || state->way != book_.number_of(sender);
+  owes_[sender] = owes_[sender] || !state->orders.empty() || state->way != book_.number_of(sender) ||
+                  state->has_work != has_work(sender);
   if (!state->stands || state->way != book_.number_of(sender)) return false;
   const std::uint32_t orders = planner_.orders_of(sender);
   planner_.take_orders(sender, state->first_order, state->orders);
@@ -104,10 +129,23 @@ void ZoneServer::declare() {
   }
 }
 
+// What an AGV is told is on the disk before. False: it is not, and has to wait.
+bool ZoneServer::keep(std::uint32_t agv) {
+  const Kept now = kept_now(agv);
+  if (!book_.way(agv).joined || kept_[agv] == now) return true;
+  AgvRecord record = book_.record_of(agv);
+  planner_.put_work(agv, record);
+  if (!disk_.keep(agv, record)) return false;
+  kept_[agv] = now;
+  return true;
+}
+
 void ZoneServer::send(std::uint32_t agv) {
+  if (options_.writes_every_ns == 0 && !keep(agv)) return;
   Grant grant = book_.unknown_steps(agv);
   if (!options_.repeats_grants && grant.first + grant.steps.size() <= told_[agv]) grant.steps.clear();
   grant.orders = planner_.orders_of(agv);
+  grant.has_work = has_work(agv);
   owes_[agv] = false;
   told_[agv] = std::max(told_[agv], static_cast<std::uint32_t>(grant.first + grant.steps.size()));
   const std::string text = grant.steps.empty() ? std::string("GRANT: nothing new")
@@ -115,6 +153,19 @@ void ZoneServer::send(std::uint32_t agv) {
                                                      std::to_string(grant.first + grant.steps.size());
   controller_.describe(text.c_str());
   controller_.send(encode(grant), agv);
+}
+
+bool can_start(const fp_host& host, fp_controller* controller, const fp_briefing& briefing, fp_role role) {
+  constexpr std::uint32_t kKnowsComputers = 5;  // minor version
+  if (!has_numbers_for_all(host, controller, briefing)) return false;
+  if (host.abi_minor < kKnowsComputers) return cannot_start(host, controller, "the host knows no computers");
+  if (briefing.role != static_cast<std::uint32_t>(role)) {
+    return cannot_start(host, controller,
+                        role == FP_AGV ? "follower drives an AGV; a computer needs zone-server"
+                                       : "zone-server runs on a computer; the AGVs need follower");
+  }
+  if (briefing.computer_count > 0) return true;
+  return cannot_start(host, controller, "there is no computer for the zone-server that it follows");
 }
 
 void* create_zone_server(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,

@@ -134,9 +134,15 @@ constinit const FaultyAgent kTable[] = {
     // FAULT: the floor of an AGV that has been silent for 10 s is free (a lease by the server's clock).
     server_with<ServerOptions{.silence_frees_after_ns = 10 * kSecond_ns}>(
         "lease-by-clock", "zone-server with a fault: frees the floor of an AGV that is silent for 10 s"),
-    // FAULT: a server that has started again takes floor for free until its AGV says that it holds it.
-    server_with<ServerOptions{.all_join_first = false}>(
-        "reboot-frees-floor", "zone-server with a fault: forgets at a restart which floor AGVs hold"),
+    // FAULT: a server that has started without its book does not wait for AGVs that say that they are out of order.
+    server_with<ServerOptions{.failed_ones_join = false}>(
+        "reboot-frees-floor", "zone-server with a fault: knows no floor of failed AGVs when it starts"),
+    // FAULT: what was granted is written to the disk every 3 s, so that a restart loses the newest grants.
+    server_with<ServerOptions{.writes_every_ns = 3 * kSecond_ns}>(
+        "grants-before-it-writes", "zone-server with a fault: writes to its disk every 3 s what it has granted"),
+    // FAULT: a cancel that is under way ends what the AGV is to do when it answers, the next order too.
+    server_with<ServerOptions{.cancels_name_an_order = false}>(
+        "cancels-the-next-order", "zone-server with a fault: a cancel ends whatever order the AGV then has"),
     // FAULT: an AGV that fails before it has all that it was granted holds no floor, not even what is under it.
     server_with<ServerOptions{.failures_keep_floor = false}>(
         "error-frees-floor", "zone-server with a fault: an error that overtakes a grant frees the floor of the AGV"),
@@ -154,9 +160,9 @@ constinit const FaultyAgent kTable[] = {
         "charger-comes-later", "zone-server with a fault: grants the way to a charger without the charger"),
 
     // A follower with a planted fault. Its server is sound.
-    // FAULT: steps are taken as often as they come (a grant that is sent twice, and a lost one).
-    follower_with<FollowerOptions{.numbers_count = false}>(
-        "takes-steps-twice", "follower with a fault: takes the steps of each message for new ones"),
+    // FAULT: if steps were lost, those behind them are taken in their place, and again when they are repeated.
+    follower_with<FollowerOptions{.gaps_count = false}>(
+        "takes-steps-twice", "follower with a fault: takes the steps behind a gap for those in it"),
     // FAULT: a GRANT is taken for whatever way the AGV is on (no fencing).
     follower_with<FollowerOptions{.ways_count = false}>("no-fencing",
                                                         "follower with a fault: takes grants for former ways"),
@@ -166,9 +172,9 @@ constinit const FaultyAgent kTable[] = {
     // FAULT: a way is replaced while the AGV waits, and it goes on behind the gate without asking.
     follower_with<FollowerOptions{.former_steps_end = false}>(
         "goes-on-behind-the-gate", "follower with a fault: drives on with what a former server granted"),
-    // FAULT: a lane is given back when the AGV is about to leave it, with its rear still there.
+    // FAULT: an AGV that breaks down while it drives on to the next lane gives this one back, with its body there.
     follower_with<FollowerOptions{.lanes_to_their_end = false}>(
-        "frees-before-its-rear", "follower with a fault: gives a lane back before its rear is out"),
+        "frees-before-its-rear", "follower with a fault: gives a lane back before it is out, if it fails"),
     // FAULT: a request without an answer for 1 s counts as dropped, and what answers it later as a mistake.
     follower_with<FollowerOptions{.patience_ns = kSecond_ns}>(
         "drops-after-a-second", "follower with a fault: makes a request anew if no grant came for a second"),
