@@ -27,8 +27,8 @@ struct BreakdownRow {
   Pool violations;            // worlds with a violation or an unknown outcome
   GateCells cells;            // those of the row
   std::uint64_t stalled = 0;  // worlds with a deadlock, livelock or starvation that nothing else explains
-  std::optional<std::uint64_t> first_stalled;  // the run of the first of them
-  double run_length_s = 0.0;                   // the longest run
+  std::optional<std::uint64_t> first_stalled{};  // the run of the first of them
+  double run_length_s = 0.0;                     // the longest run
 };
 
 // Counts a campaign by agent and layout, and by agent and fleet size. Sums of whole numbers, so that their order does
@@ -48,9 +48,9 @@ class Breakdown {
     GateCells cells;
     PoolCounter worlds;
     std::uint64_t stalled = 0;
-    std::optional<std::uint64_t> first_stalled;
+    std::optional<std::uint64_t> first_stalled{};
     // Of the replicate that is not complete yet.
-    std::optional<std::uint64_t> stalls_in;
+    std::optional<std::uint64_t> stalls_in{};
   };
   void finish_replicate();
 
