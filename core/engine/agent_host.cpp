@@ -16,7 +16,7 @@ constexpr std::uint64_t kActivationsPerRun = 2'000'000, kActivationsPerSecond = 
 constexpr std::size_t kLongestMessage = 200;  // characters: an agent may throw any text
 
 // Nobody is told that a transport was withdrawn of which it has not been told.
-void forget_withdrawal(std::deque<fp_event>& events, std::uint32_t order) {
+void forget_withdrawal(std::list<fp_event>& events, std::uint32_t order) {
   std::erase_if(events,
                 [order](const fp_event& event) { return event.kind == FP_EVENT_WITHDRAWN && event.order_id == order; });
 }

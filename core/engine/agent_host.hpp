@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -101,7 +101,7 @@ class AgentHost {
     SimTime frozen_until = kStart;      // whichever agent runs there
     SimTime wakes_at = SimTime::max();  // the next event that wakes it; or never
     ActivationCount activations;
-    std::deque<fp_event> waiting_events;  // arrived while the agent was busy
+    std::list<fp_event> waiting_events;  // arrived while the agent was busy; a list: none need no memory
   };
   void keep(AgvId agv, AgvState& agv_state, const fp_event& event);
   void wake(AgvId agv, AgvState& agv_state);

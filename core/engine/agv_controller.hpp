@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -131,7 +131,7 @@ class AgvController {
   };
   struct AgvState {
     fp_controller handle;
-    std::deque<PendingCall> pending;
+    std::list<PendingCall> pending;  // a list: none need no memory
     void put_off(RunContext& run, const PendingCall& call);
   };
   // Carries the call out now, or later if the calls before it have cost time.

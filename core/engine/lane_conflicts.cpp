@@ -24,6 +24,7 @@ std::array<Footprint, 3> footprints_of(const VehicleType& type) {
 
 std::vector<std::array<Footprint, 3>> all_footprints(const Scenario& scenario) {
   std::vector<std::array<Footprint, 3>> all;
+  all.reserve(scenario.vehicle_types.size());
   for (const VehicleType& type : scenario.vehicle_types) all.push_back(footprints_of(type));
   return all;
 }

@@ -7,6 +7,7 @@
 namespace fleetproof {
 
 PositionSensor::PositionSensor(RunContext& run) : run_(run), past_(run.agvs.size()) {
+  late_.reserve(run.agvs.size());
   for (const AgvSetup& agv : run.scenario.agvs) late_.push_back(seconds(agv.sensing.position_late_s));
 }
 

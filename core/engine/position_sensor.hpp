@@ -1,6 +1,6 @@
 #pragma once
 
-#include <deque>
+#include <list>
 #include <vector>
 
 #include "core/engine/run_context.hpp"
@@ -20,8 +20,8 @@ class PositionSensor {
 
  private:
   RunContext& run_;
-  std::vector<Duration> late_;           // by AGV
-  std::vector<std::deque<Piece>> past_;  // by AGV, oldest first
+  std::vector<Duration> late_;          // by AGV
+  std::vector<std::list<Piece>> past_;  // by AGV, oldest first; a list: none need no memory
 };
 
 }  // namespace fleetproof

@@ -38,6 +38,7 @@ SimTime AgentClock::when_it_shows_with_drift(std::int64_t ns) const {
 }
 
 Timers::Timers(RunContext& run, AgentHostPort agents) : run_(run), agents_(agents) {
+  agv_states_.reserve(run.scenario.participant_count());
   for (const AgvSetup& agv : run.scenario.agvs) agv_states_.push_back({.clock = AgentClock(agv.sensing), .timers = {}});
   for (const ComputerSetup& computer : run.scenario.computers) {
     const SensingSetup clock{.clock_offset_s = computer.clock_offset_s, .clock_drift_ppm = computer.clock_drift_ppm};
