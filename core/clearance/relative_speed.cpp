@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/tolerances.hpp"
@@ -35,6 +37,9 @@ Vec2 nearest_point_of(const OrientedRectangle& body, const Vec2& point_m) {
   return body.centre_m + along * body.heading + aside * left_of(body.heading);
 }
 
+// A bound on a speed is worked out in another way than the speed. The difference by rounding is far below this.
+constexpr double kRounding_mps = 1e-9;
+
 // What a view leaves out is farther away than this, which is far beyond its rounding.
 constexpr double kClearlyAway_m = 1e-6;
 
@@ -54,8 +59,10 @@ class View {
   }
 
   // Which corners of the other rectangle may lie in this one: a bit each.
-  unsigned corners_inside() const {
-    return inside(1.0, 1.0) | inside(-1.0, 1.0) << 1U | inside(-1.0, -1.0) << 2U | inside(1.0, -1.0) << 3U;
+  // `near_m`: or this near to it.
+  unsigned corners_inside(double near_m = 0.0) const {
+    return inside(1.0, 1.0, near_m) | inside(-1.0, 1.0, near_m) << 1U | inside(-1.0, -1.0, near_m) << 2U |
+           inside(1.0, -1.0, near_m) << 3U;
   }
   // For each side of the other rectangle: which sides of this one lie on lines that it may cross, a bit each.
   std::array<unsigned, 4> lines_crossed() const {
@@ -68,19 +75,11 @@ class View {
             lines_crossed(x_ - width_x_, y_ - width_y_, long_x, long_y),
             lines_crossed(x_ + length_x_, y_ + length_y_, short_x, short_y)};
   }
-  // No point that both rectangles share moves faster. `velocity`: of the centre of this one, in its frame, against what
-  // the other one does there; `turning_rad_s`: against the other one, too.
-  double most_mps(const Vec2& velocity_mps, double turning_rad_s) const {
-    const double reach_x = std::abs(length_x_) + std::abs(width_x_), reach_y = std::abs(length_y_) + std::abs(width_y_);
-    const double low_x = std::max(-half_length_m_, x_ - reach_x - kClearlyAway_m),
-                 high_x = std::min(half_length_m_, x_ + reach_x + kClearlyAway_m),
-                 low_y = std::max(-half_width_m_, y_ - reach_y - kClearlyAway_m),
-                 high_y = std::min(half_width_m_, y_ + reach_y + kClearlyAway_m);
-    const double along = std::max(std::abs(velocity_mps.x() - turning_rad_s * low_y),
-                                  std::abs(velocity_mps.x() - turning_rad_s * high_y)),
-                 aside = std::max(std::abs(velocity_mps.y() + turning_rad_s * low_x),
-                                  std::abs(velocity_mps.y() + turning_rad_s * high_x));
-    return std::sqrt(along * along + aside * aside);
+  // Around the other rectangle.
+  Box box() const {
+    const Vec2 centre(x_, y_), reach(std::abs(length_x_) + std::abs(width_x_) + kClearlyAway_m,
+                                     std::abs(length_y_) + std::abs(width_y_) + kClearlyAway_m);
+    return {centre - reach, centre + reach};
   }
 
  private:
@@ -90,9 +89,9 @@ class View {
     return bit(std::abs(y - half_width_m_) <= reach_y) | bit(std::abs(x + half_length_m_) <= reach_x) << 1U |
            bit(std::abs(y + half_width_m_) <= reach_y) << 2U | bit(std::abs(x - half_length_m_) <= reach_x) << 3U;
   }
-  unsigned inside(double ahead, double left) const {
-    return bit(std::abs(x_ + ahead * length_x_ + left * width_x_) <= half_length_m_ &&
-               std::abs(y_ + ahead * length_y_ + left * width_y_) <= half_width_m_);
+  unsigned inside(double ahead, double left, double near_m) const {
+    return bit(std::abs(x_ + ahead * length_x_ + left * width_x_) <= half_length_m_ + near_m &&
+               std::abs(y_ + ahead * length_y_ + left * width_y_) <= half_width_m_ + near_m);
   }
 
   double half_length_m_, half_width_m_;             // of this rectangle, a little grown
@@ -100,9 +99,27 @@ class View {
   double length_x_, length_y_, width_x_, width_y_;  // its half length and half width
 };
 
+// Points of two rectangles that may be corners of what they share: corners of each, a bit each; and for each side of
+// the first one, the sides of the second one that may cross it, a bit each.
+struct Candidates {
+  unsigned of_first = 0, of_second = 0;
+  std::array<unsigned, 4> crossings{};
+};
+
 // The two rectangles of a pair, each as seen from the other one.
 struct Views {
   View from_first, from_second;
+
+  Candidates candidates() const {
+    Candidates found{from_second.corners_inside(), from_first.corners_inside(), from_second.lines_crossed()};
+    const auto by_second = from_first.lines_crossed();
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (unsigned j = 0; j < 4; ++j) {
+        if ((by_second[j] >> i & 1U) == 0) found.crossings[i] &= ~(1U << j);
+      }
+    }
+    return found;
+  }
 
   Views(const OrientedRectangle& first, const OrientedRectangle& second)
       : from_first(first, second), from_second(second, first) {}
@@ -122,22 +139,19 @@ class NearestPoints {
     count_ = static_cast<std::size_t>(std::remove_if(pairs_.data(), pairs_.data() + count_, farther) - pairs_.data());
   }
   // Of two that overlap.
-  NearestPoints(const OrientedRectangle& first, const OrientedRectangle& second, const Views& views) {
+  NearestPoints(const OrientedRectangle& first, const OrientedRectangle& second, const Candidates& candidates) {
     const Corners of_first = corners(first), of_second = corners(second);
-    for (unsigned left = views.from_second.corners_inside(); left != 0; left &= left - 1) {
+    for (unsigned left = candidates.of_first; left != 0; left &= left - 1) {
       const Vec2& corner = of_first[static_cast<std::size_t>(std::countr_zero(left))];
       add_shared({corner, nearest_point_of(second, corner)});
     }
-    for (unsigned left = views.from_first.corners_inside(); left != 0; left &= left - 1) {
+    for (unsigned left = candidates.of_second; left != 0; left &= left - 1) {
       const Vec2& corner = of_second[static_cast<std::size_t>(std::countr_zero(left))];
       add_shared({nearest_point_of(first, corner), corner});
     }
-    const auto by_first = views.from_second.lines_crossed(), by_second = views.from_first.lines_crossed();
     for (std::size_t i = 0; i < 4; ++i) {
-      for (unsigned left = by_first[i]; left != 0; left &= left - 1) {
-        const auto j = static_cast<std::size_t>(std::countr_zero(left));
-        if ((by_second[j] >> i & 1U) != 0) add_crossing(of_first, i, of_second, j);
-      }
+      for (unsigned left = candidates.crossings[i]; left != 0; left &= left - 1)
+        add_crossing(of_first, i, of_second, static_cast<std::size_t>(std::countr_zero(left)));
     }
   }
 
@@ -203,7 +217,7 @@ Moment moment_of(const Piece& piece, SimTime t) {
     const double way_m = piece.way_at(t);
     stands(piece.curve->pose_at(way_m));
     twist.velocity_mps = sign * speed * moment.body.heading;
-    twist.turning_rad_s = speed * piece.curve->bending_at(way_m).per_m;
+    if (!piece.curve->is_straight()) twist.turning_rad_s = speed * piece.curve->bending_at(way_m).per_m;
   }
   return moment;
 }
@@ -219,22 +233,169 @@ struct Meeting {
     return a.twist.velocity_of(at.on_first) - b.twist.velocity_of(at.on_second);
   }
   NearestPoints nearest(bool overlap) const {
-    return overlap ? NearestPoints(a.body, b.body, Views(a.body, b.body)) : NearestPoints(a.body, b.body);
+    return overlap ? NearestPoints(a.body, b.body, Views(a.body, b.body).candidates()) : NearestPoints(a.body, b.body);
   }
   double highest_mps(const NearestPoints& pairs) const {
     double square = 0.0;
     for (const PointPair& pair : pairs) square = std::max(square, closing_mps(pair).squaredNorm());
     return std::sqrt(square);
   }
-  // No point that both bodies share moves faster, one against the other.
-  double most_mps(const Views& views) const {
-    const double turning_rad_s = a.twist.turning_rad_s - b.twist.turning_rad_s;
-    const auto within = [&](const OrientedRectangle& body, const View& view) {
-      const Vec2 velocity = closing_mps({body.centre_m, body.centre_m});
-      return view.most_mps({velocity.dot(body.heading), cross(body.heading, velocity)}, turning_rad_s);
-    };
-    return std::min(within(a.body, views.from_first), within(b.body, views.from_second));
+};
+
+// What says how fast the points may be that a body shares with another one, in the frame of the body.
+struct Share {
+  Vec2 half_m;        // half length and half width of the body
+  Box other;          // around the other one
+  Vec2 velocity_mps;  // of the body's centre, against what the other one does there
+  double turning_rad_s;
+
+  Share(const Meeting& meeting, const OrientedRectangle& body, const View& view)
+      : half_m(body.half_length_m + kClearlyAway_m, body.half_width_m + kClearlyAway_m),
+        other(view.box()),
+        turning_rad_s(meeting.a.twist.turning_rad_s - meeting.b.twist.turning_rad_s) {
+    const Vec2 velocity = meeting.closing_mps({body.centre_m, body.centre_m});
+    velocity_mps = {velocity.dot(body.heading), cross(body.heading, velocity)};
   }
+
+  // No point of the body that lies in this box is faster.
+  double most_mps(const Box& box) const {
+    const Vec2 low = box.low_m.cwiseMax(-half_m), high = box.high_m.cwiseMin(half_m);
+    const double along = std::max(std::abs(velocity_mps.x() - turning_rad_s * low.y()),
+                                  std::abs(velocity_mps.x() - turning_rad_s * high.y())),
+                 aside = std::max(std::abs(velocity_mps.y() + turning_rad_s * low.x()),
+                                  std::abs(velocity_mps.y() + turning_rad_s * high.x()));
+    return std::sqrt(along * along + aside * aside);
+  }
+};
+
+// Two bodies at an instant, of which only bounds on their speeds are asked.
+struct Glimpse {
+  Share of_a, of_b;
+  double distance_m;  // of the centres
+
+  Glimpse(const Meeting& meeting, const Views& views)
+      : of_a(meeting, meeting.a.body, views.from_first),
+        of_b(meeting, meeting.b.body, views.from_second),
+        distance_m((meeting.b.body.centre_m - meeting.a.body.centre_m).norm()) {}
+
+  // No point that both bodies share is faster.
+  double most_mps() const { return std::min(of_a.most_mps(of_a.other), of_b.most_mps(of_b.other)); }
+};
+
+// Bounds on how a body moves, which hold for a time: on its centre, its rotation, and each of its points.
+struct Tops {
+  double radius_m;
+  double mps, mps2, mps3;
+  double rad_s, rad_s2, rad_s3;
+
+  explicit Tops(const PhaseMotion& motion)
+      : radius_m(Vec2(motion.body.half_length_m, motion.body.half_width_m).norm()),
+        rad_s(motion.top_turning.rad_s),
+        rad_s2(motion.top_turning.rad_s2),
+        rad_s3(motion.top_turning.rad_s3) {
+    const PointMotion centre = motion.point(Vec2::Zero());
+    mps = centre.top_mps;
+    mps2 = centre.top_mps2;
+    mps3 = centre.top_mps3;
+  }
+  double point_mps() const { return mps + rad_s * radius_m; }
+  double point_mps2() const { return mps2 + spin() * radius_m; }
+  double spin() const { return rad_s2 + rad_s * rad_s; }
+};
+
+// Bounds on the second derivatives of a Share. In the frame of the body, whose rotation is w, a vector q of the floor
+// has q'' - 2 w Jq' - w' Jq - w^2 q, where J is left_of.
+struct Straying {
+  double other_mps2;     // of the points of the other body
+  double velocity_mps3;  // of the velocity of each point of the body
+
+  // With the velocities v of the centres and the line d between them, the velocity is u = v - v_other - w_other Jd.
+  Straying(const Tops& own, const Tops& other, double distance_m) {
+    const double mps = own.mps + other.mps, mps2 = own.mps2 + other.mps2, u = mps + other.rad_s * distance_m,
+                 u1 = mps2 + other.rad_s2 * distance_m + other.rad_s * mps,
+                 u2 = own.mps3 + other.mps3 + other.rad_s3 * distance_m + 2.0 * other.rad_s2 * mps + other.rad_s * mps2;
+    other_mps2 = own.mps2 + other.point_mps2() + 2.0 * own.rad_s * (own.mps + other.point_mps()) +
+                 own.spin() * (distance_m + other.radius_m);
+    velocity_mps3 = u2 + 2.0 * own.rad_s * u1 + own.spin() * u + (own.rad_s3 + other.rad_s3) * own.radius_m;
+  }
+};
+
+// Of two bodies that overlap, the points that may be the fastest within a time before and after an instant. Each corner
+// and each crossing has a speed at the instant, and gains no more than its acceleration allows.
+class FastCandidates {
+ public:
+  Candidates fast;
+  double others_mps = 0.0;  // no other point that both share is faster in this time
+  bool overlap = false;     // both overlap all the time
+
+  FastCandidates(const Meeting& at, const Tops& of_a, const Tops& of_b, double time_s, double fastest_mps)
+      : of_first_(corners(at.a.body)), of_second_(corners(at.b.body)), time_s_(time_s + kNanosecond_s) {
+    const double distance_m = (at.b.body.centre_m - at.a.body.centre_m).norm() + time_s_ * (of_a.mps + of_b.mps);
+    turning_rad_s_ = of_a.rad_s + of_b.rad_s;
+    // A point of one body moves so fast in the frame of the other one.
+    passing_mps_ = of_a.point_mps() + of_b.point_mps() + of_a.rad_s * (distance_m + of_b.radius_m) +
+                   of_b.rad_s * (distance_m + of_a.radius_m);
+    const double gain_a = gain_mps(of_a, of_b, distance_m), gain_b = gain_mps(of_b, of_a, distance_m);
+    least_mps_ = fastest_mps - 2.0 * std::max(gain_a, gain_b);
+    for (std::size_t i = 0; i < 4; ++i) {
+      first_mps_[i] = at.closing_mps({of_first_[i], of_first_[i]}).norm() + gain_a;
+      second_mps_[i] = at.closing_mps({of_second_[i], of_second_[i]}).norm() + gain_b;
+    }
+    const double near_m = passing_mps_ * time_s_ + kClearlyAway_m;
+    overlap = clearance_m(at.a.body, at.b.body) < -near_m;
+    const Views views(at.a.body, at.b.body);
+    const unsigned first_inside = views.from_second.corners_inside(near_m),
+                   second_inside = views.from_first.corners_inside(near_m);
+    for (unsigned i = 0; i < 4; ++i) {
+      if ((first_inside >> i & 1U) != 0 && may_be_fast(first_mps_[i])) fast.of_first |= 1U << i;
+      if ((second_inside >> i & 1U) != 0 && may_be_fast(second_mps_[i])) fast.of_second |= 1U << i;
+      for (unsigned j = 0; j < 4; ++j) {
+        if (may_be_fast(crossing_mps(at, i, j, gain_a))) fast.crossings[i] |= 1U << j;
+      }
+    }
+  }
+
+ private:
+  static constexpr double kNanosecond_s = 1e-9;  // phases end at whole nanoseconds
+  static constexpr double kLeastSine = 0.01;     // sides that are nearly parallel may cross anywhere
+
+  // What a point of a body gains in this time, at most, against the other body.
+  double gain_mps(const Tops& own, const Tops& other, double distance_m) const {
+    return time_s_ * (own.point_mps2() + other.mps2 + other.rad_s2 * (distance_m + own.radius_m) +
+                      other.rad_s * (own.point_mps() + other.mps)) +
+           kRounding_mps;
+  }
+  bool may_be_fast(double most_mps) {
+    if (most_mps >= least_mps_) return true;
+    others_mps = std::max(others_mps, most_mps);
+    return false;
+  }
+  // No crossing of these sides is faster. 0: they do not cross. It slides along a side at (n' + s w) / sine, where n'
+  // is the speed of the side's end across the other side, s the place on the side and w the turning.
+  double crossing_mps(const Meeting& at, std::size_t i, std::size_t j, double gain_a) const {
+    const Vec2 side = of_first_[(i + 1) % 4] - of_first_[i], other = of_second_[(j + 1) % 4] - of_second_[j],
+               between = of_second_[j] - of_first_[i];
+    const double of_ends_mps =
+        std::min(std::max(first_mps_[i], first_mps_[(i + 1) % 4]), std::max(second_mps_[j], second_mps_[(j + 1) % 4]));
+    const double side_m = side.norm(), other_m = other.norm(), product = cross(side, other),
+                 least_sine = std::abs(product) / (side_m * other_m) - turning_rad_s_ * time_s_;
+    if (least_sine < kLeastSine) return of_ends_mps;
+    const auto slides_m = [&](double length_m) {
+      return time_s_ * (passing_mps_ + 2.0 * length_m * turning_rad_s_) / least_sine + kClearlyAway_m;
+    };
+    const double here_slides_m = slides_m(side_m), there_slides_m = slides_m(other_m);
+    if (here_slides_m > side_m || there_slides_m > other_m) return of_ends_mps;
+    const double here_m = side_m * cross(between, other) / product, there_m = other_m * cross(between, side) / product;
+    if (here_m < -here_slides_m || here_m > side_m + here_slides_m || there_m < -there_slides_m ||
+        there_m > other_m + there_slides_m)
+      return 0.0;
+    const Vec2 point = of_first_[i] + std::clamp(here_m / side_m, 0.0, 1.0) * side;
+    return std::min(of_ends_mps, at.closing_mps({point, point}).norm() + turning_rad_s_ * here_slides_m + gain_a);
+  }
+
+  Corners of_first_, of_second_;
+  std::array<double, 4> first_mps_, second_mps_;
+  double time_s_, turning_rad_s_, passing_mps_, least_mps_;
 };
 
 // How fast the fastest point of a body may be.
@@ -249,12 +410,22 @@ class Pace {
     times_speed_ = 1.0 + bending_per_m * reach_m;
   }
 
-  double most_mps(SimTime t) const {
+  // The speed changes evenly within each phase of the profile.
+  double most_mps(Interval within) const {
     if (times_speed_ == 0.0) return 0.0;
-    return times_speed_ * piece_.profile.speed(to_seconds(std::clamp(t, piece_.begin, piece_.end) - piece_.begin));
+    double most = std::max(speed(within.begin), speed(within.end));
+    for (const Duration end : piece_.profile.phase_ends()) {
+      const SimTime t = piece_.begin + end;
+      if (within.begin < t && t < within.end) most = std::max(most, speed(t));
+    }
+    return times_speed_ * most;
   }
 
  private:
+  double speed(SimTime t) const {
+    return piece_.profile.speed(to_seconds(std::clamp(t, piece_.begin, piece_.end) - piece_.begin));
+  }
+
   const Piece& piece_;
   double times_speed_ = 0.0;  // metres for a turn, whose speed is an angle's; 0: at rest
 };
@@ -270,11 +441,8 @@ void for_nearest(const Piece& a, const Piece& b, SimTime t, const Visit& visit) 
   }
 }
 
-// A bound on a speed is worked out in another way than the speed. The difference by rounding is far below this.
-constexpr double kRounding_mps = 1e-9;
-
-// Bodies in contact move on for seconds, so that there are hundreds of instants to look at. A bound on the speed, from
-// the boxes of what the bodies share, says which of them cannot be the fastest.
+// Bodies in contact move on for seconds, so that there are hundreds of instants to look at. Bounds on what the bodies
+// share, and on how that changes, say which of them cannot be the fastest.
 class FastestInstant {
  public:
   FastestInstant(const Piece& a, const Piece& b, double below_m, EvaluationCount& count, double matters_from_mps)
@@ -282,101 +450,149 @@ class FastestInstant {
 
   RelativeSpeed within(Interval all) {
     if (a_.manner == Manner::Rest && b_.manner == Manner::Rest) return {};
+    if (pace_a_.most_mps(all) + pace_b_.most_mps(all) + kRounding_mps < matters_from_mps_) return {};
+    split(all);
     samples_.reserve(256);
-    add(all.begin, all);
-    for (SimTime t = all.begin; t < all.end;) {
-      const SimTime next = change_after(t, all.end);
-      add_samples({t, next});
-      t = next;
+    samples_.push_back({all.begin, all});
+    for (Phase& phase : phases_) add_samples(phase);
+    choose(matters_from_mps_);
+    if (fastest_mps_ < matters_from_mps_) {
+      if (!may_matter_) return {};
+      choose(0.0);
     }
-    const auto matters = [&](const Sample& sample) { return sample.most_mps >= matters_from_mps_; };
-    if (std::ranges::none_of(samples_, matters)) return {};
-    choose();
-    if (fastest_mps_ >= matters_from_mps_ || most_mps(around_) >= matters_from_mps_) narrow();
+    if (fastest_mps_ >= matters_from_mps_ || may_matter_) narrow();
     return fastest_mps_ > 0.0 ? relative_speed(a_, b_, fastest_at_) : RelativeSpeed{};
   }
 
  private:
+  static constexpr std::size_t kFew = 8;
   struct Sample {
     SimTime t;
     Interval around;  // its neighbours
-    double most_mps;  // no pair of nearest points is faster, whatever the places of the bodies
+  };
+  // A time in which neither law of motion changes.
+  struct Phase {
+    Interval time;
+    Tops of_a, of_b;
+    double most_mps;                  // no pair of nearest points is faster, whatever the places of the bodies
+    std::size_t first = 0, last = 0;  // the samples inside; one more is at the end
   };
 
-  SimTime change_after(SimTime t, SimTime end) const {
-    const SimTime of_a = motion_from(a_, a_.body_at(t), t, end, TimeSense::Forward).change,
-                  of_b = motion_from(b_, b_.body_at(t), t, end, TimeSense::Forward).change;
-    return std::max(t + Duration{1}, std::min({of_a, of_b, end}));
+  void split(Interval all) {
+    for (SimTime t = all.begin; t < all.end;) {
+      const PhaseMotion of_a = motion_from(a_, a_.body_at(t), t, all.end, TimeSense::Forward),
+                        of_b = motion_from(b_, b_.body_at(t), t, all.end, TimeSense::Forward);
+      const Interval time{t, std::max(t + Duration{1}, std::min({of_a.change, of_b.change, all.end}))};
+      const double most_mps = pace_a_.most_mps(time) + pace_b_.most_mps(time) + kRounding_mps;
+      phases_.push_back({time, Tops(of_a), Tops(of_b), most_mps});
+      t = time.end;
+    }
   }
 
   // Without rotation, the relative speed between two changes is largest at one of them. An arc ends in a step of the
   // turning rate: both sides of a change count.
-  void add_samples(Interval phase) {
+  void add_samples(Phase& phase) {
     constexpr int kSamples = 64;
+    const auto [begin, end] = phase.time;
     const bool steady = a_.keeps_heading() && b_.keeps_heading();
-    const Duration step = std::max((phase.end - phase.begin) / (steady ? 1 : kSamples), Duration{1});
-    const auto add_near = [&](SimTime t) { add(t, {std::max(phase.begin, t - step), std::min(phase.end, t + step)}); };
-    for (SimTime t = phase.begin + Duration{1}; t < phase.end; t += step) add_near(t);
-    add_near(phase.end - Duration{1});
-    add_near(phase.end);
-  }
-
-  void add(SimTime t, Interval around) { samples_.push_back({t, around, most_mps(t)}); }
-  double most_mps(SimTime t) const { return pace_a_.most_mps(t) + pace_b_.most_mps(t) + kRounding_mps; }
-  // At any instant between the neighbours of a sample: in between, the paces change evenly. Those of the first sample
-  // are the ends of the whole interval.
-  double most_mps(Interval around) const {
-    if (around.begin == samples_.front().t && around.end == samples_.back().t)
-      return std::ranges::max(samples_, {}, &Sample::most_mps).most_mps;
-    return std::max(most_mps(around.begin), most_mps(around.end));
-  }
-
-  // The fastest sample; of equals, the earliest. A few samples all over the time come first: their speeds rule out most
-  // others. Samples that cannot matter are looked at if no other one does.
-  void choose() {
-    constexpr std::size_t kFew = 16;
-    const Sample* fastest = nullptr;
-    bool those_that_matter = true;
-    const auto consider = [&](const Sample& sample) {
-      if (sample.most_mps < fastest_mps_ || (sample.most_mps >= matters_from_mps_) != those_that_matter) return;
-      const double here_mps = speed_at(sample.t, fastest_mps_);
-      if (here_mps == 0.0) return;
-      if (here_mps < fastest_mps_ || (here_mps == fastest_mps_ && fastest != nullptr && &sample >= fastest)) return;
-      fastest_mps_ = here_mps;
-      fastest = &sample;
+    const Duration step = std::max((end - begin) / (steady ? 1 : kSamples), Duration{1});
+    const auto add = [&](SimTime t) {
+      samples_.push_back({t, {std::max(phase.time.begin, t - step), std::min(phase.time.end, t + step)}});
     };
-    const auto consider_all = [&] {
-      for (std::size_t i = 0; i < samples_.size(); i += kFew) consider(samples_[i]);
-      for (std::size_t i = 0; i < samples_.size(); ++i) {
-        if (i % kFew != 0) consider(samples_[i]);
-      }
-    };
-    consider_all();
-    those_that_matter = false;
-    if (fastest_mps_ < matters_from_mps_) consider_all();
-    if (fastest == nullptr) return;
-    fastest_at_ = fastest->t;
-    around_ = fastest->around;
+    phase.first = samples_.size();
+    for (SimTime t = begin + Duration{1}; t < end; t += step) add(t);
+    phase.last = samples_.size();
+    add(end - Duration{1});
+    add(end);
   }
 
-  // Of the fastest pair of nearest points. 0 if the clearance is not below the limit, or if no pair can be faster than
-  // `than_mps`.
-  double speed_at(SimTime t, double than_mps = 0.0) {
+  // The fastest sample; of equals, the earliest. What is left out between two samples is slower than another sample, or
+  // than `from_mps`.
+  void choose(double from_mps) {
+    std::vector<std::pair<Glimpse, Glimpse>> ends;
+    consider(0);
+    for (const Phase& phase : phases_) {
+      if (phase.most_mps < from_mps) continue;
+      const Glimpse at_first = consider(phase.first);
+      ends.emplace_back(at_first, consider(phase.last));
+      consider(phase.last + 1);
+    }
+    auto at_ends = ends.begin();
+    for (const Phase& phase : phases_) {
+      if (phase.most_mps < from_mps) continue;
+      choose_between(phase, phase.first, at_ends->first, phase.last, at_ends->second, from_mps);
+      ++at_ends;
+    }
+  }
+
+  void choose_between(const Phase& phase, std::size_t first, const Glimpse& at_first, std::size_t last,
+                      const Glimpse& at_last, double from_mps) {
+    const double most = most_mps(phase, at_first, at_last, to_seconds(samples_[last].t - samples_[first].t));
+    if (most < std::max(fastest_mps_, from_mps)) return;
+    if (last - first <= kFew) {
+      may_matter_ = may_matter_ || most >= matters_from_mps_;
+      if (last - first < 2) return;
+      look_at(phase, {samples_[first].t, samples_[last].t});
+      for (std::size_t i = first + 1; i < last; ++i) offer(i, speed_at(samples_[i].t));
+      return;
+    }
+    const std::size_t middle = (first + last) / 2;
+    const Glimpse at_middle = consider(middle);
+    choose_between(phase, first, at_first, middle, at_middle, from_mps);
+    choose_between(phase, middle, at_middle, last, at_last, from_mps);
+  }
+
+  // Between two instants of a phase, no point that both bodies share is faster.
+  double most_mps(const Phase& phase, const Glimpse& from, const Glimpse& to, double lasts_s) const {
+    if (below_m_ > kTouch_m) return std::numeric_limits<double>::infinity();
+    const Tops &of_a = phase.of_a, &of_b = phase.of_b;
+    const double half_s = 0.5 * lasts_s, strays = 0.5 * half_s * half_s,
+                 distance_m = std::max(from.distance_m, to.distance_m) + half_s * (of_a.mps + of_b.mps);
+    const auto most = [&](const Share& one, const Share& other, const Straying& straying) {
+      Box box = one.other;
+      box.add(other.other);
+      box = box.grown(strays * straying.other_mps2);
+      return std::max(one.most_mps(box), other.most_mps(box)) + strays * straying.velocity_mps3;
+    };
+    return std::min(most(from.of_a, to.of_a, Straying(of_a, of_b, distance_m)),
+                    most(from.of_b, to.of_b, Straying(of_b, of_a, distance_m))) +
+           kClearlyAway_m * (of_a.rad_s + of_b.rad_s) + kRounding_mps;
+  }
+
+  Glimpse consider(std::size_t number) {
+    const Sample& sample = samples_[number];
     ++count_.distance;
-    const Meeting meeting(a_, b_, t);
+    const Meeting meeting(a_, b_, sample.t);
+    const Views views(meeting.a.body, meeting.b.body);
+    const Glimpse glimpse(meeting, views);
+    offer(number, speed_of(meeting, views, glimpse));
+    return glimpse;
+  }
+
+  void offer(std::size_t number, double here_mps) {
+    if (here_mps == 0.0 || here_mps < fastest_mps_ || (here_mps == fastest_mps_ && number >= fastest_)) return;
+    fastest_mps_ = here_mps;
+    fastest_ = number;
+    fastest_at_ = samples_[number].t;
+  }
+
+  // Of the fastest pair of nearest points. 0 if the clearance is not below the limit, or if no pair can be as fast as
+  // the fastest so far.
+  double speed_of(const Meeting& meeting, const Views& views, const Glimpse& glimpse) const {
     const double clearance = clearance_m(meeting.a.body, meeting.b.body);
     if (clearance >= below_m_) return 0.0;
     if (clearance > 0.0) return meeting.highest_mps(NearestPoints(meeting.a.body, meeting.b.body));
-    const Views views(meeting.a.body, meeting.b.body);
-    if (than_mps > 0.0 && meeting.most_mps(views) + kRounding_mps < than_mps) return 0.0;
-    return meeting.highest_mps(NearestPoints(meeting.a.body, meeting.b.body, views));
+    if (fastest_mps_ > 0.0 && glimpse.most_mps() + kRounding_mps < fastest_mps_) return 0.0;
+    return meeting.highest_mps(NearestPoints(meeting.a.body, meeting.b.body, views.candidates()));
   }
 
   // To the nanosecond, between the neighbours of the fastest sample.
   void narrow() {
     if ((a_.keeps_heading() && b_.keeps_heading()) || fastest_mps_ == 0.0) return;
-    Interval left = around_;
-    while (left.end - left.begin > Duration{2}) {
+    constexpr int kRounds = 8;
+    Interval left = samples_[fastest_].around;
+    for (int i = 0; left.end - left.begin > Duration{2}; ++i) {
+      if (i % kRounds == 0) look_at(left);
       const Duration third = (left.end - left.begin) / 3;
       const SimTime low = left.begin + third, high = left.end - third;
       if (is_slower(low, high)) {
@@ -395,6 +611,30 @@ class FastestInstant {
     return low_mps < high_mps;
   }
 
+  double speed_at(SimTime t) {
+    ++count_.distance;
+    const Meeting meeting(a_, b_, t);
+    const bool overlaps = candidates_ && candidates_->overlap;
+    const double clearance = overlaps ? 0.0 : clearance_m(meeting.a.body, meeting.b.body);
+    if (clearance <= 0.0 && candidates_) {
+      const double speed_mps = meeting.highest_mps(NearestPoints(meeting.a.body, meeting.b.body, candidates_->fast));
+      if (speed_mps > candidates_->others_mps) return speed_mps;
+    }
+    return clearance >= below_m_ ? 0.0 : meeting.highest_mps(meeting.nearest(clearance <= 0.0));
+  }
+
+  // Sets the candidates between two instants.
+  void look_at(Interval window) {
+    candidates_.reset();
+    for (const Phase& phase : phases_) {
+      if (window.begin >= phase.time.begin && window.end <= phase.time.end) return look_at(phase, window);
+    }
+  }
+  void look_at(const Phase& phase, Interval window) {
+    const SimTime middle = window.begin + (window.end - window.begin) / 2;
+    candidates_.emplace(Meeting(a_, b_, middle), phase.of_a, phase.of_b, to_seconds(window.end - middle), fastest_mps_);
+  }
+
   void offer(SimTime t, double here_mps) {
     if (here_mps <= fastest_mps_) return;
     fastest_mps_ = here_mps;
@@ -407,10 +647,13 @@ class FastestInstant {
   double below_m_;
   EvaluationCount& count_;
   double matters_from_mps_;
+  std::vector<Phase> phases_;
   std::vector<Sample> samples_;
   double fastest_mps_ = 0.0;
+  std::size_t fastest_ = 0;  // the number of that sample
   SimTime fastest_at_ = kStart;
-  Interval around_;  // the neighbours of the fastest sample
+  std::optional<FastCandidates> candidates_;
+  bool may_matter_ = false;  // some instant may be faster than all samples, and as fast as matters
 };
 
 }  // namespace
