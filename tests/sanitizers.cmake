@@ -37,6 +37,7 @@ add_dependencies(sanitized_tests fleetproof_agents_plugin retouched_agent untidy
 target_compile_options(sanitized_tests PRIVATE ${test_warnings})
 target_precompile_headers(sanitized_tests
   PRIVATE <gtest/gtest.h> <gmock/gmock.h> <Eigen/Core> <fmt/format.h> <map> <set> <string> <vector>)
+batch(sanitized_tests)
 gtest_discover_tests(sanitized_tests TEST_PREFIX Sanitized. DISCOVERY_TIMEOUT 600
   PROPERTIES LABELS sanitized TIMEOUT ${hang_s} ENVIRONMENT "${sanitizer_options}")
 
