@@ -1,8 +1,10 @@
 #include "campaign/batch/sensitivity.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -31,21 +33,25 @@ bool is_sound_original(const std::string& program) {
                              [&](const fp_agent_type* faulty) { return program == fp_sound_agent(faulty)->name; });
 }
 
-// What the faulty agents are compared with: the plan's first fleet software with computers of which each program has
-// faulty copies; else hull-lock, with the parameters that the plan has for it.
-AgentFactor sound_of(const CampaignPlan& plan) {
-  AgentFactor sound(kSoundAgent);
+// What the faulty agents are compared with, each with those that are copies of a program of it: hull-lock with the
+// parameters that the plan has for it, and the plan's first fleet software with computers of which each program has
+// faulty copies. A plan with neither tries hull-lock.
+std::vector<AgentFactor> sound_agents(const CampaignPlan& plan) {
   const auto is_central = [](const AgentFactor& agent) {
     return !agent.computers.empty() &&
            std::ranges::all_of(agent.parts(), [](const ProgramPart* part) { return is_sound_original(part->program); });
   };
-  auto found = std::ranges::find_if(plan.agents, is_central);
-  if (found == plan.agents.end())
-    found = std::ranges::find_if(plan.agents, [](const AgentFactor& known) { return known.program == kSoundAgent; });
-  if (found != plan.agents.end()) sound = *found;
-  sound.role = AgentRole::ByOrigin;
-  sound.name = name_of_parts(sound);
-  return sound;
+  const auto is_on_board = [](const AgentFactor& agent) { return agent.program == kSoundAgent; };
+  std::vector<AgentFactor> found;
+  for (const auto& agent :
+       {std::ranges::find_if(plan.agents, is_on_board), std::ranges::find_if(plan.agents, is_central)}) {
+    if (agent == plan.agents.end()) continue;
+    found.push_back(*agent);
+    found.back().role = AgentRole::ByOrigin;
+    found.back().name = name_of_parts(found.back());
+  }
+  if (found.empty()) found.emplace_back(kSoundAgent);
+  return found;
 }
 
 // The same with the faulty agent in the place of its original. None: it is a copy of nothing there.
@@ -64,6 +70,35 @@ std::optional<AgentFactor> with_fault(AgentFactor agent, const std::string& name
   for (ComputerPart& part : agent.computers) replace(part);
   agent.name = name;
   return replaced ? std::optional(agent) : std::nullopt;
+}
+
+// The faulty agents that are copies of a program of it.
+std::vector<std::string> copies_of(const AgentFactor& sound) {
+  std::vector<std::string> names;
+  for (const fp_agent_type* faulty : faulty_agents()) {
+    if (with_fault(sound, faulty->name)) names.emplace_back(faulty->name);
+  }
+  return names;
+}
+
+// Of these, those that are asked for, in the order in which they are asked for; none is asked for: all.
+std::vector<std::string> wanted_copies(const AgentFactor& sound, const std::vector<std::string>& wanted) {
+  std::vector<std::string> copies = copies_of(sound);
+  if (wanted.empty()) return copies;
+  std::vector<std::string> found = wanted;
+  std::erase_if(found, [&](const std::string& name) { return std::ranges::find(copies, name) == copies.end(); });
+  return found;
+}
+
+void require_known(const std::vector<std::string>& wanted, const std::vector<std::string>& known,
+                   const std::vector<AgentFactor>& sound_ones) {
+  for (const std::string& agent : wanted) {
+    if (std::ranges::find(known, agent) != known.end()) continue;
+    std::vector<std::string> names;
+    for (const AgentFactor& sound : sound_ones) names.push_back(sound.name);
+    throw InputError("--agent", fmt::format("{} is not an agent with a planted fault of {}: fleetproof list agents",
+                                            in_quotes(agent), fmt::join(names, " or ")));
+  }
 }
 
 // The worlds of the plan, with this agent alone in them.
@@ -131,6 +166,7 @@ void tell_first_run(FaultDetection& finding, const AccusedRuns& shows, const Age
 
 FaultDetection finding_of(AgentTally tally, const AgentTally& sound, const CampaignPlan& plan) {
   FaultDetection finding;
+  finding.sound = sound.agent;
   finding.runs = tally.all.runs;
   finding.tried = !std::ranges::includes(sound.traces, tally.traces);
   if (tally.all.with(kAccusedOfViolation) > 0 && sound.all.with(kAccusedOfViolation) == 0) {
@@ -154,33 +190,29 @@ std::uint64_t Sensitivity::detected() const {
 }
 
 std::vector<std::string> faulty_agent_names(const CampaignPlan& plan) {
-  const AgentFactor sound = sound_of(plan);
   std::vector<std::string> names;
-  for (const fp_agent_type* faulty : faulty_agents()) {
-    if (with_fault(sound, faulty->name)) names.emplace_back(faulty->name);
-  }
+  for (const AgentFactor& sound : sound_agents(plan)) std::ranges::move(copies_of(sound), std::back_inserter(names));
   return names;
 }
 
 Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& programs,
                                 const SensitivityOptions& options,
                                 const std::function<void(const FaultDetection&)>& told) {
-  const AgentFactor sound = sound_of(plan);
-  const std::vector<std::string> known = faulty_agent_names(plan);
-  for (const std::string& agent : options.agents) {
-    if (std::ranges::find(known, agent) == known.end())
-      throw InputError("--agent", fmt::format("{} is not an agent with a planted fault of {}: fleetproof list agents",
-                                              in_quotes(agent), sound.name));
-  }
+  const std::vector<AgentFactor> sound_ones = sound_agents(plan);
+  require_known(options.agents, faulty_agent_names(plan), sound_ones);
   Sensitivity result;
-  result.sound = tally_of(with_agent(plan, sound), programs, options, false);
-  for (const std::string& name : options.agents.empty() ? known : options.agents) {
-    const CampaignPlan worlds = with_agent(plan, with_fault(sound, name).value());
-    const bool until_violation = result.sound.all.with(kAccusedOfViolation) == 0;
-    AgentTally tally = tally_of(worlds, programs, options, until_violation);
-    if (is_over(options)) break;  // not all of its runs are there
-    result.faults.push_back(finding_of(std::move(tally), result.sound, worlds));
-    if (told) told(result.faults.back());
+  for (const AgentFactor& sound : sound_ones) {
+    const std::vector<std::string> copies = wanted_copies(sound, options.agents);
+    if (copies.empty()) continue;
+    const AgentTally& tally = result.sound.emplace_back(tally_of(with_agent(plan, sound), programs, options, false));
+    const bool until_violation = tally.all.with(kAccusedOfViolation) == 0;
+    for (const std::string& name : copies) {
+      const CampaignPlan worlds = with_agent(plan, with_fault(sound, name).value());
+      AgentTally faulty = tally_of(worlds, programs, options, until_violation);
+      if (is_over(options)) return result;  // not all of its runs are there
+      result.faults.push_back(finding_of(std::move(faulty), tally, worlds));
+      if (told) told(result.faults.back());
+    }
   }
   return result;
 }

@@ -17,6 +17,7 @@ namespace fleetproof {
 // How a planted fault shows in the worlds of a plan.
 struct FaultDetection {
   AgentTally tally;
+  std::string sound;  // the agent that it is but for its fault
   // What the fault was accused of; empty: it was missed.
   std::string seen_as;
   bool by_rate = false;  // accused more often than the sound agent, not for the first violation
@@ -29,8 +30,8 @@ struct FaultDetection {
 };
 
 struct Sensitivity {
-  AgentTally sound;
-  std::vector<FaultDetection> faults;  // in the order of the catalogue
+  std::vector<AgentTally> sound;       // those of which a fault was tried
+  std::vector<FaultDetection> faults;  // of each of them in turn, in the order of the catalogue
   std::uint64_t detected() const;
 };
 
@@ -41,10 +42,10 @@ struct SensitivityOptions {
   const TimeLimit* limit = nullptr;  // when it is over, the result has the faults that were measured; null: none
 };
 
-// Runs a sound agent and its faulty copies in the worlds of `plan`, and stores nothing. If the plan has fleet software
-// with computers of which copies exist, the copies have one faulty program each, and else sound ones; if not, the sound
-// agent is hull-lock, whatever the agents of the plan are.
-// A fault is detected by its first violation, if the sound agent has none in all its runs; then its other runs are not
+// Runs sound agents and their faulty copies in the worlds of `plan`, and stores nothing. The sound agents are those of
+// the plan of which copies exist: hull-lock, and fleet software with computers, whose copies have one faulty program
+// each and else sound ones. If the plan has neither, the sound agent is hull-lock.
+// A fault is detected by its first violation, if its sound agent has none in all its runs; then its other runs are not
 // simulated. Otherwise a fault is detected if the laws accuse it of something in more runs than the sound agent, over
 // all runs or with one of the radios of the plan: the lower bound of one rate lies above the upper bound of the other,
 // with 5 % risk over all comparisons of this fault. Throws InputError for an agent that is not a faulty one. `told`
@@ -53,7 +54,7 @@ Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& p
                                 const SensitivityOptions& options,
                                 const std::function<void(const FaultDetection&)>& told = {});
 
-// The faulty agents that measure_sensitivity() tries for this plan, by name, as `fleetproof list agents` lists them.
+// The faulty agents that measure_sensitivity() tries for this plan, by name.
 std::vector<std::string> faulty_agent_names(const CampaignPlan& plan);
 
 }  // namespace fleetproof

@@ -58,6 +58,7 @@ void take_runs(PlantedFault& fault, const std::vector<const FaultDetection*>& fi
 PlantedFault summary_of(const std::vector<const FaultDetection*>& findings) {
   PlantedFault fault;
   fault.agent = findings.front()->tally.agent;
+  fault.sound = findings.front()->sound;
   fault.tried = std::ranges::any_of(findings, &FaultDetection::tried);
   const auto rates = detections(findings, true), violations = detections(findings, false);
   fault.seeds = rates.size() + violations.size();
@@ -91,17 +92,24 @@ SensitivityRecord summary_of(const CampaignPlan& plan, const AgentPrograms& prog
   record.worlds = worlds_of(plan_text(plan));
   record.engine_version = engine_identity().version;
   record.program_sha256 = engine_identity().program_sha256;
-  record.sound_agent = measured.front().found.sound.agent;
   record.known_faults = faulty_agent_names(plan).size();
   for (const auto& [seed, found] : measured) {
     record.seeds.push_back(seed);
-    record.runs = std::max(record.runs, found.sound.all.runs);
-    record.sound_runs += found.sound.all.runs;
-    record.sound_violations += found.sound.all.with(kAccusedOfViolation);
+    for (const AgentTally& tally : found.sound) {
+      record.runs = std::max(record.runs, tally.all.runs);
+      auto known = std::ranges::find(record.sound, tally.agent, &SoundAgent::agent);
+      if (known == record.sound.end()) known = record.sound.insert(known, {.agent = tally.agent});
+      known->runs += tally.all.runs;
+      known->violating_runs += tally.all.with(kAccusedOfViolation);
+    }
   }
-  for (std::size_t place = 0; place < measured.front().found.faults.size(); ++place) {
+  // An interrupted measurement has fewer of the last seed, or none at all.
+  const std::size_t faults = measured.empty() ? 0 : measured.front().found.faults.size();
+  for (std::size_t place = 0; place < faults; ++place) {
     std::vector<const FaultDetection*> findings;
-    for (const auto& [seed, found] : measured) findings.push_back(&found.faults[place]);
+    for (const auto& [seed, found] : measured) {
+      if (place < found.faults.size()) findings.push_back(&found.faults[place]);
+    }
     record.faults.push_back(summary_of(findings));
     record.faults.back().text = fault_of(programs, record.faults.back().agent);
   }

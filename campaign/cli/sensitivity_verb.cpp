@@ -58,7 +58,7 @@ void put_sound(const AgentTally& sound) {
 
 void put_text_of(const SensitivityRecord& record, const std::vector<SeededSensitivity>& measured) {
   for (const PlantedFault& fault : record.faults) put_fault(fault, record.seeds.size());
-  for (const SeededSensitivity& one : measured) put_sound(one.found.sound);
+  for (const SeededSensitivity& one : measured) std::ranges::for_each(one.found.sound, put_sound);
   put("{}\n", sensitivity_sentence(record));
 }
 

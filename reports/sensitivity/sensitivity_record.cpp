@@ -13,7 +13,7 @@
 namespace fleetproof {
 namespace {
 
-constexpr int kSensitivityVersion = 3;
+constexpr int kSensitivityVersion = 4;
 constexpr const char* kSensitivityEnding = ".sensitivity.json";
 
 template <class T>
@@ -36,7 +36,8 @@ Json json_of(const PlantedFault& fault, const SensitivityRecord& record) {
           {"most_runs", maybe(fault.most_runs)},
           {"cell", fault.cell},
           {"probe", fault.probe},
-          {"tried", fault.tried}};
+          {"tried", fault.tried},
+          {"sound", fault.sound}};
 }
 
 PlantedFault fault_from(const Json& json) {
@@ -51,6 +52,7 @@ PlantedFault fault_from(const Json& json) {
   fault.cell = json.at("cell");
   fault.probe = json.at("probe");
   fault.tried = json.at("tried");
+  fault.sound = json.at("sound");
   return fault;
 }
 
@@ -61,9 +63,8 @@ SensitivityRecord record_from(const Json& json) {
   record.program_sha256 = json.at("engine").at("program_sha256");
   record.seeds = json.at("seeds").get<std::vector<std::uint64_t>>();
   record.runs = json.at("runs");
-  record.sound_agent = json.at("sound").at("agent");
-  record.sound_runs = json.at("sound").at("runs");
-  record.sound_violations = json.at("sound").at("violating_runs");
+  for (const Json& sound : json.at("sound"))
+    record.sound.push_back({sound.at("agent"), sound.at("runs"), sound.at("violating_runs")});
   for (const Json& fault : json.at("faults")) record.faults.push_back(fault_from(fault));
   record.known_faults = json.value("known_faults", std::uint64_t{record.faults.size()});
   return record;
@@ -87,17 +88,17 @@ std::string worlds_of(const std::string& plan_json) {
 }
 
 std::string sensitivity_text(const SensitivityRecord& record) {
-  Json json = {
-      {"schema_version", kSensitivityVersion},
-      {"worlds", record.worlds},
-      {"engine", {{"version", record.engine_version}, {"program_sha256", record.program_sha256}}},
-      {"seeds", record.seeds},
-      {"runs", record.runs},
-      {"sound",
-       {{"agent", record.sound_agent}, {"runs", record.sound_runs}, {"violating_runs", record.sound_violations}}},
-      {"known_faults", record.known_faults},
-      {"detected", record.detected()},
-      {"faults", Json::array()}};
+  Json json = {{"schema_version", kSensitivityVersion},
+               {"worlds", record.worlds},
+               {"engine", {{"version", record.engine_version}, {"program_sha256", record.program_sha256}}},
+               {"seeds", record.seeds},
+               {"runs", record.runs},
+               {"sound", Json::array()},
+               {"known_faults", record.known_faults},
+               {"detected", record.detected()},
+               {"faults", Json::array()}};
+  for (const auto& [agent, runs, violating_runs] : record.sound)
+    json["sound"].push_back({{"agent", agent}, {"runs", runs}, {"violating_runs", violating_runs}});
   for (const PlantedFault& fault : record.faults) json["faults"].push_back(json_of(fault, record));
   return shown_json(json);
 }

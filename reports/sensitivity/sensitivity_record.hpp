@@ -20,6 +20,13 @@ struct PlantedFault {
   // Of the first such run of the first seed of its kind. Of a rate: with which radio, or over all runs.
   std::string cell, probe;
   bool tried = true;  // false: in each run of each seed it did the same as the sound agent
+  std::string sound{};  // the agent that it is but for its fault
+};
+
+// What faulty agents are compared with, over all seeds.
+struct SoundAgent {
+  std::string agent;
+  std::uint64_t runs = 0, violating_runs = 0;
 };
 
 // Which planted faults the worlds of a plan detect: what `fleetproof sensitivity` measured.
@@ -28,10 +35,9 @@ struct SensitivityRecord {
   std::string engine_version, program_sha256;  // that measured
   std::vector<std::uint64_t> seeds;
   std::uint64_t runs = 0;  // of each agent with each seed, at most
-  std::string sound_agent;
-  std::uint64_t sound_runs = 0, sound_violations = 0;  // runs, and runs with a violation
-  std::vector<PlantedFault> faults;                    // in the order of the catalogue
-  std::uint64_t known_faults = 0;                      // in the catalogue; the others were not measured
+  std::vector<SoundAgent> sound;
+  std::vector<PlantedFault> faults;  // of each of them in turn, in the order of the catalogue
+  std::uint64_t known_faults = 0;    // in the catalogue; the others were not measured
 
   // In at least nine of ten seeds.
   bool detects(const PlantedFault& fault) const { return fault.seeds > 0 && 10 * fault.seeds >= 9 * seeds.size(); }

@@ -21,22 +21,24 @@ std::string most_text(const PlantedFault& fault) { return fault.most_runs ? std:
 std::string or_dash(const std::string& text) { return text.empty() ? "-" : printable(text, 80); }
 
 std::string measured_text(const SensitivityRecord& record) {
+  const std::string sound =
+      record.sound.size() == 1 ? printable(record.sound.front().agent, 40) : std::string("its sound agent");
   std::string text = fmt::format(
       "Measured with {}, in at most {} of each agent. A fault is detected if it ends in a violation, or is accused of "
-      "something more often than {} is, over all runs or with one radio (95 % confidence){}. ",
-      count_text(record.seeds.size(), "seed"), count_text(record.runs, "run"), printable(record.sound_agent, 40),
+      "something more often than {} is, over all runs or with one radio (95 % confidence){}.",
+      count_text(record.seeds.size(), "seed"), count_text(record.runs, "run"), sound,
       record.seeds.size() == 1 ? "" : ", with at least nine of ten seeds");
-  text += record.sound_violations == 0
-              ? fmt::format("{} had no violation in {}.", printable(record.sound_agent, 40),
-                            count_text(record.sound_runs, "run"))
-              : fmt::format("{} itself had violations in {} of {} runs, so that violations count as rates.",
-                            printable(record.sound_agent, 40), record.sound_violations, record.sound_runs);
+  for (const auto& [agent, runs, violating_runs] : record.sound) {
+    text += violating_runs == 0
+                ? fmt::format(" {} had no violation in {}.", printable(agent, 40), count_text(runs, "run"))
+                : fmt::format(" {} itself had violations in {} of {} runs, so that violations count as rates.",
+                              printable(agent, 40), violating_runs, runs);
+  }
   if (!std::ranges::all_of(record.faults, &PlantedFault::tried))
     text += fmt::format(
         " A fault was never tried if its agent did the same as {} in each run: nothing in these runs asked for the "
-        "rule "
-        "that it breaks.",
-        printable(record.sound_agent, 40));
+        "rule that it breaks.",
+        sound);
   return text;
 }
 

@@ -14,8 +14,7 @@ SensitivityRecord sample() {
   record.program_sha256 = "aa";
   record.seeds = {3, 4, 5};
   record.runs = 100;
-  record.sound_agent = "sound";
-  record.sound_runs = 300;
+  record.sound = {{"sound", 300, 0}};
   record.known_faults = 34;
   record.faults.resize(3);
   record.faults[0] = {"early", "releases early", 3, "contact", false, 12.5, 40, "grid, 2 AGVs", "crossing"};

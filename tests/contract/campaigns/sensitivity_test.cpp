@@ -38,7 +38,7 @@ TEST(Sensitivity, CountsTheRunsUntilTheFirstViolationOnAnyNumberOfWorkers) {
       ASSERT_EQ(found.faults.size(), 1U);
       EXPECT_EQ(found.faults[0].seen_as.empty(), expected == 0) << agent;
       EXPECT_EQ(found.faults[0].runs, expected == 0 ? 24 : expected) << agent;
-      EXPECT_EQ(found.sound.all.runs, 24U) << "eight cells of one agent, three replicates";
+      EXPECT_EQ(found.sound[0].all.runs, 24U) << "eight cells of one agent, three replicates";
     }
   }
 }
@@ -48,7 +48,7 @@ TEST(Sensitivity, AFaultThatDoesNothingIsMissed) {
   const Sensitivity found =
       measure_sensitivity(test::small_plan(), AgentPrograms(), {.workers = 2, .agents = {"wraps-at-256"}});
   EXPECT_EQ(found.faults[0].seen_as, "");
-  EXPECT_EQ(found.faults[0].tally.all.accused, found.sound.all.accused);
+  EXPECT_EQ(found.faults[0].tally.all.accused, found.sound[0].all.accused);
   EXPECT_FALSE(found.faults[0].tried);
   EXPECT_EQ(found.detected(), 0U);
 }
@@ -71,7 +71,7 @@ TEST(Sensitivity, AmongBodiesThatNoAgentSensesOnlyARateCounts) {
   plan.faults.obstacles_per_hour = 600.0;
   const Sensitivity found = measure_sensitivity(
       plan, AgentPrograms(), {.runs = 40, .workers = 2, .agents = {"wraps-at-256", "grants-for-good"}});
-  ASSERT_GT(found.sound.all.with("violation"), 0U);
+  ASSERT_GT(found.sound[0].all.with("violation"), 0U);
   EXPECT_EQ(found.faults[0].seen_as, "") << "the same runs as those of the sound agent";
   EXPECT_EQ(found.faults[1].runs, 40U) << "no fault ends at its first violation here";
 }
@@ -88,7 +88,7 @@ TEST_F(Sensitive, TheShortStandardCampaignDetectsFaultsInItsFirstReplicates) {
   const auto finished = run("sensitivity '" + kShort + "' --json --runs 896" + words);
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   const auto found = nlohmann::json::parse(finished.out);
-  EXPECT_EQ(found["sound"]["violating_runs"], 0U) << "the sound agent is accused";
+  EXPECT_EQ(found["sound"][0]["violating_runs"], 0U) << "the sound agent is accused";
   ASSERT_EQ(found["faults"].size(), faults.size());
   for (const auto& fault : found["faults"]) EXPECT_TRUE(fault["detected"]) << fault.dump();
 }
@@ -129,6 +129,27 @@ TEST_F(Sensitive, OfACentralFleetTriesFaultsOfItsOwnPrograms) {
   const auto unknown = run("sensitivity a.toml --agent stale-grant -o other.json");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("\"stale-grant\" is not an agent with a planted fault of zone-server+follower"));
+}
+
+// The faults of each family are compared with the sound software of their own family.
+TEST_F(Sensitive, OfBothFamiliesTriesTheFaultsOfBoth) {
+  std::string campaign = kCorridor;
+  campaign.replace(campaign.find("\"reckless\""), std::string_view("\"reckless\"").size(),
+                   "{ vehicle = \"follower\", computer = \"zone-server\" }, \"hull-lock\"");
+  write("a.toml", campaign);
+  const auto finished = run("sensitivity a.toml --agent takes-steps-twice --agent grants-for-good");
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("hull-lock in 10 runs"));
+  EXPECT_THAT(finished.out, HasSubstr("zone-server+follower in 10 runs"));
+  EXPECT_THAT(finished.out, HasSubstr("detects 2 of 2 planted faults within 10 runs; 45 more were not measured"));
+  const auto found = nlohmann::json::parse(read(path("a.sensitivity.json")));
+  ASSERT_EQ(found["sound"].size(), 2U);
+  EXPECT_EQ(found["faults"][0]["agent"], "grants-for-good");
+  EXPECT_EQ(found["faults"][0]["sound"], "hull-lock");
+  EXPECT_EQ(found["faults"][1]["agent"], "takes-steps-twice");
+  EXPECT_EQ(found["faults"][1]["sound"], "zone-server+follower");
+  EXPECT_THAT(run("sensitivity a.toml --agent reckless -o other.json").err,
+              HasSubstr("is not an agent with a planted fault of hull-lock or zone-server+follower"));
 }
 
 TEST_F(Sensitive, FewerFaultsDoNotTakeThePlaceOfMore) {
