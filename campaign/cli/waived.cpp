@@ -29,10 +29,13 @@ struct Stated {
   std::vector<Amount> amounts;  // of a field of a list of tables, one for each of them; of factors, each value
 };
 
+// Of a list of tables without one.
+enum class EmptyLists : bool { SayNothing, SayDefaults };
+
 // All fields of a plan with what it says of them, in the order of campaign files.
 class StatedFields {
  public:
-  explicit StatedFields(const CampaignPlan& plan) : plan_(plan) { walk("", plan); }
+  StatedFields(const CampaignPlan& plan, EmptyLists empty) : plan_(plan), empty_(empty) { walk("", plan); }
   const std::vector<Stated>& all() const { return all_; }
 
  private:
@@ -57,6 +60,7 @@ class StatedFields {
   void amounts(const std::string& path, const Field& field, const std::vector<Item>& items) {
     if constexpr (HasFields<Item>) {
       for (const Item& item : items) walk(path + ".", item);
+      if (items.empty() && empty_ == EmptyLists::SayDefaults) walk(path + ".", Item{});
     } else if constexpr (PlainValue<Item> && !std::is_same_v<Item, std::string>) {
       for (const Item& item : items) add(path, field, amount_of(field, item));
     } else if constexpr (std::is_same_v<Item, FactorSpan>) {
@@ -126,6 +130,7 @@ class StatedFields {
   }
 
   const CampaignPlan& plan_;
+  EmptyLists empty_;
   std::vector<Stated> all_;
 };
 
@@ -169,7 +174,7 @@ std::string told_field(const CampaignPlan& plan, const std::string& path) {
 
 std::vector<LenientCondition> waived_conditions(const CampaignPlan& plan) {
   const CampaignPlan usual_one = usual_plan(plan);
-  const StatedFields stated(plan), usual(usual_one);
+  const StatedFields stated(plan, EmptyLists::SayNothing), usual(usual_one, EmptyLists::SayDefaults);
   std::vector<std::pair<Heaviness, LenientCondition>> found;
   for (const Stated& field : stated.all()) {
     const auto other = std::ranges::find(usual.all(), field.path, &Stated::path);

@@ -35,8 +35,9 @@ def stated(plan, key):
     found = [plan]
     for part in key.split("."):
         is_list = part.endswith("[]")
-        name = part[:-2] + "s" if is_list else part
-        found = [each.get(name) for each in found if isinstance(each, dict) and each.get(name) is not None]
+        names = (part[:-2] + "s", part[:-2]) if is_list else (part,)  # [[gate]] is "gates", [[computers]] has its name
+        found = [each[name] for each in found if isinstance(each, dict)
+                 for name in names if each.get(name) is not None]
         if is_list:
             found = [item for each in found for item in each]
     if key.startswith("gate[]") and key.endswith("min_transports_per_agv_hour"):

@@ -86,6 +86,26 @@ TEST_F(Waived, EachIsNamedWithItsValue) {
   }
 }
 
+// The items of a list are compared with one that says nothing, whatever else they say.
+TEST_F(Waived, OfComputersOnlyWhatTheyMakeEasier) {
+  const auto of_computers = [&](const std::string& faults) {
+    Tables tables = usual();
+    tables["factors"] =
+        "agents = [{ vehicle = \"follower\", computer = \"zone-server\", name = \"pair\" }]\n"
+        "layouts = [\"aisle-grid\"]\nfleet_sizes = [3]\nloss = [0.4]\n[[computers]]\nname = \"server\"\n" +
+        faults;
+    tables["gate"] = "agent = \"pair\"\nlimit = 0.1\n";
+    auto found = waived(tables);
+    std::erase_if(found, [](const auto& field) { return !field.first.starts_with("computers."); });
+    return found;
+  };
+  EXPECT_TRUE(of_computers("").empty());
+  EXPECT_THAT(of_computers("faults = { restart_s = 50, named = [{ word = \"slow\", most_s = 30 }] }\n"),
+              testing::ElementsAre(testing::Pair("computers.faults.named.most_s", "30 s"),
+                                   testing::Pair("computers.faults.restart_s", "50 s")));
+  EXPECT_THAT(run("report c.db --exit-zero").out, HasSubstr("computers.faults.restart_s = 50 s (usual: 5 s)"));
+}
+
 TEST_F(Waived, WhatIsHarderThanUsualIsNot) {
   constexpr std::pair<const char*, const char*> kHarder[] = {
       {"", "horizon_s = 601\n"},
