@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/clearance/clearance_over_time.hpp"
 #include "core/clearance/swept_region.hpp"
@@ -21,7 +23,9 @@ class CoverageLaw final : public Law {
   explicit CoverageLaw(const Scenario& scenario)
       : margin_m_(violation_threshold_m(scenario.law)),
         agv_count_(scenario.agvs.size()),
-        ways_(*scenario.map, scenario.agvs.size(), margin_m_) {}
+        ways_(*scenario.map, scenario.agvs.size(), margin_m_) {
+    for (const Fault& fault : scenario.faults) words_.push_back(fault.word);
+  }
 
   double looks_within_m() const override { return kNearMiss_m; }
   void had_company(const Piece& piece, std::span<const Piece* const> others) override;
@@ -31,7 +35,10 @@ class CoverageLaw final : public Law {
     piece.manner == Manner::Drive ? ways_.begins(piece) : ways_.ends(piece.entity, piece.begin);
   }
   TraceKinds reads() const override { return {TraceKind::FaultStrikes}; }
-  void happened(const TraceRecord& record) override { ++faults_[read<traced::FaultStrikes>(record).fault]; }
+  void happened(const TraceRecord& record) override {
+    const auto [kind, number] = read<traced::FaultStrikes>(record);
+    ++faults_[{kind, kind == Fault::Kind::Named ? words_.at(number) : ""}];
+  }
   void finish(SimTime end) override;
   LawResults findings() const override;
 
@@ -49,7 +56,8 @@ class CoverageLaw final : public Law {
   DrivenWays ways_;
   std::map<std::pair<EntityId, EntityId>, Near> near_;
   std::uint64_t near_misses_ = 0;
-  std::map<Fault::Kind, std::uint64_t> faults_;
+  std::vector<std::string> words_;                                       // of the faults of the scenario
+  std::map<std::pair<Fault::Kind, std::string>, std::uint64_t> faults_;  // and words
   EvaluationCount evaluations_;
 };
 
@@ -99,7 +107,7 @@ LawResults CoverageLaw::findings() const {
     if (scenes[i] > 0) met(name_of(static_cast<SceneKind>(i)), scenes[i]);
   }
   met(std::string(kNearMissProbe), near_misses_);
-  for (const auto& [fault, count] : faults_) met(probe_name(fault), count);
+  for (const auto& [fault, count] : faults_) met(probe_name(fault.first, fault.second), count);
   return findings;
 }
 

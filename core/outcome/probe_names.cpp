@@ -14,12 +14,16 @@ constexpr std::string_view kFaultPrefix = "fault:";
 
 }  // namespace
 
-std::string probe_name(Fault::Kind fault) { return fmt::format("{} {}", kFaultPrefix, name_of(fault)); }
+std::string probe_name(Fault::Kind fault, std::string_view word) {
+  return fmt::format("{} {}{}{}", kFaultPrefix, name_of(fault), word.empty() ? "" : " ", word);
+}
 
 std::span<const std::string_view> world_probes() {
   static const std::vector<std::string> faults = [] {
     std::vector<std::string> names;
-    for (const Fault::Kind fault : kValuesOf<Fault::Kind>) names.push_back(probe_name(fault));
+    for (const Fault::Kind fault : kValuesOf<Fault::Kind>) {
+      if (fault != Fault::Kind::Named) names.push_back(probe_name(fault));
+    }
     return names;
   }();
   static const std::vector<std::string_view> all = [] {
@@ -36,11 +40,9 @@ std::span<const std::string_view> world_probes() {
 bool is_encounter_probe(std::string_view name) { return value_of<EncounterKind>(name).has_value(); }
 
 bool is_world_probe(std::string_view name) {
-  return name.starts_with(kFaultPrefix) || std::ranges::find(world_probes(), name) != world_probes().end();
+  return is_fault_probe(name) || std::ranges::find(world_probes(), name) != world_probes().end();
 }
 
-bool is_misspelt_world_probe(std::string_view name) {
-  return name.starts_with(kFaultPrefix) && std::ranges::find(world_probes(), name) == world_probes().end();
-}
+bool is_fault_probe(std::string_view name) { return name.starts_with(kFaultPrefix); }
 
 }  // namespace fleetproof

@@ -21,6 +21,7 @@ namespace fleetproof {
 // "bottleneck", "four-way"                          | two AGVs drove to such a place            | law coverage
 // "near-miss"                                       | two AGVs came close without a violation   | law coverage
 // "fault: KIND", as in "fault: breakdown"           | a fault of this kind struck               | law coverage
+// "fault: named WORD", as in "fault: named cut"     | a named fault with this word struck       | law coverage
 // "encounter"                                       | any of the first four                     | evidence
 // "safe-mode"                                       | an AGV was in safe mode                   | evidence
 
@@ -65,16 +66,17 @@ inline constexpr std::size_t kSceneKinds = kValuesOf<SceneKind>.size();
 inline constexpr std::string_view kNearMissProbe = "near-miss";
 inline constexpr std::string_view kEncounterProbe = "encounter";
 inline constexpr std::string_view kSafeModeProbe = "safe-mode";
-std::string probe_name(Fault::Kind fault);
+// `word`: of a named fault.
+std::string probe_name(Fault::Kind fault, std::string_view word = {});
 
-// Every name of the world.
+// Every name of the world but those of named faults, whose words a campaign chooses.
 std::span<const std::string_view> world_probes();
 
 bool is_encounter_probe(std::string_view name);
 // Whether the name belongs to the world, so that no agent can declare it: a name of the list, or one that begins with
 // "fault:".
 bool is_world_probe(std::string_view name);
-// Whether the name begins with "fault:" but names no fault.
-bool is_misspelt_world_probe(std::string_view name);
+// Whether the name begins with "fault:", so that it has to name a fault.
+bool is_fault_probe(std::string_view name);
 
 }  // namespace fleetproof

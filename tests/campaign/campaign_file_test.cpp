@@ -95,6 +95,11 @@ TEST_F(CampaignFileTest, AClaimAsksForEncountersAndASearchForNothing) {
             (Names{"fault: freeze?"}));
   EXPECT_THAT(error_of(kFactors + "[coverage]\nprobes = [\"fault: breakdwon\"]\n"),
               HasSubstr("holds \"fault: breakdwon\", which no run can meet; did you mean \"fault: breakdown\"?"));
+  const std::string cuts = "[[computers]]\nname = \"server\"\nfaults = { named = [{ word = \"cut\" }] }\n[coverage]\n";
+  EXPECT_EQ(read(kFactors + cuts + "probes = [\"fault: named cut\"]\n").plan.probes_to_meet(),
+            (Names{"fault: named cut"}));
+  EXPECT_THAT(error_of(kFactors + cuts + "probes = [\"fault: named cup\"]\n"),
+              HasSubstr("holds \"fault: named cup\", which no run can meet; did you mean \"fault: named cut\"?"));
   EXPECT_THAT(error_of(kFactors + "[coverage]\nprobse = []\n"), HasSubstr("did you mean"));
 }
 

@@ -180,15 +180,27 @@ TEST(Faults, AreCountedByKind) {
   EXPECT_EQ(met(told.finish(10.0)), (Met{{"fault: freeze", 1}, {"fault: protective-stop", 2}}));
 }
 
+TEST(Faults, NamedOnesAreCountedByWord) {
+  Scenario scenario = row_scenario(2, {0, 1});
+  for (const char* word : {"cut", "scrape", "cut"}) {
+    scenario.faults.emplace_back().kind = Fault::Kind::Named;
+    scenario.faults.back().word = word;
+  }
+  Told told(scenario, "coverage");
+  for (const std::uint64_t number : {0U, 1U, 2U}) told.strikes(1.0, 0, Fault::Kind::Named, number);
+  EXPECT_EQ(met(told.finish(10.0)), (Met{{"fault: named cut", 2}, {"fault: named scrape", 1}}));
+}
+
 TEST(Probes, EverythingThatTheLawCountsBearsANameOfTheWorld) {
-  const Scenario scenario = row_scenario(2, {0, 1});
+  Scenario scenario = row_scenario(2, {0, 1});
+  scenario.faults.emplace_back().word = "cut";
   Told told(scenario, "coverage");
   for (const Fault::Kind fault : kValuesOf<Fault::Kind>) told.strikes(1.0, 0, fault);
   const auto findings = told.finish(10.0);
   EXPECT_EQ(findings.met.size(), kEncounterKinds + 1 + kValuesOf<Fault::Kind>.size());
   for (const ProbeCount& probe : findings.met) EXPECT_TRUE(is_world_probe(probe.name)) << probe.name;
-  EXPECT_EQ(world_probes().size(), findings.met.size() + 2 + kSceneKinds)
-      << "and those that the evidence derives, and scenes";
+  EXPECT_EQ(world_probes().size(), findings.met.size() - 1 + 2 + kSceneKinds)
+      << "without a named fault, and those that the evidence derives, and scenes";
 }
 
 TEST(Probes, WhatAnAgentDeclaresIsSummedByName) {

@@ -71,8 +71,9 @@ class Told {
   }
   Told& leaves(double at_s, std::uint32_t body) { return record(at_s, body, traced::Leaves{}); }
   Told& battery_empty(double at_s, std::uint32_t agv) { return record(at_s, agv, traced::BatteryEmpty{}); }
-  Told& strikes(double at_s, std::uint32_t agv, Fault::Kind fault) {
-    return record(at_s, agv, traced::FaultStrikes{fault, 0});
+  // `number`: of the fault in the scenario.
+  Told& strikes(double at_s, std::uint32_t agv, Fault::Kind fault, std::uint64_t number = 0) {
+    return record(at_s, agv, traced::FaultStrikes{fault, number});
   }
   Told& sends(double at_s, std::uint32_t sender, std::uint32_t receiver, std::uint64_t hash, std::uint32_t bytes = 0) {
     return record(at_s, sender, traced::Sent{AgvId{receiver}, hash, bytes});
