@@ -75,7 +75,8 @@ constexpr auto kKinds = std::to_array<IncidentKindInfo>({
     {ForeignBody, Condition, std::nullopt, "foreign-body", "1: a fallen load; 0: an obstacle",
      "a body lay on the floor that no control software is told of"},
     {FaultWithoutEffect, Denied, std::nullopt, "fault-without-effect", kFaultUnit,
-     "a fault of the scenario changed nothing: the AGV or agent was out of order already, or did not know it"},
+     "a fault of the scenario changed nothing: the AGV was out of order, the program of the AGV or computer was away, "
+     "or it did not know the fault"},
     {LoadDidNotFall, Denied, std::nullopt, "load-did-not-fall",
      "1: the AGV carried no such load; 2: a body was in the place",
      "a load of the scenario did not fall where and when it should have fallen"},

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
+#include "core/base/outside_text.hpp"
 #include "generators/map/layout_check.hpp"
 
 namespace fleetproof {
@@ -31,6 +33,11 @@ std::vector<FieldFault> rule_faults(const ComputerFaultRates& rates) {
   demand_order(faults, rates.freeze_least_s, rates.freeze_most_s, "freeze_least_s", "freeze_most_s");
   if (rates.named.size() > kMostNamedFaults)
     faults.push_back({"named", fmt::format("{} are too many; use at most {}", rates.named.size(), kMostNamedFaults)});
+  for (auto named = rates.named.begin(); named != rates.named.end(); ++named) {
+    const auto first = std::ranges::find(rates.named, named->word, &NamedFaultRate::word);
+    if (first != named && !named->word.empty())
+      faults.push_back({"named", fmt::format("{} stands twice; give each word once", in_quotes(named->word))});
+  }
   return faults;
 }
 

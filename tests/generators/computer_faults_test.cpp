@@ -126,6 +126,9 @@ TEST(ComputerFaults, RatesInAnotherOrderAreRefused) {
   EXPECT_THAT(keys(freezes), testing::ElementsAre("freeze_most_s"));
   freezes.named.resize(kMostNamedFaults + 1);
   EXPECT_THAT(keys(freezes), testing::ElementsAre("freeze_most_s", "named"));
+  ComputerFaultRates twice = all_kinds();
+  twice.named.push_back(twice.named.front());
+  EXPECT_THAT(keys(twice), testing::ElementsAre("named")) << "one word, two rates";
   EXPECT_THAT(keys(NamedFaultRate{"cut", 1.0, 2, 1, 4.0, 3.0}), testing::ElementsAre("number_most", "most_s"));
   EXPECT_THAT(keys(NamedFaultRate{"", 1.0, 0, 0, 0.0, 0.0}), testing::ElementsAre("word"));
 }
