@@ -113,11 +113,18 @@ void warn_of_units(CampaignFile& file) {
   }
 }
 
-void require_roles(const AgentFactor& agent, const AgentPrograms& programs, const std::string& where) {
+void require_roles(const CampaignPlan& plan, const AgentFactor& agent, const AgentPrograms& programs,
+                   const std::string& where) {
   for (const ComputerPart& part : agent.computers) {
     if ((programs.program(part.program, where).flags & FP_SERVES_COMPUTERS) == 0)
       throw InputError(where, "factors.agents: " + why_not_on_computer(part.program, part.computer));
   }
+  std::vector<std::string> computers;
+  for (const PlannedComputer& computer : plan.computers) {
+    if (agent.part_on(computer.setup.name) != nullptr) computers.push_back(computer.setup.name);
+  }
+  if (const std::string why_not = why_no_server(agent, computers); !why_not.empty())
+    throw InputError(where, "factors.agents: " + why_not);
 }
 
 // A layout of a file may be larger than an agent can tell others about. Families are never so large.
@@ -132,7 +139,7 @@ void require_room_for_agents(const CampaignFile& file, const AgentPrograms& prog
                      where + ": factors.agents");
       }
     }
-    require_roles(plan.agents[i], programs, where);
+    require_roles(plan, plan.agents[i], programs, where);
     require_distribution(programs.program(plan.agents[i].program, where),
                          plan.order_setup.transports == OrderKind::Open, !plan.agents[i].computers.empty(),
                          where + ": factors.agents");

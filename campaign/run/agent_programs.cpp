@@ -12,6 +12,14 @@
 namespace fleetproof {
 namespace {
 
+// Whether a program is this reference agent, or one with a planted fault of it.
+bool is_or_copies(std::string_view program, std::string_view sound) {
+  for (std::uint32_t i = 0; const fp_agent_type* faulty = fp_faulty_agent(i); ++i) {
+    if (program == faulty->name) return sound == fp_sound_agent(faulty)->name;
+  }
+  return program == sound;
+}
+
 AgentProgram program_of(const fp_agent_type& type) {
   AgentProgram program;
   program.name = type.name;
@@ -38,13 +46,35 @@ void require_room(const AgentProgram& program, const LogicalMap& map, std::size_
   }
 }
 
-// A program that is not built in says itself when it starts whether it takes open transports. `scripted` takes none at all.
+// A program that is not built in says itself when it starts whether it takes open transports. `scripted` takes none at
+// all. Of the reference agents, only `follower` hears from a computer what to do.
 void require_distribution(const AgentProgram& program, bool are_open, bool has_computers, const std::string& where) {
-  if (!are_open || has_computers || !program.is_built_in() || program.name == "scripted") return;
-  throw InputError(where, fmt::format("{} carries out assigned transports only, and the transports are open: without "
-                                      "computers each AGV would go to every load; give the fleet a computer with a "
-                                      "program that distributes them, or assign them",
-                                      in_quotes(program.name)));
+  if (!are_open || !program.is_built_in() || program.name == "scripted") return;
+  const bool asks_computers = is_or_copies(program.name, "follower");
+  if (has_computers && asks_computers) return;
+  const char* why = asks_computers
+                        ? "there is no computer that distributes them; give the fleet one with \"zone-server\", "
+                          "or assign them"
+                        : "it takes none from a computer, and each AGV would go to every load; name an "
+                          "agent whose computer distributes them, as \"zone-server\" does for "
+                          "\"follower\", or assign them";
+  throw InputError(where, fmt::format("{} carries out assigned transports only, and the transports are open: {}",
+                                      in_quotes(program.name), why));
+}
+
+std::string why_no_server(const AgentFactor& agent, const std::vector<std::string>& computers) {
+  std::vector<std::string> servers;
+  for (const std::string& computer : computers) {
+    const ComputerPart* part = agent.part_on(computer);
+    if (part != nullptr && is_or_copies(part->program, "zone-server")) servers.push_back(computer);
+  }
+  if (servers.size() > 1)
+    return fmt::format(
+        "{} and {} both have the \"zone-server\", and a fleet obeys one; give one of them another program",
+        in_quotes(servers[0]), in_quotes(servers[1]));
+  if (servers.empty() || servers[0] == computers[0] || !is_or_copies(agent.program, "follower")) return {};
+  return fmt::format("{} has the \"zone-server\", and followers talk to the first computer, which is {}; list {} first",
+                     in_quotes(servers[0]), in_quotes(computers[0]), in_quotes(servers[0]));
 }
 
 std::string name_of_parts(const AgentFactor& agent) {
@@ -160,6 +190,7 @@ bool AgentPrograms::changed_processor(const AgentFactor& agent) const {
 
 void AgentPrograms::require_computers(const AgentFactor& agent, const Scenario& scenario,
                                       const std::string& where) const {
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < scenario.computers.size(); ++i) {
     const std::string& name = scenario.computers[i].name;
     const ComputerPart* part = agent.part_on(name);
@@ -168,7 +199,10 @@ void AgentPrograms::require_computers(const AgentFactor& agent, const Scenario& 
                        fmt::format("the computer {} has no program; name one", in_quotes(name)));
     if ((program(part->program, where).flags & FP_SERVES_COMPUTERS) == 0)
       throw InputError(fmt::format("{}/computers/{}/agent", where, i), why_not_on_computer(part->program, name));
+    names.push_back(name);
   }
+  if (const std::string why_not = why_no_server(agent, names); !why_not.empty())
+    throw InputError(where + "/computers", why_not);
 }
 
 FleetSoftware AgentPrograms::software(const AgentFactor& agent, const std::string& config,

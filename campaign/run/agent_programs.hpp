@@ -33,9 +33,13 @@ struct AgentProgram {
 void require_room(const AgentProgram& program, const LogicalMap& map, std::size_t agvs, std::string_view place,
                   const std::string& where);
 
-// Throws InputError, at `where`, if this agent is on board of the AGVs, the transports are open, and the agent takes
-// only transports of its own: then a computer has to distribute them.
+// Throws InputError, at `where`, if the transports are open and this agent, on board of the AGVs, takes only transports
+// of its own, or none from the computers that there are.
 void require_distribution(const AgentProgram& program, bool are_open, bool has_computers, const std::string& where);
+
+// Why followers cannot find their zone-server among these computers, in their order in the scenario; empty: they can,
+// or there is none.
+std::string why_no_server(const AgentFactor& agent, const std::vector<std::string>& computers);
 
 // The name of an agent that has none of its own: its programs, those on computers first.
 std::string name_of_parts(const AgentFactor& agent);
@@ -77,7 +81,7 @@ class AgentPrograms {
   // Whether an object of its parts was loaded with another state of the processor than the engine's.
   bool changed_processor(const AgentFactor& agent) const;
   // Throws InputError, at `where`/computers/NUMBER/agent, if a computer of the scenario has no part, or one that cannot
-  // serve it. Requires: the parts are known.
+  // serve it, and at `where`/computers for why_no_server(). Requires: the parts are known.
   void require_computers(const AgentFactor& agent, const Scenario& scenario, const std::string& where) const;
   // For the computers of this scenario. `config`: of parts that have none. Requires: its parts are loaded into this
   // process; agent and config outlive the result. Throws what require_computers() throws.

@@ -31,6 +31,17 @@ class CentralFleet : public test::ProgramTest {
     return "{ vehicle = \"" + kCentral + "\", computer = { file = \"" + kCentral + "\", config = \"" + config + "\" }" +
            more + " }";
   }
+  // Of a run in which the server restarts, as p.html.
+  void write_page() const {
+    campaign(central("late"), "[[computers]]\nname = \"server\"\nat_m = [4, 21]\n", 1);
+    run("run c.toml --db c.db");
+    run("replay c.db 0 --scenario s.json");
+    std::string scenario = read(path("s.json"));
+    scenario.insert(scenario.rfind('}'),
+                    R"(, "faults": [{"agv": "server", "kind": "restart", "at_s": 50.5, "lasts_s": 5}])");
+    write("s.json", scenario);
+    EXPECT_TRUE(test::has_verdict(run("simulate s.json --plugin " + kCentral + " --html p.html")));
+  }
   std::vector<std::string> rows(const std::string& db, const std::string& agent) const {
     const test::Finished found =
         shell("\"$FLEETPROOF\" report " + db + " --evidence " + db + ".d >&2; cat " + db + ".d/runs.csv");
@@ -80,21 +91,18 @@ TEST_F(CentralFleet, StandsStillIfItsServerIsDeaf) {
 
 // The page has the server, its place, what it said to whom, and its faults; the words infer nothing from its silence.
 TEST_F(CentralFleet, IsShownByTheReplayPage) {
-  campaign(central("late"), "[[computers]]\nname = \"server\"\nat_m = [4, 21]\n", 1);
-  run("run c.toml --db c.db");
-  run("replay c.db 0 --scenario s.json");
-  std::string scenario = read(path("s.json"));
-  scenario.insert(scenario.rfind('}'),
-                  R"(, "faults": [{"agv": "server", "kind": "restart", "at_s": 50.5, "lasts_s": 5}])");
-  write("s.json", scenario);
-  EXPECT_TRUE(test::has_verdict(run("simulate s.json --plugin " + kCentral + " --html p.html")));
+  write_page();
   const std::string page = read(path("p.html"));
   EXPECT_THAT(page, HasSubstr(R"({"name":"server","kind":"computer","x_um":4000000,"y_um":21000000})"));
   EXPECT_THAT(page, HasSubstr("you may drive"));
   EXPECT_THAT(page, HasSubstr("<dt>computers</dt><dd>server</dd>"));
   for (const char* word : {"Answers in time", "had sent nothing to", "not on the floor."})
     EXPECT_THAT(page, Not(HasSubstr(word)));
+}
+
+TEST_F(CentralFleet, HasAPanelOfItsServerInABrowser) {
   if (shell("command -v chromium").exit_code != 0) GTEST_SKIP() << "there is no chromium";
+  write_page();
   const test::Finished shown = shell(
       "timeout 120 chromium --headless=new --no-sandbox --disable-gpu --user-data-dir=\"$PWD/profile\" "
       "--enable-logging=stderr --dump-dom \"file://$PWD/p.html#t=52&agv=server\"");
@@ -104,6 +112,23 @@ TEST_F(CentralFleet, IsShownByTheReplayPage) {
   EXPECT_THAT(panel, HasSubstr("<td>(4.00, 21.00) m</td>"));
   EXPECT_THAT(panel, HasSubstr("<td class=\"soft\">fault under way</td><td class=\"bad\">restart</td>"));
   EXPECT_THAT(panel, HasSubstr("<h3>last sent to each</h3><table><tbody><tr><td>AGV 0</td><td>GO: you may drive</td>"));
+}
+
+// Followers talk to the first computer, and to no other.
+TEST_F(CentralFleet, IsRefusedWithoutOneServerThatItsFollowersHear) {
+  const auto refusal = [&](const std::string& first, const std::string& second) {
+    campaign("{ vehicle = \"follower\", computers = { a = \"" + first + "\", b = " + second + " } }",
+             "[[computers]]\nname = \"a\"\n[[computers]]\nname = \"b\"\n");
+    const test::Finished checked = run("check c.toml");
+    EXPECT_EQ(checked.exit_code, 2);
+    return checked.err;
+  };
+  EXPECT_THAT(refusal("zone-server", "\"zone-server\""),
+              HasSubstr("and a fleet obeys one; give one of them another program"));
+  EXPECT_THAT(refusal("zone-server", "\"lease-by-clock\""),
+              HasSubstr("and a fleet obeys one; give one of them another program"));
+  EXPECT_THAT(refusal(kCentral, "\"zone-server\""),
+              HasSubstr("followers talk to the first computer, which is \"a\"; list \"b\" first"));
 }
 
 // An agent that runs on board alone has the same worlds and the same radio beside a central one.

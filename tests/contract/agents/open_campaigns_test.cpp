@@ -116,7 +116,10 @@ TEST_F(OpenCampaign, RefusesWhatCannotBe) {
   };
   EXPECT_THAT(refusal("\"hull-lock\"", "transports = \"open\"\n"),
               HasSubstr("\"hull-lock\" carries out assigned transports only"));
-  EXPECT_THAT(refusal("\"reckless\"", "transports = \"open\"\n"), HasSubstr("give the fleet a computer"));
+  EXPECT_THAT(refusal("\"reckless\"", "transports = \"open\"\n"),
+              HasSubstr("name an agent whose computer distributes"));
+  const std::string beside = "{ vehicle = \"hull-lock\", computer = \"zone-server\" }";
+  EXPECT_THAT(refusal(beside, "transports = \"open\"\n"), HasSubstr("it takes none from a computer"));
   EXPECT_THAT(refusal("\"hull-lock\"", "transports = \"opened\"\n"),
               HasSubstr("expected one of \"assigned\", \"open\""));
   EXPECT_THAT(refusal("\"hull-lock\"", "withdrawn_share = 1.5\n"), HasSubstr("withdrawn_share"));
