@@ -13,10 +13,14 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "campaign/workers/cause_of_death.hpp"
 #include "core/base/error.hpp"
+#include "core/sdk/fleetproof/agent.h"
 #include "tests/contract/campaigns/small_campaign.hpp"
 #include "tests/storage/sample_records.hpp"
 #include "tests/support/planted_ends.hpp"
@@ -25,6 +29,22 @@ namespace fleetproof::isolated_runs_test {
 namespace {
 
 using testing::HasSubstr;
+
+TEST(CauseOfDeath, NamesTheEventOfTheCall) {
+  const std::pair<std::uint32_t, const char*> events[] = {{FP_EVENT_START, "event start"},
+                                                          {FP_EVENT_FAULT, "event fault"},
+                                                          {FP_EVENT_WITHDRAWN, "event withdrawn"},
+                                                          {CallNote::kDestroy, "destroy()"},
+                                                          {CallNote::kKnowsFault, "knows_fault()"}};
+  for (const auto& [event, words] : events) {
+    WorkerSlot slot;
+    slot.call.number = 3;
+    slot.call.event = event;
+    slot.call.at_ns = 2'000'000'000;
+    const CauseOfDeath cause = cause_of_death(WorkerState::Asleep, {}, slot);
+    EXPECT_EQ(cause.message, std::string("waits without end in ") + words + " at 2.000000000 s");
+  }
+}
 
 CampaignPlan failing_plan(const std::string& how) {
   CampaignPlan plan = test::small_plan();
