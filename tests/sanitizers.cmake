@@ -28,7 +28,7 @@ endif()
 add_executable(sanitized_tests EXCLUDE_FROM_ALL ${sanitized_sources})
 target_link_libraries(sanitized_tests
   PRIVATE fleetproof_campaign fleetproof_evidence exact_binomial rapidcheck test_main
-    nlohmann_json::nlohmann_json fmt::fmt SQLiteCpp SQLite::SQLite3 TBB::tbb)
+    nlohmann_json::nlohmann_json fmt::fmt SQLiteCpp SQLite::SQLite3 TBB::tbb boost_context)
 target_compile_definitions(sanitized_tests PRIVATE FLEETPROOF_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
   FLEETPROOF_PLUGIN="$<TARGET_FILE:fleetproof_agents_plugin>"
   FLEETPROOF_RETOUCHED_AGENT="$<TARGET_FILE:retouched_agent>" FLEETPROOF_UNTIDY_AGENT="$<TARGET_FILE:untidy_agent>"

@@ -37,6 +37,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"core/engine/agent_host.hpp AgentHost", "all that happens to agents, in one order"},
     {"core/agents/controller.hpp Controller", "one function for each call of an agent"},
     {"core/engine/agv_controller.hpp AgvController", "one function for each call of an agent"},
+    {"core/sdk/fleetproof/blocking.hpp Controller", "one function for each call of a program"},
     {"core/engine/engine.hpp Parts", "one member for each part of the engine"},
     {"core/outcome/outcome.hpp Outcome", "plain data: everything that a run leaves"},
     {"storage/records.hpp CampaignRecord", "plain data: everything that a file says of its campaign"},
@@ -69,7 +70,7 @@ const std::map<std::string, std::string> kWideFiles = {
 
 // Folders of sources without a README.md of their own, each with the reason.
 const std::map<std::string, std::string> kFoldersWithoutPage = {
-    {"core/sdk/fleetproof", "core/sdk/README.md describes the one header in it"},
+    {"core/sdk/fleetproof", "core/sdk/README.md describes the headers in it"},
     {"tests/agents", "mirrors core/agents: tests/README.md"},
     {"tests/contract/agents", "a group of tests/contract: its README.md has a section for each"},
     {"tests/contract/audits", "a group of tests/contract: its README.md has a section for each"},
