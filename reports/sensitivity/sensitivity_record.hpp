@@ -19,7 +19,7 @@ struct PlantedFault {
   std::optional<std::uint64_t> most_runs;  // absent: by rate, or missed in a seed
   // Of the first such run of the first seed of its kind. Of a rate: with which radio, or over all runs.
   std::string cell, probe;
-  bool tried = true;  // false: in each run of each seed it did the same as the sound agent
+  bool tried = true;    // false: in each run of each seed it did the same as the sound agent
   std::string sound{};  // the agent that it is but for its fault
 };
 
