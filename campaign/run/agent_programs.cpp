@@ -8,6 +8,7 @@
 #include "core/agents/agents.h"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
+#include "core/base/outside_text.hpp"
 
 namespace fleetproof {
 namespace {

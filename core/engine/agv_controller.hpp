@@ -36,9 +36,9 @@ struct fp_controller {
   fleetproof::ToldPlant* plant = nullptr;  // map and fleet, as agents see them
   std::string* why_not = nullptr;          // takes why the agent cannot start; null: it is not being created
   std::unique_ptr<fleetproof::FiledFailure> failure{};  // by the agent itself; null: none
-  fleetproof::Duration cost{};             // of its calls
-  std::uint64_t calls = 0, services = 0;   // so many
-  std::uint64_t calls_max = 0;             // so many are admitted; none outside an activation
+  fleetproof::Duration cost{};                          // of its calls
+  std::uint64_t calls = 0, services = 0;                // so many
+  std::uint64_t calls_max = 0;                          // so many are admitted; none outside an activation
 
   bool in_activation() const { return calls_max > 0; }
   // Which limit the agent has exceeded, in words; null: none.

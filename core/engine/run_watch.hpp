@@ -17,8 +17,8 @@ class CallTape;
 class ForeignHandles;
 class ToldPlant;
 
-// The last call into an agent: create, on_event, destroy, knows_fault or run_ends. It may lie in memory that another process
-// reads, so that it outlives a run whose agent ends the process. Threads: one writes, any number read.
+// The last call into an agent: create, on_event, destroy, knows_fault or run_ends. It may lie in memory that another
+// process reads, so that it outlives a run whose agent ends the process. Threads: one writes, any number read.
 struct CallNote {
   static constexpr std::uint32_t kDestroy = 0xffffffff;     // `event` of a call of destroy
   static constexpr std::uint32_t kKnowsFault = 0xfffffffe;  // `event` of a call of knows_fault

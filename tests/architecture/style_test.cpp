@@ -72,6 +72,7 @@ const std::map<std::string, std::string> kWideFiles = {
 const std::map<std::string, std::string> kFoldersWithoutPage = {
     {"core/sdk/fleetproof", "core/sdk/README.md describes the headers in it"},
     {"tests/agents", "mirrors core/agents: tests/README.md"},
+    {"tests/bridges", "mirrors core/bridges: tests/README.md"},
     {"tests/contract/agents", "a group of tests/contract: its README.md has a section for each"},
     {"tests/contract/audits", "a group of tests/contract: its README.md has a section for each"},
     {"tests/contract/campaigns", "a group of tests/contract: its README.md has a section for each"},

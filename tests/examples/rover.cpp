@@ -22,7 +22,16 @@ static void* create(const fp_host* host, fp_controller* agv, const fp_briefing* 
 static void destroy(void* agent) { delete static_cast<Rover*>(agent); }
 
 extern "C" const fp_agent_type* fp_agent_query(uint32_t) {
-  static const fp_agent_type kRover = {sizeof(fp_agent_type), FP_ABI_MAJOR, FP_ABI_MINOR, FP_DETERMINISTIC, "rover",
-                                       "drives at random",    create,       on_event,     destroy,          nullptr, nullptr};
+  static const fp_agent_type kRover = {sizeof(fp_agent_type),
+                                       FP_ABI_MAJOR,
+                                       FP_ABI_MINOR,
+                                       FP_DETERMINISTIC,
+                                       "rover",
+                                       "drives at random",
+                                       create,
+                                       on_event,
+                                       destroy,
+                                       nullptr,
+                                       nullptr};
   return &kRover;
 }

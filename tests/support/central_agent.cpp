@@ -260,17 +260,16 @@ void destroy(void* agent) {
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const fp_agent_type* fp_agent_query(uint32_t) {
-  static const fp_agent_type type{
-      sizeof(fp_agent_type),
-      FP_ABI_MAJOR,
-      FP_ABI_MINOR,
-      FP_DETERMINISTIC | FP_SERVES_COMPUTERS,
-      "central",
-      "a server that lets reckless AGVs go",
-      create,
-      on_event,
-      destroy,
-      [](const char* word) -> uint32_t { return std::string_view(word) == "deaf" ? 1 : 0; },
-      nullptr};
+  static const fp_agent_type type{sizeof(fp_agent_type),
+                                  FP_ABI_MAJOR,
+                                  FP_ABI_MINOR,
+                                  FP_DETERMINISTIC | FP_SERVES_COMPUTERS,
+                                  "central",
+                                  "a server that lets reckless AGVs go",
+                                  create,
+                                  on_event,
+                                  destroy,
+                                  [](const char* word) -> uint32_t { return std::string_view(word) == "deaf" ? 1 : 0; },
+                                  nullptr};
   return &type;
 }

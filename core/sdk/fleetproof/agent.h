@@ -153,8 +153,8 @@ typedef struct fp_briefing {
   const char* const* vehicle_type_names; /* by vehicle_type of fp_agv */
   const char* const* segment_names;      /* by number of the segment */
   uint32_t orders;                       /* fp_orders */
-  /* Since minor 6. 64 bits of this run, the same for all participants and in every boot: software with random numbers of
-   * its own begins them with it. */
+  /* Since minor 6. 64 bits of this run, the same for all participants and in every boot: software with random numbers
+   * of its own begins them with it. */
   uint64_t seed;
 } fp_briefing;
 
@@ -221,8 +221,8 @@ typedef struct fp_record {
   const void* bytes; /* valid until the next `keep` or the end of the activation */
 } fp_record;
 
-/* Since minor 6. What `perceive` finds, as of the beginning of the activation. Of a computer, all that only an AGV has is
- * 0, and order_id is FP_NONE. */
+/* Since minor 6. What `perceive` finds, as of the beginning of the activation. Of a computer, all that only an AGV has
+ * is 0, and order_id is FP_NONE. */
 typedef struct fp_perceived {
   uint32_t struct_size;
   uint32_t action;   /* as get_action */
@@ -345,14 +345,14 @@ typedef struct fp_host {
   int32_t (*works_on)(fp_controller*, uint32_t agv, uint32_t order_id);
   int32_t (*declare_waiting)(fp_controller*, uint32_t agv, uint32_t for_agv);
 
-  /* Since minor 6. For bridges to software elsewhere, and for wrappers. Neither is a call: it takes no simulated time and
-     counts nowhere, and outside an activation it is FP_SUSPENDED.
-     `fail`: the agent has failed. It is filed as crashed, or as hung if `hang` is not 0, with this text for people, of
-     which at least 150 characters are kept. Its further calls return FP_SUSPENDED, it receives no event, and a restart
-     does not bring it back. In `create`, too, whatever that returns. The first call counts.
-     `perceive`: everything that an agent nearly always asks for, read ahead of it and left where it is: messages stay
-     unread. A bridge makes the calls for which it has answered in that way when its software has asked, so that software
-     behind a bridge pays what it would pay without. Set out->struct_size first. */
+  /* Since minor 6. For bridges to software elsewhere, and for wrappers. Neither is a call: it takes no simulated time
+     and counts nowhere, and outside an activation it is FP_SUSPENDED. `fail`: the agent has failed. It is filed as
+     crashed, or as hung if `hang` is not 0, with this text for people, of which at least 150 characters are kept. Its
+     further calls return FP_SUSPENDED, it receives no event, and a restart does not bring it back. In `create`, too,
+     whatever that returns. The first call counts. `perceive`: everything that an agent nearly always asks for, read
+     ahead of it and left where it is: messages stay unread. A bridge makes the calls for which it has answered in that
+     way when its software has asked, so that software behind a bridge pays what it would pay without. Set
+     out->struct_size first. */
   int32_t (*fail)(fp_controller*, uint32_t hang, const char* text);
   int32_t (*perceive)(fp_controller*, fp_perceived* out);
 } fp_host;
@@ -365,8 +365,8 @@ typedef struct fp_host {
 /* Since minor 5. The agent may be the program of a computer: it looks at `role`. Others serve AGVs only. */
 #define FP_SERVES_COMPUTERS 2u
 
-/* Since minor 6. For types that are made while the program runs, one for each program behind a bridge: a type with data of
- * its own. Functions that are null are not called. */
+/* Since minor 6. For types that are made while the program runs, one for each program behind a bridge: a type with data
+ * of its own. Functions that are null are not called. */
 typedef struct fp_bridge {
   uint32_t struct_size;
   void* own; /* given to each of these functions */
