@@ -34,6 +34,7 @@ std::string signal_words(int number) {
 
 std::string end_words(WorkerState state, const WorkerDeath& death, const WorkerSlot& slot) {
   if (state == WorkerState::BeyondCpuLimit) return "uses CPU time without end";
+  if (state == WorkerState::BeyondMemory) return "needs more memory than limits.memory_mb";
   if (state == WorkerState::Asleep) return "waits without end";
   if (state == WorkerState::Garbled) return "spoiled the answer of its process";
   if (death.with_forker) return "killed the process that starts the workers";

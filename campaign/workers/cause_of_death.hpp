@@ -8,7 +8,7 @@
 namespace fleetproof {
 
 // What the main process found before it ended a worker.
-enum class WorkerState : std::uint8_t { Closed, BeyondCpuLimit, Asleep, Garbled };
+enum class WorkerState : std::uint8_t { Closed, BeyondCpuLimit, BeyondMemory, Asleep, Garbled };
 
 // Why the run of a worker has no outcome.
 struct CauseOfDeath {

@@ -20,7 +20,7 @@
 #include <string_view>
 #include <utility>
 
-#include "campaign/workers/worker_watch.hpp"
+#include "campaign/workers/process_tree.hpp"
 #include "core/base/error.hpp"
 
 namespace fleetproof {
@@ -161,6 +161,8 @@ class ForkerProcess {
       ::kill(worker, SIGKILL);  // it may have left its group
     }
     for (const pid_t worker : alive_) ::waitpid(worker, nullptr, 0);
+    alive_.clear();
+    end_strays();
     ::_exit(0);
   }
 
@@ -198,12 +200,28 @@ class ForkerProcess {
       }
     }
     alive_.erase(worker);
+    end_strays();
     const auto in_seconds = [](const timeval& t) {
       return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
     };
     reply.death.cpu_s = in_seconds(use.ru_utime) + in_seconds(use.ru_stime);
     reply.death.max_memory_kb = use.ru_maxrss;
     return reply;
+  }
+
+  // Whatever a dead worker has started is a child of this process by now, in whichever group or session it is.
+  void end_strays() const {
+    for (bool found = true; found;) {
+      found = false;
+      for (const pid_t child : children_of(::getpid())) {
+        if (alive_.contains(child)) continue;
+        found = true;
+        for (const pid_t other : descendants_of(child)) ::kill(other, SIGKILL);
+        ::kill(child, SIGKILL);
+        while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+        }
+      }
+    }
   }
 
   int control_;
@@ -316,6 +334,7 @@ namespace {
 [[noreturn]] void serve_forker(int control, const std::vector<std::string>& words) {
   // It ends when its socket closes, not with a signal: then it can kill what the workers have started.
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(number, SIG_IGN);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);
   ::signal(SIGCHLD, SIG_DFL);  // ignored, as a caller may have left it, it would hide how workers end
   WorkerProgram program;
   program.logs = numbers_in(words[3]);

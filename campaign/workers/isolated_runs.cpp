@@ -270,6 +270,7 @@ void IsolatedRuns::retire(Member& member) {
 std::optional<WorkerState> IsolatedRuns::take_answer(Member& member, WorkerWatch::Limits limits, RunAnswer& answer,
                                                      const std::atomic<bool>* abandon) {
   Channel& channel = member.worker.channel;
+  if (plan_.limits.memory_mb > 0) limits.bytes_below = plan_.limits.memory_mb << 20U;
   WorkerWatch watch(member.worker.pid, limits, slots_[member.slot].call.number);
   for (;;) {
     switch (channel.wait(kLookEvery)) {
