@@ -40,6 +40,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
       {"core/base", {}},
       {"core/geometry", {"core/base"}},
       {"core/agents", {"core/sdk"}},
+      {"core/bridges", {"core/agents", "core/sdk"}},
       {"core/motion", {"core/base", "core/geometry"}},
       {"core/scenario", {"core/base", "core/geometry", "core/motion"}},
       {"core/clearance", {"core/base", "core/geometry", "core/motion"}},
@@ -73,9 +74,9 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
   const std::set<std::string> reports =
       with(with(pages, subjects),
            {"reports/sections", "reports/formats", "reports/markup", "reports/campaign_page", "reports/replay_page"});
-  rooms["campaign/plan"] = with(with(model, generators), {"core/outcome", "laws", "storage"});
-  rooms["campaign/run"] = with(with(core, generators), {"core/engine", "core/sdk", "core/agents", "laws", "storage",
-                                                        "reports/evidence", "campaign/plan"});
+  rooms["campaign/plan"] = with(with(model, generators), {"core/outcome", "core/bridges", "laws", "storage"});
+  rooms["campaign/run"] = with(with(core, generators), {"core/engine", "core/sdk", "core/agents", "core/bridges",
+                                                        "laws", "storage", "reports/evidence", "campaign/plan"});
   rooms["campaign/workers"] = with(rooms["campaign/run"], {"campaign/run"});
   rooms["campaign/batch"] = with(rooms["campaign/workers"], {"campaign/workers"});
   rooms["campaign/shards"] = with(rooms["campaign/batch"], {"campaign/batch"});
@@ -93,6 +94,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = [] {
 const std::map<std::string, std::string> kInsideARoom = {
     {"campaign/cli/evidence", "one verb of campaign/cli"},
     {"core/agents/central", "the pair of core/agents for fleets with a computer"},
+    {"core/bridges/lockstep", "one way in of core/bridges"},
     {"core/agents/faulty", "the faulty agents of core/agents"},
     {"core/sdk/fleetproof", "the headers of core/sdk, under the name by which agents include them"},
 };
@@ -130,7 +132,7 @@ const std::vector<Home> kHomes = {
     {"toml++/", {"campaign/plan/toml_table.cpp"}},
     {"pugixml", {"generators/"}},
     {"yaml-cpp/", {"generators/"}},
-    {"nlohmann/json.hpp", {"core/base/json_text.cpp", "generators/", "reports/", "campaign/"}},
+    {"nlohmann/json.hpp", {"core/base/json_text.cpp", "core/bridges/", "generators/", "reports/", "campaign/"}},
     {"Random123/", {"core/base/random.cpp"}},
     {"xxhash.h", {"core/", "generators/", "storage/"}},
 };

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "campaign/plan/campaign_layouts.hpp"
 #include "campaign/plan/plan_names.hpp"
 #include "core/base/error.hpp"
+#include "core/bridges/lockstep/command.hpp"
 
 namespace fleetproof {
 namespace {
@@ -28,14 +31,48 @@ void take_word(const std::string& word, ProgramPart& part, std::string& file) {
   (is_path_of_object(word) ? file : part.program) = word;
 }
 
-// agent or file, config, symbols.
+// A command, and how it is spoken to.
+void take_command(TomlTable& table, std::string& file) {
+  std::string command, way;
+  table.get("run", command);
+  table.get("way", way);
+  if (command.empty() && way.empty()) return;
+  if (command.empty()) throw InputError(table.place("way"), "way says how the command in run is spoken to; name it");
+  if (!file.empty()) throw InputError(table.place("run"), "an agent has either run = \"...\" or file = \"...\"");
+  const std::string ways = "run needs a way: way = \"lockstep\" for a program that speaks the protocol of core/sdk";
+  const auto given = table.given("way");
+  if (!given) throw InputError(table.place("run"), ways);
+  if (way != "lockstep") given->refuse(expected_word(given->value, std::array<std::string_view, 1>{"lockstep"}));
+  file = std::string(kLockstepWord) + command;
+}
+
+// The words of a command that are files beside the campaign file are these, wherever the program is started.
+std::string from_campaign(const std::string& campaign_path, const std::string& file) {
+  if (!file.starts_with(kLockstepWord)) return beside(campaign_path, file);
+  try {
+    std::vector<std::string> words = lockstep::Command(std::string_view(file).substr(kLockstepWord.size())).words();
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      std::error_code ignored;
+      const std::string there = beside(campaign_path, words[i]);
+      const bool may_be_file = i > 0 || words[i].find('/') != std::string::npos;
+      if (may_be_file && std::filesystem::exists(there, ignored)) words[i] = there;
+    }
+    return std::string(kLockstepWord) + lockstep::command_text(words);
+  } catch (const std::invalid_argument&) {
+    return file;  // refused with its place when it is opened
+  }
+}
+
+// agent, file or run with way; config, symbols.
 void take_program(TomlTable& table, ProgramPart& part, std::string& file) {
   table.get("agent", part.program);
   table.get("file", file);
+  take_command(table, file);
   if (part.program.empty() == file.empty())
-    throw InputError(table.place("file"),
-                     "a table under factors.agents has either file = \"...\" or agent = \"...\", or vehicle = ... with "
-                     "computer = ...");
+    throw InputError(
+        table.place("file"),
+        "a table under factors.agents has either file = \"...\" or agent = \"...\" or run = \"...\", or vehicle = "
+        "... with computer = ...");
   std::string config;
   table.get("config", config);
   if (table.has("config")) part.config = config;
@@ -92,7 +129,7 @@ AgentFactor agent_from_table(TomlTable& table, AgentFiles& files) {
 }  // namespace
 
 bool is_path_of_object(std::string_view word) {
-  return word.find('/') != std::string_view::npos || word.ends_with(".so");
+  return word.starts_with(kLockstepWord) || word.find('/') != std::string_view::npos || word.ends_with(".so");
 }
 
 void read_agents(TomlTable& factors, std::string_view key, const std::string& campaign_path,
@@ -105,7 +142,7 @@ void read_agents(TomlTable& factors, std::string_view key, const std::string& ca
     } else {
       take_word(item.word, agent, of_agent.front());
     }
-    for (std::string& file : of_agent) file = file.empty() ? "" : beside(campaign_path, file);
+    for (std::string& file : of_agent) file = file.empty() ? "" : from_campaign(campaign_path, file);
     if (agent.name.empty() && agent.computers.empty()) agent.name = agent.program;
     agents.push_back(std::move(agent));
     files.push_back(std::move(of_agent));

@@ -171,6 +171,16 @@ std::vector<const AgentProgram*> AgentPrograms::foreign() const {
   return found;
 }
 
+bool AgentPrograms::have_processes() const {
+  return std::ranges::any_of(programs_, [](const AgentProgram& program) { return bool(program.opened.renew); });
+}
+
+void AgentPrograms::renew() {
+  for (const AgentProgram& program : programs_) {
+    if (program.opened.renew) program.opened.renew();
+  }
+}
+
 bool AgentPrograms::is_deterministic(const AgentFactor& agent) const {
   return std::ranges::all_of(parts_of(agent, "agent"),
                              [](const AgentProgram* part) { return (part->flags & FP_DETERMINISTIC) != 0; });
@@ -215,6 +225,12 @@ FleetSoftware AgentPrograms::software(const AgentFactor& agent, const std::strin
   std::vector<RoleSoftware> computers;
   for (const ComputerSetup& computer : scenario.computers) computers.push_back(role(*agent.part_on(computer.name)));
   return {role(agent), std::move(computers)};
+}
+
+// A tape plays for every agent: any type will do.
+FleetSoftware AgentPrograms::software_to_play(const Scenario& scenario) const {
+  const RoleSoftware any{programs_.front().opened.type};
+  return {any, std::vector<RoleSoftware>(scenario.computers.size(), any)};
 }
 
 std::vector<std::string> AgentPrograms::plugin_identities() const {

@@ -74,6 +74,9 @@ class AgentPrograms {
   // Those that are not built in, each once: of its parts, and of all.
   std::vector<const AgentProgram*> foreign_parts_of(const AgentFactor& agent) const;
   std::vector<const AgentProgram*> foreign() const;
+  // Whether one that is open has processes of its own; from here on none that has served a run serves another.
+  bool have_processes() const;
+  void renew();
   // Whether each part promises that it is deterministic.
   bool is_deterministic(const AgentFactor& agent) const;
   // Of a shared object among its parts; null: there is none.
@@ -86,6 +89,8 @@ class AgentPrograms {
   // For the computers of this scenario. `config`: of parts that have none. Requires: its parts are loaded into this
   // process; agent and config outlive the result. Throws what require_computers() throws.
   FleetSoftware software(const AgentFactor& agent, const std::string& config, const Scenario& scenario) const;
+  // For a run that is played from a recording, in which no agent is called.
+  FleetSoftware software_to_play(const Scenario& scenario) const;
   // "NAME sha256 HEX" of each that is not built in: part of the engine's identity in the archive.
   std::vector<std::string> plugin_identities() const;
 

@@ -5,11 +5,16 @@
 
 #include <cstring>
 #include <filesystem>
+#include <stdexcept>
+#include <vector>
 
+#include "campaign/plan/campaign_agents.hpp"
 #include "campaign/run/sha256.hpp"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/bridges/lockstep/command.hpp"
+#include "core/bridges/lockstep/lockstep.hpp"
 #include "core/engine/processor_state.hpp"
 #include "core/engine/simulation.hpp"
 #include "generators/text/text_file.hpp"
@@ -63,20 +68,73 @@ OpenedProgram open_object(const ProgramSource& source, const std::string& path) 
           std::shared_ptr<const void>(type, [object](const void*) { dlclose(object); })};
 }
 
+// ---- lockstep
+
+bool is_lockstep(std::string_view word) { return word.starts_with(kLockstepWord); }
+
+lockstep::Command command_of(const std::string& word) {
+  try {
+    return lockstep::Command(std::string_view(word).substr(kLockstepWord.size()));
+  } catch (const std::invalid_argument& wrong) {
+    throw InputError(word, fmt::format("{}; write it as in \"{}python3 master.py\"", wrong.what(), kLockstepWord));
+  }
+}
+
+bool is_file(const std::string& word) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(word, ignored);
+}
+
+// The same command from any folder. The program itself is found by its name, unless it has a folder.
+std::string with_absolute_files(const std::string& word) {
+  std::vector<std::string> words = command_of(word).words();
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if ((i > 0 || words[i].find('/') != std::string::npos) && is_file(words[i])) words[i] = absolute_name(words[i]);
+  }
+  return std::string(kLockstepWord) + lockstep::command_text(words);
+}
+
+// Where the files stand does not matter, and what is in them does.
+std::string identity_of_command(const std::string& word) {
+  std::string bytes;
+  const lockstep::Command command = command_of(word);
+  for (const std::string& part : command.words()) {
+    const std::string named = is_file(part) ? "file " + sha256_of_file(part) : "word " + part;
+    bytes += fmt::format("{}:{}", named.size(), named);
+  }
+  return sha256_hex(bytes);
+}
+
+OpenedProgram open_lockstep(const ProgramSource& source, const std::string& word) {
+  std::shared_ptr<lockstep::LockstepProgram> program;
+  try {
+    program = std::make_shared<lockstep::LockstepProgram>(std::string_view(source.file).substr(kLockstepWord.size()));
+  } catch (const std::runtime_error& refused) {
+    throw InputError(word, refused.what());
+  }
+  check_type(word, program->type());
+  return {&program->type(), nullptr, program, [program] { program->renew(); }};
+}
+
 }  // namespace
 
 // An absolute name keeps dlopen from searching the system's library folders.
 ProgramSource source_of(const std::string& word, bool global_symbols) {
+  if (is_lockstep(word)) return {ProgramKind::Lockstep, with_absolute_files(word), {}, false};
   require_object(word);
   return {ProgramKind::Plugin, absolute_name(word), {}, global_symbols};
 }
 
-std::string identity_of(const ProgramSource& source) { return sha256_of_file(source.file); }
+std::string identity_of(const ProgramSource& source) {
+  return source.kind == ProgramKind::Lockstep ? identity_of_command(source.file) : sha256_of_file(source.file);
+}
 
 OpenedProgram open(const ProgramSource& source, const std::string& word) {
   switch (source.kind) {
     case ProgramKind::Plugin:
       return open_object(source, word);
+    case ProgramKind::Lockstep:
+      return open_lockstep(source, word);
     case ProgramKind::BuiltIn:
       break;
   }
@@ -84,11 +142,13 @@ OpenedProgram open(const ProgramSource& source, const std::string& word) {
 }
 
 std::string word_of(const ProgramSource& source, const std::string& folder) {
+  if (source.kind == ProgramKind::Lockstep) return source.file;
   const auto file = std::filesystem::path(source.file).lexically_normal();
   return folder.empty() ? source.file : file.lexically_proximate(folder).string();
 }
 
 std::string lasting_word_of(const ProgramSource& source) {
+  if (source.kind == ProgramKind::Lockstep) return source.file;
   return std::filesystem::weakly_canonical(source.file).string();
 }
 

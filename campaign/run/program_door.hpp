@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -11,7 +12,7 @@
 namespace fleetproof {
 
 // How a program comes in.
-enum class ProgramKind : std::uint8_t { BuiltIn, Plugin };
+enum class ProgramKind : std::uint8_t { BuiltIn, Plugin, Lockstep };
 
 // Where a program comes from: all that another process needs to open the same one.
 struct ProgramSource {
@@ -25,10 +26,11 @@ struct OpenedProgram {
   const fp_agent_type* type = nullptr;
   std::shared_ptr<ForeignHandles> handles{};  // null: its code is part of this program
   std::shared_ptr<const void> own{};          // the type and all that it needs end with this
+  std::function<void()> renew{};              // the next run finds new processes; empty: it has none
 };
 
-// The source that a word of a campaign file or of a command line names. Throws InputError, at the word, if there is no
-// such file.
+// The source that a word of a campaign file or of a command line names: the path of a shared object, or
+// "lockstep:COMMAND". Throws InputError, at the word, if there is no such file or if it is no command.
 ProgramSource source_of(const std::string& word, bool global_symbols);
 // The SHA-256 of what the source is now. Throws InputError if it cannot be read.
 std::string identity_of(const ProgramSource& source);

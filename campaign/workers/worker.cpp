@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,6 +23,7 @@
 #include "campaign/workers/disturbance.hpp"
 #include "campaign/workers/fatal_signals.hpp"
 #include "campaign/workers/left_behind.hpp"
+#include "campaign/workers/process_tree.hpp"
 #include "campaign/workers/run_order.hpp"
 #include "campaign/workers/worker_logs.hpp"
 #include "core/base/byte_text.hpp"
@@ -143,12 +145,19 @@ class Worker {
   // The first run belongs to the start: it makes what later ones find.
   bool is_worn() {
     const bool is_clean = left_behind_->set_back();
-    const std::uint64_t used_ns = cpu_ns();
+    const std::uint64_t used_ns = used_cpu_ns();
     if (runs_ == 1) start_cpu_ns_ = used_ns;
     return !is_clean || used_ns >= (1 + kTimesOwnStart) * start_cpu_ns_;
   }
 
+  // With that of the processes that it has started. Looking at these costs time: only where there are some.
+  std::uint64_t used_cpu_ns() const {
+    if (!programs_.have_processes()) return cpu_ns();
+    return cpu_ns() + static_cast<std::uint64_t>(1e9 * use_of_tree(::getpid()).below_s);
+  }
+
   void prepare(const RunOrder& order) {
+    if (order.is_audit) programs_.renew();
     // What a reference agent leaves mapped does not count against the plug-ins of the runs that follow.
     if (before_unlimited_) own_bytes_ += std::max(mapped_bytes(), *before_unlimited_) - *before_unlimited_;
     disturb(order);
@@ -172,7 +181,7 @@ class Worker {
 
   RunAnswer answer_to(const RunOrder& order) {
     RunAnswer answer;
-    const std::uint64_t begin_ns = cpu_ns();
+    const std::uint64_t begin_ns = used_cpu_ns();
     RunWatch watch;
     watch.note = &log_.slot().call;
     watch.known_ends = order.known_ends;
@@ -198,8 +207,10 @@ class Worker {
     left_behind_->run_ended();
     log_.label(order.run_index);
     log_.tell_failure(order.run_index, answer.run.outcome);
-    if (order.record && (order.is_audit || answer.run.outcome.is_failure())) answer.recording = tape.take();
-    answer.cpu_ns = cpu_ns() - begin_ns;
+    const bool is_kept = order.is_audit || !order.scenario.is_empty() || answer.run.outcome.is_failure();
+    if (order.record && is_kept) answer.recording = tape.take();
+    const std::uint64_t end_ns = used_cpu_ns();
+    answer.cpu_ns = end_ns - std::min(begin_ns, end_ns);
     ++runs_;
     runs_ns_ += answer.cpu_ns;
     return answer;
@@ -228,6 +239,7 @@ class Worker {
     const SharedSlots slots(count, slots_fd);
     slots[slot].started = 1;
     note_fatal_signals(slots[slot]);
+    ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // what its processes have started stays below it
     if (const auto setup = next_frame(channel)) {
       Worker worker(decode_setup(*setup), slots[slot], channel);
       send_answer(channel, {});  // it is ready: what it has used until here is no part of a run

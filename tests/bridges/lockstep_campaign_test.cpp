@@ -1,0 +1,60 @@
+// A program that speaks lockstep, from the campaign file to the trace of a run.
+#include <gmock/gmock.h>
+
+#include "tests/support/program.hpp"
+
+namespace fleetproof::lockstep_campaign_test {
+namespace {
+
+using testing::HasSubstr;
+
+class LockstepCampaign : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    for (const std::string script : {"twin.py", "unruly.py"})
+      std::filesystem::copy_file(test::source("tests/bridges/programs/" + script), path(script));
+  }
+  test::Finished campaign(const std::string& agents) {
+    write("c.toml", "name = \"c\"\nkind = \"search\"\nreplicates = 2\nhorizon_s = 8\n[factors]\nagents = [" + agents +
+                        "]\nlayouts = [\"corridor-sidings\"]\nfleet_sizes = [2]\nloss = [0.4]\ndelay_s = [2]\n");
+    return run("run c.toml --db c.db --overwrite --jobs 1");
+  }
+};
+
+TEST_F(LockstepCampaign, RunsReplaysAndIsWatched) {
+  const auto finished = campaign(R"({ run = "python3 -B twin.py", way = "lockstep", name = "candidate" })");
+  ASSERT_TRUE(test::has_verdict(finished));
+  EXPECT_THAT(run("replay c.db 1").out, HasSubstr("REPRODUCED"));
+  ASSERT_EQ(run("replay c.db 0 --scenario s.json").exit_code, 0);
+  const auto traced = run("simulate s.json --plugin 'lockstep:python3 -B twin.py' --trace");
+  ASSERT_TRUE(test::has_verdict(traced));
+  EXPECT_THAT(traced.out, HasSubstr("woke"));
+  write("twin.py", read(path("twin.py")) + "\n# another build\n");
+  EXPECT_THAT(run("replay c.db 1").err, HasSubstr("is not the one of the campaign"));
+}
+
+TEST_F(LockstepCampaign, AProgramThatBreaksItsProtocolCostsItsRuns) {
+  const auto finished = campaign(R"({ run = "python3 -B unruly.py no-json", way = "lockstep" }, "reckless")");
+  ASSERT_TRUE(test::has_verdict(finished));
+  EXPECT_THAT(run("report c.db").out, HasSubstr("the lockstep program sent a line that is no JSON object"));
+}
+
+TEST_F(LockstepCampaign, WhatIsWrongIsNamed) {
+  const auto refused = [&](const std::string& agent, const std::string& sentence) {
+    const auto finished = campaign(agent);
+    EXPECT_EQ(finished.exit_code, 2) << agent;
+    EXPECT_THAT(finished.err, HasSubstr(sentence)) << agent;
+  };
+  refused(R"({ run = "python3 twin.py" })", "run needs a way: way = \"lockstep\"");
+  refused(R"({ run = "python3 twin.py", way = "socket" })", "\"socket\"");
+  refused(R"({ way = "lockstep" })", "way says how the command in run is spoken to");
+  refused(R"({ run = "python3 twin.py", way = "lockstep", file = "a.so" })", "either run = \"...\" or file = \"...\"");
+  refused(R"({ run = "python3 'twin.py", way = "lockstep" })", "has a quote that does not end");
+  refused(R"({ run = "./twin {avg}", way = "lockstep" })", "has {avg}, which means nothing");
+  refused(R"({ run = "no-such-program-anywhere", way = "lockstep" })", "cannot be started: no-such-program-anywhere");
+  refused(R"({ run = "python3 -B unruly.py ends-at-once", way = "lockstep" })", "ended with exit code 1");
+}
+
+}  // namespace
+}  // namespace fleetproof::lockstep_campaign_test

@@ -1,0 +1,124 @@
+// A program in a process of its own has the digest of the same program in C.
+#include <array>
+#include <cstring>
+#include <memory>
+
+#include "core/engine/simulation.hpp"
+#include "tests/bridges/lockstep_bench.hpp"
+
+namespace fleetproof::lockstep_twin_test {
+namespace {
+
+std::string hex(const void* bytes, std::size_t size) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto byte = static_cast<const unsigned char*>(bytes)[i];
+    text += {kDigits[byte >> 4U], kDigits[byte & 0xfU]};
+  }
+  return text;
+}
+
+std::string bits_of(double number) {
+  std::array<unsigned char, sizeof number> bytes{};
+  std::memcpy(bytes.data(), &number, sizeof number);
+  std::ranges::reverse(bytes);
+  return hex(bytes.data(), bytes.size());
+}
+
+// The twin of programs/twin.py.
+struct Twin {
+  const fp_host& host;
+  fp_controller* c;
+  const fp_briefing& briefing;
+  std::uint32_t station;
+
+  std::string look() const {
+    fp_pose pose{};
+    double level = 0.0;
+    std::uint32_t word = 0;
+    host.now_ns(c);
+    host.get_position(c, &pose);
+    host.get_battery_level(c, &level);
+    host.is_loaded(c, &word);
+    host.get_load(c, &word);
+    return bits_of(pose.x_m) + bits_of(level);
+  }
+  void read() const {
+    fp_message message{};
+    message.struct_size = sizeof message;
+    while (host.get_message(c, &message) == FP_OK)
+      host.log(c, (std::to_string(message.sender) + " " + hex(message.bytes, message.size)).c_str());
+  }
+  void on_event(const fp_event& event) {
+    if (event.kind == FP_EVENT_START) station = briefing.start_station;
+    const std::string said = look();
+    read();
+    const std::string sent = said + std::string("\xff\0\"\\", 4);
+    host.send_broadcast(c, sent.data(), static_cast<std::uint32_t>(sent.size()));
+    host.sometimes(c, "woke");
+    host.set_timer(c, 1, event.now_ns + 700'000'000);
+    host.declare_state(c, "wandering");
+    std::uint32_t action = 0;
+    host.get_action(c, &action);
+    host.keep(c, 7, said.data(), static_cast<std::uint32_t>(said.size()));
+    if (event.kind == FP_EVENT_ORDER) host.works_on(c, briefing.self, event.order_id);
+    if (action != FP_IDLE) return;
+    const std::uint64_t draw = host.random(c, 3, static_cast<std::uint64_t>(event.now_ns));
+    const fp_station& here = *fp_station_at(briefing.map, station);
+    const fp_lane& lane = *fp_lane_at(briefing.map, here.lanes[draw % here.lane_count]);
+    (draw % 3 != 0 ? host.move : host.pick)(c, lane.segment);
+    station = lane.to;
+  }
+};
+
+const fp_agent_type kTwin = {sizeof(fp_agent_type),
+                             FP_ABI_MAJOR,
+                             FP_ABI_MINOR,
+                             FP_DETERMINISTIC | FP_SERVES_COMPUTERS,
+                             "twin",
+                             "",
+                             [](const fp_host* host, fp_controller* c, const fp_briefing* briefing) -> void* {
+                               return new Twin{*host, c, *briefing, briefing->start_station};
+                             },
+                             [](void* agent, const fp_event* event) { static_cast<Twin*>(agent)->on_event(*event); },
+                             [](void* agent) { delete static_cast<Twin*>(agent); },
+                             [](const char* word) -> std::uint32_t { return std::string_view(word) == "deaf" ? 1 : 0; },
+                             nullptr};
+
+Scenario restless(double call_cost_s) {
+  Scenario scenario = test::row_of_tens({0, 3}, 60.0);
+  scenario.agvs[0].transports = {{StationId{0U}, StationId{1U}, seconds(2.0)}};
+  scenario.faults = {test::fault(Fault::Kind::Restart, 20.3, 2.0), test::fault(Fault::Kind::Breakdown, 41.1, 3.0)};
+  scenario.radio.loss = 0.2;
+  scenario.radio.delay_s = 0.3;
+  scenario.radio.delay_model = RadioSetup::DelayModel::Uniform;
+  scenario.contact_stops = false;
+  scenario.agent_clock.call_cost_s = call_cost_s;
+  return scenario;
+}
+
+TEST(Lockstep, HasTheTraceOfItsTwinWhateverACallCosts) {
+  const lockstep::LockstepProgram program(test::python("twin.py"));
+  EXPECT_EQ(program.type().flags, kTwin.flags);
+  for (const double call_cost_s : {0.0, 0.003, 0.02}) {
+    SCOPED_TRACE(call_cost_s);
+    const Scenario scenario = restless(call_cost_s);
+    const test::ToldRun twin = test::watched(scenario, kTwin, {});
+    EXPECT_GT(twin.outcome.counters.drives, 3U);
+    EXPECT_GT(twin.outcome.counters.received, 50U);
+    test::expect_same(test::run_of(program, scenario), twin);
+    const test::ToldRun recorded = test::recorded(scenario, program.type());
+    test::expect_same(recorded, twin);
+    test::expect_same(test::played(scenario, recorded.tape), twin);
+  }
+}
+
+TEST(Lockstep, KnowsTheFaultsOfItsHello) {
+  const lockstep::LockstepProgram program(test::python("twin.py"));
+  EXPECT_TRUE(knows_fault(program.type(), "deaf"));
+  EXPECT_FALSE(knows_fault(program.type(), "blind"));
+}
+
+}  // namespace
+}  // namespace fleetproof::lockstep_twin_test
