@@ -13,4 +13,11 @@ std::vector<KnownEnd> known_ends(const Scenario& scenario, const CaseAgent& agen
                    "--in-process it runs in this process, whatever it does to it");
 }
 
+SimulatedElsewhere simulated_elsewhere(const Scenario& scenario, const CaseAgent& agent, const AgentPrograms& known) {
+  SimulatedElsewhere found;
+  found.recording = CaseHost(agent, known, 1).recording_of(scenario);
+  if (found.recording.empty()) found.ends = known_ends(scenario, agent, known);
+  return found;
+}
+
 }  // namespace fleetproof::cli

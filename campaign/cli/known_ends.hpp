@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "campaign/run/agent_programs.hpp"
@@ -14,5 +15,13 @@ namespace fleetproof::cli {
 // `known`: the agent is known, and not loaded. Throws
 // InputError if it does not end at the same call twice.
 std::vector<KnownEnd> known_ends(const Scenario& scenario, const CaseAgent& agent, const AgentPrograms& known);
+
+// A run of software that is not built in, simulated in a worker process.
+struct SimulatedElsewhere {
+  std::string recording;       // played here, it is the run, and none of the software's code runs in this process
+  std::vector<KnownEnd> ends;  // without a recording: what this process needs to simulate it
+};
+// The same of both. Neither of a reference agent. Throws what known_ends() throws.
+SimulatedElsewhere simulated_elsewhere(const Scenario& scenario, const CaseAgent& agent, const AgentPrograms& known);
 
 }  // namespace fleetproof::cli

@@ -92,22 +92,24 @@ void meet_agent_of(const ReplayVerbWords& words, const ArchiveReader& archive, c
   meet_plugins(words.archive, archive.campaign(), {&plan.agent_of_cell(words.run), 1}, words.plugins, programs, meet);
 }
 
-// By the software itself. A run is watched in this process: where the software crashes, it is not called.
+// By the software itself. A run that is watched is played here, as a worker process has recorded it.
 ReplayResult replay_software(const ReplayVerbWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
                              AgentPrograms& programs, TraceSink* sink) {
-  const bool in_process = words.in_process || sink != nullptr;
-  std::vector<KnownEnd> ends;
-  if (in_process && !words.in_process) {
+  SimulatedElsewhere elsewhere;
+  if (sink != nullptr && !words.in_process) {
     AgentPrograms known;
     meet_agent_of(words, archive, plan, known, &AgentPrograms::know);
     const AgentFactor& agent = plan.agent_of_cell(words.run);
-    ends = known_ends(ScenarioSource(plan).scenario(words.run), case_agent(plan, agent), known);
+    elsewhere = simulated_elsewhere(ScenarioSource(plan).scenario(words.run), case_agent(plan, agent), known);
   }
+  const bool is_played = !elsewhere.recording.empty();
+  const bool in_process = words.in_process || (sink != nullptr && !is_played);
   meet_agent_of(words, archive, plan, programs, in_process ? &AgentPrograms::load : &AgentPrograms::know);
   tell_rebuilt_plugins(archive.campaign(), {&plan.agent_of_cell(words.run), 1}, programs);
-  if (!in_process) return replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
+  if (!in_process && !is_played) return replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
   RunWatch watch;
-  watch.known_ends = ends;
+  watch.known_ends = elsewhere.ends;
+  watch.play = elsewhere.recording;
   return replay(archive, words.run, programs, sink, watch);
 }
 

@@ -243,8 +243,8 @@ std::vector<Violation> violations_before(const SimulateWords& words, const Scena
   return simulate(scenario, software, observers.laws, nullptr, watch).violations;
 }
 
-// A plug-in runs in a worker process first: where it crashes or hangs there, it is not called here.
-std::vector<KnownEnd> ends_of_plugin(SimulateWords words, const Scenario& scenario) {
+// What is not built in runs in a worker process. What it did there is played here.
+SimulatedElsewhere simulated_in_worker(SimulateWords words, const Scenario& scenario) {
   if (words.in_process) return {};
   AgentPrograms known;
   words.agent = meet_agent(words.agent, words.plugins, known, &AgentPrograms::know, words.global_symbols);
@@ -252,7 +252,20 @@ std::vector<KnownEnd> ends_of_plugin(SimulateWords words, const Scenario& scenar
   agent.computers = computer_parts(scenario, words.plugins, known, &AgentPrograms::know, words.global_symbols);
   (void)known.parts_of(factor_of(agent), words.agent_place);
   known.require_computers(factor_of(agent), scenario, words.scenario + ": ");
-  return known_ends(scenario, agent, known);
+  return simulated_elsewhere(scenario, agent, known);
+}
+
+// The parts of the agent, which can play this scenario.
+AgentFactor met_parts(SimulateWords& words, const Scenario& scenario, AgentPrograms& programs, MeetPlugin meet) {
+  words.agent = meet_agent(words.agent, words.plugins, programs, meet, words.global_symbols);
+  AgentFactor agent(words.agent);
+  agent.computers = computer_parts(scenario, words.plugins, programs, meet, words.global_symbols);
+  refuse_idle_symbols(words.global_symbols, agent, programs);
+  for (const AgentProgram* part : programs.parts_of(agent, words.agent_place))
+    require_room(*part, *scenario.map, scenario.agvs.size(), "the scenario", words.agent_place);
+  require_distribution(programs.program(agent.program, words.agent_place), !scenario.open_orders.empty(),
+                       !scenario.computers.empty(), words.agent_place);
+  return agent;
 }
 
 std::uint32_t draw_number(std::uint64_t number, const char* option) {
@@ -298,23 +311,20 @@ int simulate_scenario(SimulateWords words) {
   std::optional<WorkProgress> progress;
   progress.emplace("simulate", nullptr);
   progress->begin("simulating the run");
-  const std::vector<KnownEnd> ends = ends_of_plugin(words, scenario);
-  words.agent = meet_agent(words.agent, words.plugins, programs, &AgentPrograms::load, words.global_symbols);
+  const SimulatedElsewhere elsewhere = simulated_in_worker(words, scenario);
+  const bool is_played = !elsewhere.recording.empty();
+  const AgentFactor agent =
+      met_parts(words, scenario, programs, is_played ? &AgentPrograms::know : &AgentPrograms::load);
   // The published laws work on after the last event, where only the signal itself can end them.
   if (measures_clearance(words)) listen_to_interrupts();
   const TimeLimit limit({}, is_interrupted);
   RunWatch watch;
-  watch.known_ends = ends;
+  watch.known_ends = elsewhere.ends;
+  watch.play = elsewhere.recording;
   watch.abandon = &limit.over();
-  AgentFactor agent(words.agent);
-  agent.computers = computer_parts(scenario, words.plugins, programs, &AgentPrograms::load, words.global_symbols);
-  refuse_idle_symbols(words.global_symbols, agent, programs);
-  for (const AgentProgram* part : programs.parts_of(agent, words.agent_place))
-    require_room(*part, *scenario.map, scenario.agvs.size(), "the scenario", words.agent_place);
-  require_distribution(programs.program(agent.program, words.agent_place), !scenario.open_orders.empty(),
-                       !scenario.computers.empty(), words.agent_place);
-  const FleetSoftware software = programs.software(agent, words.config, scenario);
-  watch.foreign = programs.handles_of(agent);
+  const FleetSoftware software =
+      is_played ? programs.software_to_play(scenario) : programs.software(agent, words.config, scenario);
+  watch.foreign = is_played ? nullptr : programs.handles_of(agent);
   const Observers observers = observers_of(words.law, scenario);
   std::optional<RunObservers> observed;
   if (words.observed.wanted())

@@ -34,6 +34,7 @@ struct CaseRun {
   std::vector<MessageDelivery> deliveries;  // of all messages, if they were asked for
   CaseNotes notes;                          // until the failure, if they were asked for
   Itinerary itinerary;                      // of the whole run, if it was asked for
+  std::string recording;                    // what its agents did, if it was asked for and is not too long
 };
 enum class Deliveries : bool { Ignored, Kept };
 

@@ -22,13 +22,6 @@ ForeignHandles* RunOne::handles_of(std::uint64_t cell) const {
   return handles.get();
 }
 
-// A tape plays for every agent: any type will do.
-FleetSoftware RunOne::software_of(const AgentFactor& agent, const Scenario& scenario, bool is_played) const {
-  if (!is_played) return programs_.software(agent, plan_.agent_config, scenario);
-  const RoleSoftware any{programs_.all().front().opened.type};
-  return {any, std::vector<RoleSoftware>(scenario.computers.size(), any)};
-}
-
 RunRecord RunOne::empty_record(std::uint64_t run_index) const {
   const RunPlace place = scenarios_.place(run_index);
   RunRecord record;
@@ -63,7 +56,10 @@ RunRecord RunOne::operator()(std::uint64_t run_index, TraceSink* sink, const Run
   RunWatch in_plant = watch;
   in_plant.plant = &world->plant;
   in_plant.foreign = is_played ? nullptr : handles_of(record.cell);
-  record.outcome = simulate(scenario, software_of(factor, scenario, is_played), laws, sink, in_plant);
+  record.outcome = simulate(
+      scenario,
+      is_played ? programs_.software_to_play(scenario) : programs_.software(factor, plan_.agent_config, scenario), laws,
+      sink, in_plant);
   return record;
 }
 

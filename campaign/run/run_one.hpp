@@ -32,7 +32,6 @@ class RunOne {
 
  private:
   ForeignHandles* handles_of(std::uint64_t cell) const;
-  FleetSoftware software_of(const AgentFactor& agent, const Scenario& scenario, bool is_played) const;
 
   const CampaignPlan& plan_;
   ScenarioSource scenarios_;

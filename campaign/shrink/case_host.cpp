@@ -105,6 +105,12 @@ CaseRun CaseHost::simulate(const Scenario& scenario, const CaseWishes& wishes) c
   }
 }
 
+std::string CaseHost::recording_of(const Scenario& scenario) const {
+  CaseWishes wishes;
+  wishes.recorded = true;
+  return shared_->isolated ? simulate(scenario, wishes).recording : "";
+}
+
 std::optional<std::vector<KnownEnd>> CaseHost::ends_in(const Scenario& scenario) const {
   if (!shared_->isolated) return std::vector<KnownEnd>();
   return shared_->isolated->ends_in(scenario);

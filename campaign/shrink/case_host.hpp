@@ -53,6 +53,8 @@ class CaseHost {
   // A plug-in plays it in a process that has hosted nothing before, with a memory disturbed as in an audit; each number
   // disturbs it in another way.
   CaseRun in_fresh_process(const Scenario& scenario, std::uint64_t number) const;
+  // What its agents did, as a CallTape; empty: a reference agent played it, or nobody knows, or it is too long.
+  std::string recording_of(const Scenario& scenario) const;
   // As IsolatedRuns::ends_in; none of a reference agent.
   std::optional<std::vector<KnownEnd>> ends_in(const Scenario& scenario) const;
 

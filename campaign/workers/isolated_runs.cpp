@@ -141,8 +141,11 @@ CaseRun IsolatedRuns::of_case(const Scenario& scenario, const CaseWishes& wishes
   order.choice = wishes.choice;
   order.is_audit = wishes.as_audit.has_value();
   order.abandon = wishes.abandon;
-  CaseRun run = answer_of(order, wishes.as_audit ? HostProcess::Own : HostProcess::Shared).run;
+  order.record = wishes.recorded;
+  RunAnswer answer = answer_of(order, wishes.as_audit ? HostProcess::Own : HostProcess::Shared);
+  CaseRun run = std::move(answer.run);
   run.choice = wishes.choice;
+  run.recording = std::move(answer.recording);
   return run;
 }
 

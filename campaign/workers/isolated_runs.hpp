@@ -55,6 +55,7 @@ struct CaseWishes {
   Deliveries deliveries = Deliveries::Ignored;
   FailureChoice choice{};
   const std::atomic<bool>* abandon = nullptr;  // true: its worker is ended within a second, and RunAbandoned thrown
+  bool recorded = false;                       // what its agents do
   std::optional<std::uint64_t> as_audit{};     // in a process of its own, with a memory disturbed as by this audit
 };
 

@@ -18,7 +18,7 @@ namespace fleetproof {
 struct RunOrder {
   std::uint64_t run_index = 0;
   std::vector<KnownEnd> known_ends;
-  bool record = false;      // what the agents do, in case the run fails; of an audit in any case
+  bool record = false;      // what the agents do, in case the run fails; of an audit and a scenario in any case
   CaseText scenario{};      // empty: the run of the plan
   bool deliveries = false;  // of a scenario: of its messages
   bool is_audit = false;    // of the run, which has been simulated before
