@@ -54,6 +54,7 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"reports/evidence/tally.hpp Tally", "plain figures: one number for each kind of run that is counted"},
     {"reports/evidence/evidence.hpp Evidence", "plain figures of one campaign, counted in one pass"},
     {"reports/replay_page/film.hpp Film", "plain data: everything that a replay page shows"},
+    {"tests/support/callback_carrier.cpp CallbackCarrier", "a state machine: what straight-line code is spared"},
     {"tests/agents/fake_warehouse.hpp FakeWarehouse", "stands in for the whole C table of a controller"},
     {"tests/agents/fake_agv.hpp FakeAgv", "plain data: all that the fake says of one AGV"},
 };

@@ -61,7 +61,8 @@ class Calls(Callbacks[Agv]):
         agv.log(f"{seen} {agv.get_message()} {agv.random(1, -1)} {agv.recall(1)!r} {agv.recall(2)!r}")
         stand, drive = Occupancy(0, station=1, heading=(1.0, 0.0)), Occupancy(0, lane=0)
         agv.log(f"{agv.conflict(stand, drive, 0.5)} {agv.keep(1, bytes([200]))!r}")
-        results = [agv.move(0), agv.pick(), agv.pick(1, 7), agv.drop(), agv.park(1), agv.charge(), agv.stop(), agv.go_on()]
+        results = [agv.move(0), agv.pick(), agv.pick(1, 7), agv.drop(), agv.park(1), agv.charge()]
+        results += [agv.stop(), agv.go_on()]
         agv.log(f"{[bool(result) for result in results]} {agv.action()}")
 
 
@@ -107,8 +108,9 @@ async def waits(agv: fleetproof.StraightAgv) -> None:
 
 
 async def restarts(agv: fleetproof.StraightAgv) -> None:
+    await agv.message(1.0)
     await agv.wait_until_rest()
-    agv.log(f"rests {agv.now_s}")
+    agv.log(f"rests {agv.now_s} {await agv.done(0.0)}")
 
 
 async def sleeps_elsewhere(agv: fleetproof.StraightAgv) -> None:

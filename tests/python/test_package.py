@@ -5,7 +5,9 @@ import sys
 import unittest
 from typing import Any, List
 
-from scripted_engine import EXAMPLES, FOLDER, PACKAGE, Engine, message
+from scripted_engine import EXAMPLES, FOLDER, PACKAGE, Engine, message, run_line
+
+from fleetproof.world import BACKWARD, read_world
 
 PROGRAMS = os.path.join(FOLDER, "programs.py")
 
@@ -73,6 +75,25 @@ class Package(unittest.TestCase):
         engine.run()
         self.assertEqual(logged(engine.event("start")), ["start 0 0"])
         self.assertEqual(engine.end(), (0, "end of 0\nend of 0\nend of 0\n"))
+
+    def test_participants_end_when_the_engine_says_so(self) -> None:
+        engine = self.serving("told")
+        for participant in (0, 1):
+            engine.event("start", self_id=participant)
+        engine.tell({"destroy": 1})
+        self.assertEqual(engine.event("start"), [["log", "start 0 0"]], "again, without a word of the former one")
+        engine.bye()
+        engine.run()
+        engine.event("start", self_id=1)
+        engine.tell({"destroy": 1})
+        self.assertEqual(engine.end(), (0, "end of 1\nend of 0\nend of 0\nend of 1\n"))
+
+    def test_a_way_has_the_fewest_lanes(self) -> None:
+        plant = read_world(run_line()).map
+        ways = [plant.way(start, goal) for start, goal in ((0, 2), (2, 0), (1, 1))]
+        self.assertEqual([[lane.drive for lane in way or []] for way in ways], [[0, 1], [BACKWARD + 1, BACKWARD], []])
+        island = plant._replace(stations=(*plant.stations[:2], plant.stations[2]._replace(lanes=())))
+        self.assertIsNone(island.way(2, 0))
 
     def test_every_call_has_the_form_of_the_protocol(self) -> None:
         engine = self.serving(
@@ -167,7 +188,8 @@ class Package(unittest.TestCase):
         self.assertEqual(withdrawn[1:2], [["?", "pick_load", None, 7]])
         self.assertEqual(logged(withdrawn), ["Kind.WITHDRAWN 7", "pick refused 9.0"])
         self.assertEqual(withdrawn[-1], ["set_timer", 0, 12_000_000_000])
-        self.assertEqual(engine.event("timer", 12.0, timer=0), [["set_timer", 0, 12_000_000_000]], "a time that is over")
+        over = engine.event("timer", 12.0, timer=0)
+        self.assertEqual(over, [["set_timer", 0, 12_000_000_000]], "a time that is over")
         self.assertEqual(len(logged(engine.event("timer", 12.0, timer=0))), 1)
         self.assertEqual(engine.event("start", self_id=2), [])
         self.assertEqual(
@@ -179,11 +201,21 @@ class Package(unittest.TestCase):
 
     def test_straight_line_code_waits_after_a_restart(self) -> None:
         engine = self.serving("restarts")
-        look = [["get_action"], ["set_timer", 0, 1_000_000_000]]
-        self.assertEqual(engine.event("start", boot=1, action="driving"), look)
-        self.assertEqual(engine.event("timer", 1.0, timer=0, action="driving")[0], ["get_action"])
-        self.assertEqual(engine.event("action_done", 1.5, result="ok"), [["get_action"], ["log", "rests 1.5"]])
+        engine.event("start", boot=1, action="driving")
+        look = [["get_action"], ["set_timer", 0, 2_000_000_000]]
+        self.assertEqual(engine.event("timer", 1.0, timer=0, action="driving"), look)
+        self.assertEqual(engine.event("action_done", 1.4, result="ok", action="turning")[0], ["get_action"])
+        ended = engine.event("action_done", 1.5, result="ok")
+        self.assertEqual(ended, [["get_action"], ["set_timer", 0, 1_500_000_000]])
+        self.assertEqual(logged(engine.event("timer", 1.5, timer=0)), ["rests 1.5 None"])
         self.assertEqual(engine.event("timer", 2.0, timer=0), [], "the program has ended")
+
+    def test_actions_of_a_former_boot_are_forgotten(self) -> None:
+        engine = self.serving("restarts")
+        engine.event("start", boot=1, action="driving")
+        engine.event("action_done", 0.5, result="ok")
+        self.assertEqual(engine.event("timer", 1.0, timer=0), [["get_action"], ["set_timer", 0, 1_000_000_000]])
+        self.assertEqual(logged(engine.event("timer", 1.0, timer=0)), ["rests 1.0 None"])
 
     def test_only_events_can_be_awaited(self) -> None:
         engine = self.serving("sleeps_elsewhere")
