@@ -34,12 +34,12 @@ constexpr InPlace kCentral[] = {
     {"name = \"standard-short\"\n", "name = \"standard-short-central\"\n"},
     {"agents = [\"hull-lock\"]\n", "agents = [{ vehicle = \"follower\", computer = \"zone-server\" }]\n"},
     {"agent = \"hull-lock\"\n", "agent = \"zone-server+follower\"\n"},
-    {"[faults]\n", "[faults]\nlow_battery_share = 0.2  # these go to a charger first\n"},
+    {"[faults]\n", "[faults]\nlow_battery_share = 0.3  # these go to a charger first\n"},
     {"[world]\n",
      "# The server, whose faults are drawn as those of the AGVs are.\n[[computers]]\nname = \"server\"\n\n"
      "[computers.faults]\nrestarts_per_hour = 4\nrestart_s = 2\npower_failures_per_hour = 1\npower_back_s = 10\n"
      "freezes_per_hour = 4\ndisk_losses_per_hour = 2\ndisk_loss_s = 2\n\n[world]\n"
-     "transports = \"open\"  # the server hears of them, and says who fetches which\nwithdrawn_share = 0.1\n"},
+     "transports = \"open\"  # the server hears of them, and says who fetches which\nwithdrawn_share = 0.2\n"},
 };
 
 std::string central(std::string_view usual) {

@@ -37,8 +37,8 @@ bool FloorBook::all_joined() const {
 FloorBook::News FloorBook::hear(std::uint32_t agv, const State& state) {
   Way& way = ways_[agv];
   if (!way.joined) way.out_of_order = state.out_of_order;
-  const bool fails_early = state.out_of_order && state.known < way.granted();
-  const bool starts_again = way.is_waiting() && state.way.agv_boot > way.boot && !state.stands;
+  const bool fails_early = state.out_of_order && state.known == 0 && way.granted() > 0;
+  const bool starts_again = way.boot > 0 && way.granted() == 0 && state.way.agv_boot > way.boot && !state.stands;
   way.lost = (fails_early && !options_.failures_keep_floor) || (starts_again && !options_.restarts_keep_floor);
   if (state.way.server_boot != server_boot_ || !state.stands) return News::None;
   if (way.joined && state.way.agv_boot < way.boot) return News::None;

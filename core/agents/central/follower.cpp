@@ -148,7 +148,8 @@ void Follower::follow_boot(std::uint32_t server_boot) {
 
 // The first steps of the message may be known already; if others are missing before them, it waits for these.
 void Follower::take_steps(const Grant& grant) {
-  const std::uint32_t first = options_.gaps_count ? grant.first : std::min(grant.first, way_.known);
+  const bool is_new = !options_.numbers_count && steps_.empty() && grant.first == 0;
+  const std::uint32_t first = is_new ? way_.known : grant.first;
   if (first > way_.known) return controller_.sometimes("grant-lost");
   const auto last = static_cast<std::uint32_t>(first + grant.steps.size());
   if (last <= way_.known) return;

@@ -10,8 +10,8 @@ namespace fleetproof::agents::central {
 struct ServerOptions {
   std::int64_t silence_frees_after_ns = 0;  // the floor of an AGV that is silent for so long; 0: time frees nothing
   bool failed_ones_join = true;             // false: a server that starts does not wait for AGVs that are out of order
-  bool failures_keep_floor = true;          // false: not of an AGV that fails before it has all of its steps
-  bool restarts_keep_floor = true;          // false: not of an AGV that stands while its computer starts again
+  bool failures_keep_floor = true;          // false: not of an AGV that fails before the first grant of its way
+  bool restarts_keep_floor = true;          // false: not of an AGV that starts twice before it is granted anything
   bool restarts_are_believed = true;        // false: it first has to finish what its former self was granted
   std::int64_t writes_every_ns = 0;         // what was granted, to the disk; 0: before each grant is sent
   bool repeats_grants = true;               // until the AGV is known to have them
@@ -21,7 +21,7 @@ struct ServerOptions {
 
 // Of the follower.
 struct FollowerOptions {
-  bool gaps_count = true;          // a step is taken only if all steps before it are known
+  bool numbers_count = true;       // false: without steps, it takes the first ones of its way for new ones
   bool ways_count = true;          // a Grant is for one way only
   bool ways_begin_at_rest = true;  // false: a new way begins in the middle of a lane
   bool former_steps_end = true;    // what a former boot of the server granted is not driven any more

@@ -131,22 +131,23 @@ constinit const FaultyAgent kTable[] = {
                                                                   "hull-lock with a fault: locks one lane at a time"),
 
     // A server with a planted fault. Its followers are sound.
-    // FAULT: the floor of an AGV that has been silent for 10 s is free (a lease by the server's clock).
-    server_with<ServerOptions{.silence_frees_after_ns = 10 * kSecond_ns}>(
-        "lease-by-clock", "zone-server with a fault: frees the floor of an AGV that is silent for 10 s"),
+    // FAULT: the floor of an AGV that has been silent for 50 s is free (a lease by the server's clock).
+    server_with<ServerOptions{.silence_frees_after_ns = 50 * kSecond_ns}>(
+        "lease-by-clock", "zone-server with a fault: frees the floor of an AGV that is silent for 50 s"),
     // FAULT: a server that has started without its book does not wait for AGVs that say that they are out of order.
     server_with<ServerOptions{.failed_ones_join = false}>(
         "reboot-frees-floor", "zone-server with a fault: knows no floor of failed AGVs when it starts"),
-    // FAULT: what was granted is written to the disk every 3 s, so that a restart loses the newest grants.
-    server_with<ServerOptions{.writes_every_ns = 3 * kSecond_ns}>(
-        "grants-before-it-writes", "zone-server with a fault: writes to its disk every 3 s what it has granted"),
+    // FAULT: what was granted is written to the disk every 10 s, so that a restart loses the newest grants.
+    server_with<ServerOptions{.writes_every_ns = 10 * kSecond_ns}>(
+        "grants-before-it-writes", "zone-server with a fault: writes to its disk every 10 s what it has granted"),
     // FAULT: a cancel that is under way ends what the AGV is to do when it answers, the next order too.
     server_with<ServerOptions{.cancels_name_an_order = false}>(
         "cancels-the-next-order", "zone-server with a fault: a cancel ends whatever order the AGV then has"),
-    // FAULT: an AGV that fails before it has all that it was granted holds no floor, not even what is under it.
+    // FAULT: an AGV that fails before the first grant of its way arrives holds no floor, not even what is under it.
     server_with<ServerOptions{.failures_keep_floor = false}>(
         "error-frees-floor", "zone-server with a fault: an error that overtakes a grant frees the floor of the AGV"),
-    // FAULT: an AGV that stands and is switched on again holds no floor until it knows its place.
+    // FAULT: an AGV that starts again before it was granted anything since its last start holds no floor until it
+    // rests.
     server_with<ServerOptions{.restarts_keep_floor = false}>(
         "switched-on-unseen", "zone-server with a fault: frees the floor under an AGV whose computer starts"),
     // FAULT: an AGV that has restarted is asked for ever to finish what its former self was granted.
@@ -160,9 +161,9 @@ constinit const FaultyAgent kTable[] = {
         "charger-comes-later", "zone-server with a fault: grants the way to a charger without the charger"),
 
     // A follower with a planted fault. Its server is sound.
-    // FAULT: if steps were lost, those behind them are taken in their place, and again when they are repeated.
-    follower_with<FollowerOptions{.gaps_count = false}>(
-        "takes-steps-twice", "follower with a fault: takes the steps behind a gap for those in it"),
+    // FAULT: an AGV that has done all its steps takes the first steps of its way for new ones when they are repeated.
+    follower_with<FollowerOptions{.numbers_count = false}>(
+        "takes-steps-twice", "follower with a fault: when it has no steps, it takes old ones for new"),
     // FAULT: a GRANT is taken for whatever way the AGV is on (no fencing).
     follower_with<FollowerOptions{.ways_count = false}>("no-fencing",
                                                         "follower with a fault: takes grants for former ways"),

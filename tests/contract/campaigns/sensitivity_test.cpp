@@ -120,12 +120,12 @@ TEST_F(Sensitive, OfACentralFleetTriesFaultsOfItsOwnPrograms) {
   campaign.replace(campaign.find("\"reckless\""), std::string_view("\"reckless\"").size(),
                    "{ vehicle = \"follower\", computer = \"zone-server\" }");
   write("a.toml", campaign);
-  const auto finished = run("sensitivity a.toml --agent takes-steps-twice --agent waits-for-former-self");
+  const auto finished = run("sensitivity a.toml --agent drops-after-a-second --agent waits-for-former-self");
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_THAT(finished.out, HasSubstr("  takes-steps-twice        contact after "));
+  EXPECT_THAT(finished.out, HasSubstr("  drops-after-a-second     stuck more often "));
   EXPECT_THAT(finished.out, HasSubstr("  waits-for-former-self    never tried")) << "no AGV restarts here";
   EXPECT_THAT(finished.out, HasSubstr("zone-server+follower in 10 runs"));
-  EXPECT_THAT(finished.out, HasSubstr("11 more were not measured"));
+  EXPECT_THAT(finished.out, HasSubstr("13 more were not measured"));
   const auto unknown = run("sensitivity a.toml --agent stale-grant -o other.json");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("\"stale-grant\" is not an agent with a planted fault of zone-server+follower"));
