@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ struct StubHost {
   std::vector<Bytes> sent;
   std::vector<std::uint32_t> moves;  // segments
   std::string state;                 // as declared
+  std::multiset<std::string> probes;
   fp_pose pose{0.0, 0.0, 1.0, 0.0};
   std::map<std::uint32_t, Bytes> disk;
   bool disk_is_full = false;
@@ -77,7 +79,11 @@ struct StubHost {
     table.now_ns = [](fp_controller*) -> std::int64_t { return 0; };
     table.set_timer = [](fp_controller*, std::uint32_t, std::int64_t) -> std::int32_t { return FP_OK; };
     table.random = [](fp_controller*, std::uint32_t, std::uint64_t) -> std::uint64_t { return 0; };
-    table.sometimes = [](fp_controller*, const char*) -> std::int32_t { return FP_OK; };
+    table.sometimes = [](fp_controller* c, const char* name) -> std::int32_t {
+      return of(c).probes.insert(name), FP_OK;
+    };
+    table.works_on = [](fp_controller*, std::uint32_t, std::uint32_t) -> std::int32_t { return FP_OK; };
+    table.declare_waiting = [](fp_controller*, std::uint32_t, std::uint32_t) -> std::int32_t { return FP_OK; };
     table.get_load = [](fp_controller*, std::uint32_t* out) -> std::int32_t { return *out = FP_NONE, FP_OK; };
     table.describe = [](fp_controller*, const char*) {};
     table.declare_state = [](fp_controller* c, const char* text) { of(c).state = text; };

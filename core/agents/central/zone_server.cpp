@@ -93,6 +93,7 @@ bool ZoneServer::hear(std::uint32_t sender, std::span<const std::byte> bytes) {
   if (news == FloorBook::News::Joined) {
     planner_.begin(sender);
     told_[sender] = 0;
+    owes_[sender] = true;  // so that its way is on the disk, also if it gets no work
   }
   owes_[sender] = owes_[sender] || !state->orders.empty() || state->way != book_.number_of(sender) ||
                   state->has_work != has_work(sender);
