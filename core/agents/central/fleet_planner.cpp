@@ -14,21 +14,25 @@ constexpr double kLead_s = 10.0;            // so long before its way ends, an A
 constexpr double kSection_m = 12.0;         // a section that is as long need not be longer
 constexpr double kMostOfASection_m = 18.0;  // on the way to a waiting place; then it ends where it blocks least
 constexpr double kPlanAgain_s = 2.0;        // after so long, an AGV that waits may find another way
-constexpr double kLookAgain_s = 1.0, kAskAgain_s = 2.0;
+constexpr double kLookAgain_s = 1.0;
 // So long others may pass before an AGV that waits; then its floor is kept free.
 constexpr double kKeepsFreeAfter_s = 20.0;
 // An AGV that waits for so long itself makes way for an older one, and so long it waits before an older one makes way.
-constexpr double kYields_s = 4.0, kInsists_s = 15.0, kStandsBack_s = 30.0;
-constexpr int kMostInARow = 4;  // AGVs that make way for each other
+constexpr double kYields_s = 4.0, kInsists_s = 15.0;
+constexpr std::size_t kMostStates = 300, kMostStatesOfTheOldest = 2000;
+constexpr std::int64_t kTryAgain_ns = 2'000'000'000;
+constexpr int kMostDoublings = 4;
+constexpr double kGivesUp_s = 120.0;  // if nothing of a passing was granted for so long
 
 constexpr double kTransferTakes_s = 5.0, kTurnTakes_s = 3.0;  // expected
-// Prices of a station at which another AGV will stand: about how long it stays.
-constexpr double kMovingPrice_s = 8.0, kIdlePrice_s = 10.0, kWaitingPrice_s = 20.0, kWallPrice_s = 1000.0;
-constexpr double kUnsafeChargerPrice_s = 30.0, kNoWayBackPrice_s = 300.0, kNoParkingPrice_s = 10.0;
-constexpr double kBurdenPrice_s = 5.0, kMostBurdenPrice_s = 200.0;
+// Prices of a station at which another AGV will stand for a while, or for good.
+constexpr double kMovingPrice_s = 8.0, kWallPrice_s = 1000.0;
+constexpr double kUnsafeChargerPrice_s = 30.0;
 constexpr std::uint32_t kCrowdedBurden = 1;
-constexpr std::size_t kMostPlaces = 40;  // that are looked at, for an AGV that makes way
 
+bool contains(std::span<const std::uint32_t> agvs, std::uint32_t agv) {
+  return std::ranges::find(agvs, agv) != agvs.end();
+}
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 }  // namespace
@@ -47,6 +51,7 @@ FleetPlanner::FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook
       settings_(settings),
       options_(options),
       places_(map, geometry),
+      has_chargers_(map.has_chargers()),
       tasks_(book.fleet_count()) {
   for (std::uint32_t agv = 0; agv < book.fleet_count(); ++agv) {
     const std::uint32_t number = agents::model_of(geometry.parts().facts(), agv);
@@ -58,9 +63,12 @@ FleetPlanner::FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook
 
 // ---- work
 
-// What its former self was to pick, another AGV may pick now.
+// What its former self was to pick, another AGV may pick now. It has waited as long as its former self.
 void FleetPlanner::begin(std::uint32_t agv) {
+  const std::int64_t since_ns = tasks_[agv].since_ns;
   tasks_[agv] = {};
+  tasks_[agv].since_ns = since_ns;
+  std::erase_if(passings_, [&](const Passing& passing) { return contains(passing.agvs, agv); });
   for (OpenOrder& open : open_) {
     if (open.agv == agv) open.agv = FP_NONE;
     if (open.order.id != book_.way(agv).first_load) continue;
@@ -175,11 +183,11 @@ bool FleetPlanner::carries_load(std::uint32_t agv) const {
   return next != goals.end() && next->step.kind == Step::Kind::Drop;
 }
 
-// Those that stand back are younger than all others; then those that do not wait.
+// Those that do not wait are younger than all others.
 bool FleetPlanner::is_older(std::uint32_t a, std::uint32_t b) const {
   const auto age = [&](std::uint32_t agv) {
     const Task& task = tasks_[agv];
-    return std::tuple(now_ns_ < task.stands_back_ns, task.since_ns < 0, task.since_ns, agv);
+    return std::tuple(task.since_ns < 0, task.since_ns, agv);
   };
   return age(a) < age(b);
 }
@@ -196,31 +204,28 @@ void FleetPlanner::plan(std::int64_t now_ns) {
   now_ns_ = now_ns;
   reserved_.clear();
   assign_open_orders();
+  for (UnderWay& passing : passings_) carry_out(passing);
+  std::erase_if(passings_, [&](const UnderWay& passing) { return is_over(passing); });
   for (const std::uint32_t agv : by_age()) plan_for(agv);
 }
 
 void FleetPlanner::plan_for(std::uint32_t agv) {
   Task& task = tasks_[agv];
-  if (book_.way(agv).out_of_order || time_left_s(agv) > kLead_s) return;
+  if (book_.way(agv).out_of_order || is_passing(agv) || time_left_s(agv) > kLead_s) return;
   look_at_battery(agv);
   if (task.charging) return;
   transfer_here(agv);
   if (task.charging) return;
+  if (task.is_idle() && (!book_.way(agv).is_waiting() || places_.is_safe(book_.end_of_way(agv).station))) return;
+  if (task.is_idle() || task.since_ns < 0) task.since_ns = task.is_idle() ? -1 : now_ns_;
   const bool plans_again = !task.wanted || seconds(now_ns_ - task.planned_ns) > kPlanAgain_s;
-  if (task.is_idle()) {
-    if (!plans_again || !book_.way(agv).is_waiting()) return;
-    task.wanted.emplace(), task.planned_ns = now_ns_;
-    if (!places_.is_safe(book_.end_of_way(agv).station)) evade(agv, nullptr, 0);
-    return;
-  }
-  if (task.since_ns < 0) task.since_ns = now_ns_;
   if (plans_again || !is_identical(task.wanted->up_to(0), book_.end_of_way(agv))) {
     task.wanted = towards_goals(agv);
     task.planned_ns = now_ns_;
     task.obstruction = {};
   }
   if (task.wanted->ends.empty()) return;
-  if (is_still_obstructed(agv) || !extend(agv, *task.wanted)) wait(agv);
+  if ((is_still_obstructed(agv) || !extend(agv, *task.wanted)) && !task.is_idle()) wait(agv);
 }
 
 void FleetPlanner::transfer_here(std::uint32_t agv) {
@@ -239,7 +244,7 @@ void FleetPlanner::transfer_here(std::uint32_t agv) {
 }
 
 void FleetPlanner::look_at_battery(std::uint32_t agv) {
-  if (!map_.has_chargers()) return;
+  if (!has_chargers_) return;
   Task& task = tasks_[agv];
   const double level = book_.way(agv).battery;
   if (level >= settings_.charge_to) task.charging = false;
@@ -273,17 +278,15 @@ double FleetPlanner::time_left_s(std::uint32_t agv) const {
 
 // ---- ways
 
-void FleetPlanner::price(Model& model, std::uint32_t agv, bool loaded, double waiting_s) {
+void FleetPlanner::price(Model& model, std::uint32_t agv, bool loaded) {
   model.prices.begin(loaded);
   for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
     if (other == agv) continue;
     const FloorBook::Way& way = book_.way(other);
     const Task& task = tasks_[other];
-    const double extra_s = way.out_of_order    ? kWallPrice_s
-                           : !way.is_waiting() ? kMovingPrice_s
-                                               : std::min(waiting_s, task.is_idle() ? kIdlePrice_s : kWaitingPrice_s);
-    model.prices.price_station(book_.end_of_way(other).station,
-                               way.is_waiting() ? std::max(extra_s, waiting_s) : extra_s);
+    model.prices.price_station(book_.end_of_way(other).station, way.out_of_order    ? kWallPrice_s
+                                                                : !way.is_waiting() ? kMovingPrice_s
+                                                                                    : 0.0);
     model.prices.price_meetings(way.held);
     if (task.wanted) model.prices.price_meetings(task.wanted->path);
   }
@@ -368,11 +371,12 @@ struct FleetPlanner::Walk {
 Section FleetPlanner::towards_goals(std::uint32_t agv) {
   Model& model = *model_of_[agv];
   bool loaded = carries_load(agv);
-  price(model, agv, loaded, 0.0);
+  price(model, agv, loaded);
   Walk walk(*this, agv);
+  const auto& goals = tasks_[agv].goals;
   walk.ends_anywhere =
-      !options_.ways_to_chargers_are_whole && tasks_[agv].goals.front().step.kind == Step::Kind::Charge;
-  for (const Goal& goal : tasks_[agv].goals) {
+      !options_.ways_to_chargers_are_whole && !goals.empty() && goals.front().step.kind == Step::Kind::Charge;
+  for (const Goal& goal : goals) {
     const Path here = walk.end();
     if (here.station != goal.station || !map_.may_stay(here.station, here.heading)) {
       search(model, here, goal.station);
@@ -385,7 +389,7 @@ Section FleetPlanner::towards_goals(std::uint32_t agv) {
     }
     if (walk.is_done()) return walk.take();
     const bool now_loaded = goal.step.kind == Step::Kind::Pick;
-    if (model.rules.any() && now_loaded != loaded) price(model, agv, now_loaded, 0.0);
+    if (model.rules.any() && now_loaded != loaded) price(model, agv, now_loaded);
     loaded = now_loaded;
   }
   const std::uint32_t place = waiting_place(agv, walk.end());
@@ -412,7 +416,7 @@ std::uint32_t FleetPlanner::waiting_place(std::uint32_t agv, const Path& from) {
 std::uint32_t FleetPlanner::free_charger(std::uint32_t agv, bool urgent) {
   Model& model = *model_of_[agv];
   const Path standing = book_.end_of_way(agv);
-  price(model, agv, carries_load(agv), 0.0);
+  price(model, agv, carries_load(agv));
   model.routes.search(standing.station, standing.heading, model.prices.costs_s());
   const auto is_taken = [&](std::uint32_t station) {
     for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
@@ -440,9 +444,12 @@ std::uint32_t FleetPlanner::free_charger(std::uint32_t agv, bool urgent) {
 // As much of the section as is free, up to one of its ends.
 bool FleetPlanner::extend(std::uint32_t agv, const Section& section) {
   const std::uint32_t free = free_lanes(agv, section.path);
+  if (section.ends.front().lanes > free) return false;
   const Section::End* best = nullptr;
+  std::vector<Standing> fleet = standing_fleet(agv);
   for (const Section::End& end : section.ends) {
-    if (end.lanes <= free) best = &end;
+    fleet[agv].path = end_of(map_, section.up_to(end.lanes));
+    if (end.lanes <= free && !is_stuck(map_, geometry_, fleet, agv)) best = &end;
   }
   if (best == nullptr || !book_.grant(agv, std::span(section.steps).first(best->steps))) return false;
   Task& task = tasks_[agv];
@@ -450,6 +457,7 @@ bool FleetPlanner::extend(std::uint32_t agv, const Section& section) {
   task.goals.erase(task.goals.begin(), task.goals.begin() + best->goals);
   if (best->goals > 0) task.since_ns = -1;
   task.wanted.reset();
+  task.in_vain = 0;
   return true;
 }
 
@@ -465,7 +473,7 @@ std::uint32_t FleetPlanner::free_lanes(std::uint32_t agv, const Path& path) {
     }
     part.count = free;
   };
-  for (const Need& need : reserved_) shorten(need.agv, need.path);
+  for (const AgvPath& need : reserved_) shorten(need.agv, need.path);
   for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) shorten(other, book_.way(other).held);
   return part.count;
 }
@@ -476,99 +484,105 @@ bool FleetPlanner::is_still_obstructed(std::uint32_t agv) const {
          seconds(now_ns_ - known.seen_ns) < kLookAgain_s;
 }
 
-// Those in the way that wait themselves are asked to make way. If others are, they will pass; after a while, their
-// successors must not pass as well.
+// Those in the way that stand may have to make way. If others are, they will pass; after a while, their successors must
+// not pass as well.
 void FleetPlanner::wait(std::uint32_t agv) {
   Task& task = tasks_[agv];
-  const Need need{agv, task.wanted->up_to(task.wanted->ends.front().lanes)};
+  const AgvPath need{agv, task.wanted->up_to(task.wanted->ends.front().lanes)};
   if (!is_still_obstructed(agv)) {
-    const bool standing = book_.way(agv).is_waiting();
+    // If nothing is in the way, it would be stuck at each end of the section.
+    bool passes = free_lanes(agv, need.path) == need.path.count;
     task.obstruction = {};
     for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
       if (!book_.is_held_by(other, agv, need.path)) continue;
       const FloorBook::Way& way = book_.way(other);
       const bool lasts = task.obstruction.lasts || way.is_waiting() || way.out_of_order;
       task.obstruction = {other, way.changes, now_ns_, lasts};
-      if (standing && way.is_waiting()) push(other, need, 0);
+      passes = passes || makes_way(other, agv);
     }
+    if (passes && book_.way(agv).is_waiting() && now_ns_ >= task.passes_ns) pass(agv);
   }
-  if (!task.obstruction.lasts && seconds(now_ns_ - task.since_ns) > kKeepsFreeAfter_s) reserved_.push_back(need);
+  if (!task.obstruction.lasts && task.since_ns >= 0 && seconds(now_ns_ - task.since_ns) > kKeepsFreeAfter_s)
+    reserved_.push_back(need);
 }
 
-void FleetPlanner::push(std::uint32_t agv, const Need& by, int depth) {
-  Task& task = tasks_[agv];
-  if (book_.way(agv).out_of_order) return;
-  if (task.asked_ns >= 0 && seconds(now_ns_ - task.asked_ns) < kAskAgain_s) return;
-  if (task.charging && !settings_.is_enough(book_.way(agv).battery)) return;
-  if (!options_.ways_to_chargers_are_whole && !task.goals.empty() && task.goals.front().step.kind == Step::Kind::Charge)
+// ---- passing
+
+bool FleetPlanner::is_passing(std::uint32_t agv) const {
+  return std::ranges::any_of(passings_, [&](const Passing& passing) { return contains(passing.agvs, agv); });
+}
+
+// An AGV makes way if it stands and has no work, or has waited and is younger. After a while, older ones do, too.
+bool FleetPlanner::makes_way(std::uint32_t agv, std::uint32_t leader) const {
+  const Task& task = tasks_[agv];
+  const FloorBook::Way& way = book_.way(agv);
+  if (!way.is_waiting() || way.out_of_order || is_passing(agv)) return false;
+  if (task.charging && !settings_.is_enough(way.battery)) return false;
+  if (task.is_idle()) return true;
+  if (!options_.ways_to_chargers_are_whole && task.goals.front().step.kind == Step::Kind::Charge) return false;
+  const bool insists = seconds(now_ns_ - tasks_[leader].since_ns) > kInsists_s;
+  return task.since_ns >= 0 && seconds(now_ns_ - task.since_ns) >= kYields_s && (insists || is_older(leader, agv));
+}
+
+// All AGVs, as this one sees them when it looks for a way past the others.
+std::vector<Standing> FleetPlanner::standing_fleet(std::uint32_t leader) const {
+  std::vector<Standing> fleet;
+  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
+    const FloorBook::Way& way = book_.way(agv);
+    fleet.push_back({agv, way.out_of_order ? way.held : book_.end_of_way(agv), &model_of_[agv]->rules,
+                     lane_costs_s(geometry_.parts(), agv), carries_load(agv), makes_way(agv, leader)});
+  }
+  return fleet;
+}
+
+void FleetPlanner::pass(std::uint32_t leader) {
+  Task& task = tasks_[leader];
+  std::vector<AgvPath> promised;
+  for (const UnderWay& other : passings_) promised.insert(promised.end(), other.moves.begin(), other.moves.end());
+  const std::size_t most = by_age().front() == leader ? kMostStatesOfTheOldest : kMostStates;
+  Passing passing =
+      find_passing(map_, geometry_, standing_fleet(leader), promised, leader, task.goals.front().station, most);
+  if (passing.moves.empty()) {
+    // If nobody takes part, AGVs are in the way that have just come to stand.
+    task.passes_ns =
+        now_ns_ + (kTryAgain_ns << std::min(task.in_vain++, passing.agvs.size() == 1 ? 2 : kMostDoublings));
     return;
-  const double waits_s = task.is_idle() ? INFINITY : task.since_ns < 0 ? 0.0 : seconds(now_ns_ - task.since_ns);
-  const double asked_s = seconds(now_ns_ - tasks_[by.agv].since_ns);
-  const bool insists = asked_s > kInsists_s;
-  if (waits_s < kYields_s || (!task.is_idle() && is_older(agv, by.agv) && !insists)) return;
-  task.asked_ns = now_ns_;
-  if (!task.is_idle() && is_older(agv, by.agv))
-    task.stands_back_ns = now_ns_ + static_cast<std::int64_t>(kStandsBack_s * 1e9);
-  evade(agv, &by, depth);
+  }
+  task.in_vain = 0;
+  for (const std::uint32_t agv : passing.agvs) tasks_[agv].wanted.reset(), tasks_[agv].charging = false;
+  carry_out(passings_.emplace_back(UnderWay{{std::move(passing)}}));
 }
 
-// Goes to a place at which it is in nobody's way, at once. If others that wait are on every way, they are asked too.
-bool FleetPlanner::evade(std::uint32_t agv, const Need* from, int depth) {
-  Model& model = *model_of_[agv];
-  Task& task = tasks_[agv];
-  const Path standing = book_.end_of_way(agv);
-  price(model, agv, carries_load(agv), kWallPrice_s);
-  struct Place {
-    double cost_s;
-    std::uint32_t station;
-  };
-  std::vector<Place> places;
-  const auto look_at = [&](std::uint32_t station, double way_s) {
-    if (way_s >= 3.0 * kWallPrice_s || places.size() >= kMostPlaces) return true;
-    if (station == standing.station ||
-        (from != nullptr && geometry_.turn_conflict(agv, station, from->agv, from->path)))
-      return false;
-    for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
-      if (other != agv && geometry_.turn_conflict(agv, station, other, book_.way(other).held)) return false;
+// Grants moves of it as soon as they keep clear of all earlier ones that still have to wait.
+void FleetPlanner::carry_out(UnderWay& passing) {
+  std::uint32_t changes = 0;
+  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) changes += book_.way(agv).changes;
+  std::vector<AgvPath> later;
+  if (changes != passing.changes) {
+    for (const AgvPath& move : passing.moves) {
+      const bool is_next = std::ranges::none_of(later, [&](const AgvPath& before) {
+        return before.agv == move.agv || geometry_.conflict(move.agv, move.path, before.agv, before.path);
+      });
+      const Step step{Step::Kind::Drive, move.path.lanes().front()};
+      if (!is_next || !book_.grant(move.agv, {&step, 1})) later.push_back(move);
     }
-    const auto leads = [&](auto back) { return std::ranges::any_of(map_.lanes_from(station), back); };
-    if (model.rules.any() && !leads([&](std::uint32_t lane) { return model.prices.costs_s()[lane] < INFINITY; }))
-      return false;
-    const bool back = !model.rules.any() ||
-                      leads([&](std::uint32_t lane) { return model.rules.leads_back(lane, model.prices.loaded()); });
-    const bool parking = !task.is_idle() || (map_.station(station).purposes & FP_PARKING) != 0;
-    const double burden_s = std::min(kBurdenPrice_s * places_.burden(station), kMostBurdenPrice_s);
-    // Each time it prefers other places, so that AGVs that block each other do not repeat the same choice.
-    const double varied_s = (station * 7 + task.evaded * 3) % 5 * 2.0;
-    places.push_back(
-        {way_s + burden_s + varied_s + (back ? 0.0 : kNoWayBackPrice_s) + (parking ? 0.0 : kNoParkingPrice_s),
-         station});
-    return false;
-  };
-  model.routes.search_until(look_at, standing.station, standing.heading, model.prices.costs_s());
-  std::ranges::sort(places, [](const Place& a, const Place& b) {
-    return std::tuple(a.cost_s, a.station) < std::tuple(b.cost_s, b.station);
-  });
-  Section section;
-  for (const Place& place : places) {
-    section = {standing, {}, {}};
-    bool fits = true;
-    for (const std::uint32_t lane : model.routes.lanes(place.station)) {
-      fits = fits && section.path.append(lane);
-      section.steps.push_back({Step::Kind::Drive, lane});
-    }
-    if (!fits || section.path.empty()) continue;
-    if (free_lanes(agv, section.path) == section.path.count && book_.grant(agv, section.steps)) {
-      ++task.evaded;
-      task.charging = false;
-      task.wanted.reset();
+    if (later.size() < passing.moves.size()) passing.granted_ns = now_ns_;
+    passing.moves = std::move(later);
+    passing.changes = changes;
+  }
+  reserved_.insert(reserved_.end(), passing.moves.begin(), passing.moves.end());
+}
+
+// Done, or not to be done any more: one of them is out of order, or an AGV stands in the way that did not before.
+bool FleetPlanner::is_over(const UnderWay& passing) {
+  if (passing.moves.empty() || seconds(now_ns_ - passing.granted_ns) > kGivesUp_s) return true;
+  const AgvPath& next = passing.moves.front();
+  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
+    const FloorBook::Way& way = book_.way(agv);
+    if (contains(passing.agvs, agv)
+            ? way.out_of_order
+            : (way.is_waiting() || way.out_of_order) && book_.is_held_by(agv, next.agv, next.path))
       return true;
-    }
-    if (depth >= kMostInARow) continue;
-    for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
-      if (book_.way(other).is_waiting() && book_.is_held_by(other, agv, section.path))
-        push(other, {from != nullptr ? from->agv : agv, section.path}, depth + 1);
-    }
   }
   return false;
 }

@@ -14,6 +14,7 @@
 #include "core/agents/central/zone_options.hpp"
 #include "core/agents/drive_rules.hpp"
 #include "core/agents/hull.hpp"
+#include "core/agents/joint_search.hpp"
 #include "core/agents/lane_prices.hpp"
 #include "core/agents/map_view.hpp"
 #include "core/agents/routes.hpp"
@@ -54,22 +55,28 @@ struct OpenOrder {
 
 // The work of one AGV.
 struct Task {
-  std::deque<Goal> goals;            // that nothing was granted for
-  std::uint32_t orders = 0;          // of its present way, so many are known
-  std::int64_t since_ns = -1;        // since when it has wanted to reach its next goal; below 0: it does not wait
-  std::int64_t stands_back_ns = -1;  // until then it lets the others go first
-  bool charging = false;             // it is at a charger, or on the last steps to one
-  bool cancelling = false;           // of a faulty server: the AGV has not answered a cancel yet
-  std::uint32_t evaded = 0;          // so often
-  std::int64_t asked_ns = -1;        // when it was asked to make way, and tried to
-  std::optional<Section> wanted;     // what it needs next, while it cannot get that
-  std::int64_t planned_ns = 0;       // when that was found
-  Obstruction obstruction;           // why it cannot get it
+  std::deque<Goal> goals;         // that nothing was granted for
+  std::uint32_t orders = 0;       // of its present way, so many are known
+  std::int64_t since_ns = -1;     // since when it has wanted to reach its next goal; below 0: it does not wait
+  bool charging = false;          // it is at a charger, or on the last steps to one
+  bool cancelling = false;        // of a faulty server: the AGV has not answered a cancel yet
+  std::optional<Section> wanted;  // what it needs next, while it cannot get that
+  std::int64_t planned_ns = 0;    // when that was found
+  Obstruction obstruction;        // why it cannot get it
+  std::int64_t passes_ns = 0;     // before then, it does not look again for a way past others
+  int in_vain = 0;                // it has looked so often
   bool is_idle() const { return goals.empty(); }
 };
 
-// Grants sections that end at waiting places, the AGV first that has waited longest. If an AGV that waits is in the
-// way, it makes way. Requires: all that is passed outlives the object.
+// A passing that is carried out: its moves that were not granted yet. Nobody else gets floor of them, and its AGVs get
+// nothing else.
+struct UnderWay : Passing {
+  std::uint32_t changes = 0;    // of the book, when it was last looked at
+  std::int64_t granted_ns = 0;  // when the last move was granted
+};
+
+// Grants sections that end at waiting places, the AGV first that has waited longest. AGVs that stand in each other's
+// way pass each other (joint_search.hpp). Requires: all that is passed outlives the object.
 class FleetPlanner {
  public:
   FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook& book, const Settings& settings,
@@ -102,10 +109,6 @@ class FleetPlanner {
     std::uint32_t number;
   };
   struct Walk;
-  struct Need {
-    std::uint32_t agv;
-    Path path;
-  };
 
   void assign_open_orders();
   bool is_under_way(const OpenOrder& open) const;
@@ -123,14 +126,18 @@ class FleetPlanner {
   std::uint32_t waiting_place(std::uint32_t agv, const Path& from);
   std::uint32_t free_charger(std::uint32_t agv, bool urgent);
   void search(Model& model, const Path& from, std::uint32_t goal);
-  void price(Model& model, std::uint32_t agv, bool loaded, double waiting_s);
+  void price(Model& model, std::uint32_t agv, bool loaded);
 
   bool extend(std::uint32_t agv, const Section& section);
   std::uint32_t free_lanes(std::uint32_t agv, const Path& path);
   bool is_still_obstructed(std::uint32_t agv) const;
   void wait(std::uint32_t agv);
-  void push(std::uint32_t agv, const Need& by, int depth);
-  bool evade(std::uint32_t agv, const Need* from, int depth);
+  bool is_passing(std::uint32_t agv) const;
+  bool makes_way(std::uint32_t agv, std::uint32_t leader) const;
+  void pass(std::uint32_t leader);
+  std::vector<Standing> standing_fleet(std::uint32_t leader) const;
+  void carry_out(UnderWay& passing);
+  bool is_over(const UnderWay& passing);
 
   const MapView& map_;
   HullGeometry& geometry_;
@@ -138,13 +145,15 @@ class FleetPlanner {
   const Settings& settings_;
   ServerOptions options_;
   WaitingPlaces places_;
+  bool has_chargers_;
   std::map<std::uint32_t, std::unique_ptr<Model>> models_;
   std::vector<Model*> model_of_;  // by AGV
   std::vector<Task> tasks_;       // by AGV
   std::vector<OpenOrder> open_;   // not done, the oldest first
+  std::vector<UnderWay> passings_;
   // Of the present call.
   std::int64_t now_ns_ = 0;
-  std::vector<Need> reserved_;  // floor that is kept free for AGVs that have waited long
+  std::vector<AgvPath> reserved_;  // floor that is kept free for AGVs that have waited long, and for those that pass
 };
 
 }  // namespace fleetproof::agents::central

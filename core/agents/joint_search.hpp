@@ -1,0 +1,101 @@
+// How an AGV gets past others that stand in its way: which of them drives which lane, one after the other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/agents/drive_rules.hpp"
+#include "core/agents/hull.hpp"
+#include "core/agents/map_view.hpp"
+#include "core/agents/path.hpp"
+
+namespace fleetproof::agents {
+
+struct AgvPath {
+  std::uint32_t agv = FP_NONE;
+  Path path;
+};
+
+// An AGV where it stands, or will stand when it has driven all that it may. If it is out of order, its path has lanes.
+struct Standing {
+  std::uint32_t agv = FP_NONE;
+  Path path;
+  const DriveRules* rules = nullptr;
+  std::span<const double> costs_s;  // by lane
+  bool loaded = false;
+  bool makes_way = false;  // it takes part if another one wants to pass
+};
+
+// A search over the places at which a few AGVs stand, best first. In each move, one of them drives a lane while the
+// others stand. Its hull keeps clear of theirs, and of all obstacles. So the moves can be driven one after the other,
+// and two moves that keep clear of each other at the same time. Requires: map and geometry outlive the object.
+class JointSearch {
+ public:
+  // The first mover is the one that has a goal. Obstacles stay where they are.
+  JointSearch(const MapView& map, HullGeometry& geometry, std::vector<Standing> movers, std::vector<AgvPath> obstacles);
+
+  // Moves after which the first mover stands at the goal, as an AGV may stay there, and all movers can leave; if that
+  // is not found, one of them can. Each move is a path of one lane. Empty: they are not needed, or were not found among
+  // the `most` states that look best.
+  std::vector<AgvPath> find(std::uint32_t goal, std::size_t most);
+  // Obstacles that a mover has met: with them among the movers, there may be more ways.
+  std::span<const std::uint32_t> met() const { return met_; }
+
+ private:
+  // Where a mover stands: at the end of a lane, or where it began.
+  using Place = char32_t;
+  using Places = std::u32string;  // by mover
+  static constexpr Place kBegin = 0xffff;
+  struct State {
+    Places places;
+    std::uint32_t before = 0, mover = 0;
+    double cost_s = 0.0;
+  };
+  struct Open {
+    double least_s;
+    std::uint32_t state;
+    bool operator>(const Open& other) const { return std::tie(least_s, state) > std::tie(other.least_s, other.state); }
+  };
+
+  Path standing(std::uint32_t mover, Place place) const;
+  std::uint32_t expand(std::uint32_t state);
+  bool try_move(std::uint32_t state, std::uint32_t mover, const Path& from, std::uint32_t lane);
+  bool is_clear(std::uint32_t mover, const Places& places, const Path& path);
+  std::uint32_t obstacle_of(std::uint32_t mover, const Path& path);
+  void push(State state);
+  std::vector<AgvPath> moves_to(std::uint32_t state) const;
+
+  const MapView& map_;
+  HullGeometry& geometry_;
+  std::vector<Standing> movers_;
+  std::vector<AgvPath> obstacles_;
+  std::span<const float> remains_s_;  // by station: the way of the first mover
+  std::vector<State> states_;
+  std::vector<Open> open_;  // heap, the best first
+  std::set<Places> known_;
+  std::map<std::uint64_t, bool> clear_;  // by move, and by move and place of another mover
+  std::vector<std::uint32_t> met_;
+};
+
+// AGVs that stand in each other's way, and moves after which the first one, the leader, is past the others.
+struct Passing {
+  std::vector<std::uint32_t> agvs;
+  std::vector<AgvPath> moves;  // empty: there are none, or they were not found
+};
+
+// The moves that bring the leader to its goal, or as far as it can come past a few others. `fleet`: by AGV. `promised`:
+// paths on which others will drive. `most`: see JointSearch.
+Passing find_passing(const MapView& map, HullGeometry& geometry, std::span<const Standing> fleet,
+                     std::span<const AgvPath> promised, std::uint32_t leader, std::uint32_t goal, std::size_t most);
+
+// Whether an AGV can drive no lane, and none of those that are in its way can: they would stay there for ever.
+bool is_stuck(const MapView& map, HullGeometry& geometry, std::span<const Standing> fleet, std::uint32_t agv);
+
+}  // namespace fleetproof::agents
