@@ -248,9 +248,17 @@ void* create(const fp_host* host, fp_controller* handle, const fp_briefing* brie
 void on_event(void* agent, const fp_event* event) { static_cast<CallbackCarrier*>(agent)->on_event(*event); }
 void destroy(void* agent) { delete static_cast<CallbackCarrier*>(agent); }
 
-constexpr fp_agent_type kType = {
-    sizeof(fp_agent_type),       FP_ABI_MAJOR, FP_ABI_MINOR, FP_DETERMINISTIC, "callback-carrier",
-    "takes silence for consent", create,       on_event,     destroy,          nullptr};
+constexpr fp_agent_type kType = {sizeof(fp_agent_type),
+                                 FP_ABI_MAJOR,
+                                 FP_ABI_MINOR,
+                                 FP_DETERMINISTIC,
+                                 "callback-carrier",
+                                 "takes silence for consent",
+                                 create,
+                                 on_event,
+                                 destroy,
+                                 nullptr,
+                                 nullptr};
 
 }  // namespace
 
