@@ -1,6 +1,7 @@
 // Programs that speak lockstep in worker processes: silence, CPU time and memory of the process tree, and its end.
 #include <dirent.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -62,8 +63,9 @@ std::ptrdiff_t processes_with(const std::string& word) {
 }
 
 TEST(IsolatedLockstep, NoProcessOutlivesItsWorker) {
-  outcome_of("orphan");
-  EXPECT_EQ(processes_with("7654"), 0) << "in a session of its own, the child of a process that has ended";
+  const std::string seconds = std::to_string(1'000'000 + ::getpid());  // nobody else has such a command line
+  outcome_of("orphan " + seconds);
+  EXPECT_EQ(processes_with(seconds), 0) << "in a session of its own, the child of a process that has ended";
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ def misbehave(how, told):
         kept = bytearray(os.urandom(1 << 20)) * 150
         time.sleep(1000 + len(kept))
     elif how == "orphan":
-        subprocess.Popen(["setsid", "sh", "-c", "sleep 7654 & sleep 7654"])
+        subprocess.Popen(["setsid", "sh", "-c", "sleep %s & sleep %s" % (sys.argv[2], sys.argv[2])])
         say({"calls": []})
 
 
