@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "core/bridges/lockstep/enumeration_words.hpp"
 #include "core/bridges/lockstep/line_writer.hpp"
 #include "core/bridges/lockstep/process.hpp"
-#include "core/bridges/lockstep/words.hpp"
 
 namespace fleetproof::lockstep {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "core/bridges/lockstep/enumeration_words.hpp"
 #include "core/bridges/lockstep/line_writer.hpp"
-#include "core/bridges/lockstep/words.hpp"
 
 namespace fleetproof::lockstep {
 namespace {
