@@ -139,11 +139,12 @@ std::vector<Remark> foreign_code_notes(const ReportInput& input) {
   }
   if (plugins.empty()) return {};
   return {{fmt::format(
-               "{} {} in the process of the engine that judges, all AGVs in one: that is safe from accidents, and "
-               "not from forgery or from AGVs that agree through memory instead of messages. Nor is it seen whether "
-               "software does otherwise on a vehicle than in simulation. Digests are those of the named files, not "
-               "of what these load.",
-               joined(plugins), plugins.size() == 1 ? "runs" : "run"),
+               "{} {} not built in. A shared object runs in the process of the engine that judges, all AGVs in one: "
+               "that is safe from accidents, and not from forgery or from AGVs that agree through memory instead of "
+               "messages. A lockstep program has a process of its own and cannot forge; its AGVs share that, unless "
+               "its command has {{agv}}. It is not seen whether software does otherwise on a vehicle than in "
+               "simulation. Digests are those of the named files, not of what these load.",
+               joined(plugins), plugins.size() == 1 ? "is" : "are"),
            ""}};
 }
 

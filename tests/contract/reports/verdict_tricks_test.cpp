@@ -260,7 +260,7 @@ TEST_F(VerdictTricks, EveryClaimAboutAPlugInSaysWhatIsOutOfReach) {
   write("c.toml", fmt::format(fmt::runtime(kPlain), untidy("none", "one"), 0.1, "one", 0.9, "violation"));
   EXPECT_THAT(
       run("run c.toml --db c.db").out,
-      HasSubstr("one runs in the process of the engine that judges, all AGVs in one: that is safe from accidents"));
+      HasSubstr("one is not built in. A shared object runs in the process of the engine that judges, all AGVs in one"));
 }
 
 // ---- the ledger
