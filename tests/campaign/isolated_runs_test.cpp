@@ -379,7 +379,7 @@ TEST(AgentInspection, SurvivesAnObjectThatCrashesOrExitsWhileItIsLoaded) {
   ::unsetenv("FLEETPROOF_TEST_LOADING");
   AgentPrograms programs;
   EXPECT_EQ(programs.know(FLEETPROOF_FAILING_AGENT), "failing");
-  EXPECT_EQ(programs.program("failing", "").type, nullptr) << "nothing of it is in this process";
+  EXPECT_EQ(programs.program("failing", "").opened.type, nullptr) << "nothing of it is in this process";
   EXPECT_EQ(programs.program("failing", "").flags, FP_DETERMINISTIC);
 }
 

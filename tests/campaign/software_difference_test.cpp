@@ -18,8 +18,7 @@ std::string difference(const EngineIdentity& stored, const AgentProgram& now) {
 AgentProgram plugin(char digit) {
   AgentProgram agent;
   agent.name = "mine";
-  agent.file = "/mine.so";
-  agent.sha256 = digest(digit);
+  agent.source = {ProgramKind::Plugin, "/mine.so", digest(digit)};
   return agent;
 }
 
