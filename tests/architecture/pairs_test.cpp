@@ -45,7 +45,6 @@ std::string header_of(const std::string& path, const std::map<std::string, const
 
 // Functions that only tests call, each with the reason why the product has them.
 const std::map<std::string, std::string> kForTests = {
-    {"HullLock::protocol", "shows tests which hulls an agent holds; nothing else shows it"},
     {"OutageProcess::next_change", "the exact instants of change; asking `bad_at` would miss short outages"},
     {"RadioSources::on_process", "the process of one source, for the same reason"},
     {"parse_campaign_file", "fuzzers and tests give bytes instead of a file"},

@@ -34,7 +34,16 @@ __attribute__((visibility("default")))
 #endif
 const fp_agent_type*
 fp_agent_query(uint32_t host_abi_major) {
-  static const fp_agent_type type = {sizeof(fp_agent_type), FP_ABI_MAJOR, FP_ABI_MINOR, FP_DETERMINISTIC, "beacon",
-                                     "stays and says so",   create,       on_event,     destroy,          NULL, NULL};
+  static const fp_agent_type type = {sizeof(fp_agent_type),
+                                     FP_ABI_MAJOR,
+                                     FP_ABI_MINOR,
+                                     FP_DETERMINISTIC,
+                                     "beacon",
+                                     "stays and says so",
+                                     create,
+                                     on_event,
+                                     destroy,
+                                     NULL,
+                                     NULL};
   return host_abi_major == FP_ABI_MAJOR ? &type : NULL;
 }

@@ -94,7 +94,7 @@ static inline const fp_agv* fp_agv_at(const fp_agv* fleet, uint32_t stride, uint
 typedef struct fp_facts fp_facts;
 typedef struct fp_answer fp_answer;
 typedef void (*fp_derive)(const fp_facts* facts, uint64_t question, fp_answer* to);
-struct fp_facts {
+typedef struct fp_facts {
   uint32_t struct_size;
   uint32_t fleet_count;
   uint32_t agv_stride;
@@ -104,7 +104,7 @@ struct fp_facts {
   const void* (*ask)(const fp_facts*, fp_derive derive, uint64_t question, uint64_t* size);
   void (*answer)(fp_answer* to, const void* bytes, uint64_t size);
   void* host;
-};
+} fp_facts;
 #define FP_ABI_MAJOR 1u
 #define FP_ABI_MINOR 5u
 #define FP_NONE 0xffffffffu

@@ -50,7 +50,6 @@ class HostedProcess {
  private:
   template <class Exchange>
   void guarded(Exchange exchange);
-  void introduce();
   void exchange(const Participant& participant, const fp_event& event);
   bool take_answer(const Participant& participant, std::vector<RefusedCall>& refused);
   void make_calls(const Participant& participant, const Json& calls, std::vector<RefusedCall>& refused);

@@ -102,7 +102,7 @@ TEST_F(UserPages, ACentralFleetIsTriedAndItsFaultFoundAsThePageSays) {
     ++shown;
     EXPECT_NE(finished.out.find(block.text), std::string::npos) << block.text << finished.out << finished.err;
   }
-  EXPECT_EQ(shown, 2U);
+  EXPECT_EQ(shown, 3U);
   EXPECT_EQ(run("report depot.db").exit_code, 0) << "it is safe, and delivers loads";
   EXPECT_EQ(run("report impatient.db").exit_code, 1);
   for (const char* page : {"build/good.html", "build/run.html", "build/small.html"})

@@ -137,16 +137,16 @@ TEST_F(Sensitive, OfBothFamiliesTriesTheFaultsOfBoth) {
   campaign.replace(campaign.find("\"reckless\""), std::string_view("\"reckless\"").size(),
                    "{ vehicle = \"follower\", computer = \"zone-server\" }, \"hull-lock\"");
   write("a.toml", campaign);
-  const auto finished = run("sensitivity a.toml --agent takes-steps-twice --agent grants-for-good");
+  const auto finished = run("sensitivity a.toml --agent drops-after-a-second --agent grants-for-good");
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_THAT(finished.out, HasSubstr("hull-lock in 10 runs"));
   EXPECT_THAT(finished.out, HasSubstr("zone-server+follower in 10 runs"));
-  EXPECT_THAT(finished.out, HasSubstr("detects 2 of 2 planted faults within 10 runs; 45 more were not measured"));
+  EXPECT_THAT(finished.out, HasSubstr("detects 2 of 2 planted faults within 10 runs; 47 more were not measured"));
   const auto found = nlohmann::json::parse(read(path("a.sensitivity.json")));
   ASSERT_EQ(found["sound"].size(), 2U);
   EXPECT_EQ(found["faults"][0]["agent"], "grants-for-good");
   EXPECT_EQ(found["faults"][0]["sound"], "hull-lock");
-  EXPECT_EQ(found["faults"][1]["agent"], "takes-steps-twice");
+  EXPECT_EQ(found["faults"][1]["agent"], "drops-after-a-second");
   EXPECT_EQ(found["faults"][1]["sound"], "zone-server+follower");
   EXPECT_THAT(run("sensitivity a.toml --agent reckless -o other.json").err,
               HasSubstr("is not an agent with a planted fault of hull-lock or zone-server+follower"));

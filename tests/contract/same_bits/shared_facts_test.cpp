@@ -47,7 +47,8 @@ TEST(SharedFacts, EveryAgentOfTheProgramDoesTheSameWithAndWithoutThem) {
     const char* family = seed % 2 == 0 ? "random-planar" : "dense-crossing/stress";
     const Scenario scenario = hard_scenario(seed, family_range(family));
     const Outcome shared = outcome_of(scenario, *program.opened.type, true);
-    EXPECT_EQ(shared, outcome_of(scenario, *program.opened.type, false)) << program.opened.type->name << " in world " << seed;
+    EXPECT_EQ(shared, outcome_of(scenario, *program.opened.type, false))
+        << program.opened.type->name << " in world " << seed;
     EXPECT_FALSE(shared.crash) << shared.message;
   }
 }
