@@ -78,7 +78,7 @@ TEST_F(UserPages, APlantOfOnesOwnIsDemonstratedAsThePageSays) {
       EXPECT_EQ(read(path("vehicles.toml")), block.text);
     }
   }
-  EXPECT_EQ(shown, 3U);
+  EXPECT_EQ(shown, 2U);
 }
 
 // The commands are typed in the folder of the sources: here one that has what they name.
