@@ -255,7 +255,7 @@ SimulatedElsewhere simulated_in_worker(SimulateWords words, const Scenario& scen
   return simulated_elsewhere(scenario, agent, known);
 }
 
-// The parts of the agent, which can play this scenario.
+// The agent with a program for each computer of the scenario. Throws InputError if it cannot play the scenario.
 AgentFactor met_parts(SimulateWords& words, const Scenario& scenario, AgentPrograms& programs, MeetPlugin meet) {
   words.agent = meet_agent(words.agent, words.plugins, programs, meet, words.global_symbols);
   AgentFactor agent(words.agent);

@@ -46,7 +46,8 @@ void take_command(TomlTable& table, std::string& file) {
   file = std::string(kLockstepWord) + command;
 }
 
-// The words of a command that are files beside the campaign file are these, wherever the program is started.
+// A word of a command that names a file beside the campaign file becomes the path of that file, so that the program can
+// be started from any folder.
 std::string from_campaign(const std::string& campaign_path, const std::string& file) {
   if (!file.starts_with(kLockstepWord)) return beside(campaign_path, file);
   try {

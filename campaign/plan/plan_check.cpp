@@ -295,7 +295,7 @@ void check_computers(const CampaignPlan& plan, const PlanPlaces& places) {
   }
 }
 
-// The probes of the world, and those of the named faults that the campaign draws.
+// What `[coverage] probes` may name: the probes of the world, and one for each named fault that the campaign draws.
 std::vector<std::string> probes_of_the_world(const CampaignPlan& plan) {
   std::vector<std::string> probes(world_probes().begin(), world_probes().end());
   for (const PlannedComputer& computer : plan.computers) {

@@ -38,7 +38,7 @@ class FilmRecorder final : public TraceSink {
   void note_waiting(const TraceRecord& record);
   void note_load(const TraceRecord& record);
   void note_order(const TraceRecord& record);
-  // For a record about an open transport that no AGV has: the first participant that is told of it.
+  // The body at which a record about an open transport without an AGV is shown: the first participant that hears of it.
   EntityId teller_of(const TraceRecord& record) const;
   void note_happening(const TraceRecord& record, std::string_view text);
   void note_command(const TraceRecord& record);

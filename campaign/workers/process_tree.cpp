@@ -15,7 +15,7 @@
 namespace fleetproof {
 namespace {
 
-// The names in a folder of the system that are numbers.
+// The entries of a folder of /proc whose names are numbers: processes, or threads of one.
 std::vector<pid_t> numbers_in_folder(const std::string& path) {
   std::vector<pid_t> numbers;
   DIR* folder = ::opendir(path.c_str());

@@ -11,8 +11,8 @@ namespace fleetproof {
 char process_state(pid_t process);
 
 std::vector<pid_t> children_of(pid_t process);
-// The processes that this one has started, and theirs, without itself. One whose parent has ended is found below the
-// next process above that takes such processes in (PR_SET_CHILD_SUBREAPER), as workers and forkers do.
+// The children of this process, their children, and so on. A process whose parent has ended belongs to the nearest
+// ancestor that takes orphans in (PR_SET_CHILD_SUBREAPER), as workers and forkers do.
 std::vector<pid_t> descendants_of(pid_t process);
 
 // A process and its descendants at one instant.

@@ -21,8 +21,8 @@ class ServerDisk {
   ServerDisk(Controller& controller, const MapView& map, std::uint32_t fleet_count, std::uint32_t start)
       : controller_(controller), map_(map), fleet_count_(fleet_count), start_(start) {}
 
-  // The records of all AGVs, if they are of one boot of ways and the start before this one went on with that boot: an
-  // older image of the disk lacks what was granted since. Otherwise empty.
+  // The records of all AGVs; empty if the disk is not to be believed. It is believed if all records are of one boot of
+  // ways, and the last start of the server went on with that boot: an older image of the disk lacks later grants.
   std::vector<AgvRecord> recall();
   // To be called at the start, and again until it is true: this start goes on with the ways of this boot.
   bool open(std::uint32_t server_boot);
