@@ -69,7 +69,7 @@ TEST(WholeRuns, AreAskedWhereHardlyAnyNeighbourFails) {
     for (Scenario& world : known.kept.other_worlds) world.radio.loss = share;
     return retest(bench.host, known.kept, known.before, kSome);
   };
-  double share = 0.4;
+  double share = 0.1;
   Retest few = lose(share);
   while (few.now.alike > 2) few = lose(share *= 0.8);
   ASSERT_GT(few.now.alike, 0U);

@@ -48,13 +48,16 @@ TEST_F(SmallDisk, KeepsWhatWasCommittedAndTheNextRunGoesOn) {
 
 // All runs are stored, but there is no room for the published file beside the live one.
 TEST_F(SmallDisk, AFinishedCampaignIsPublishedLaterAndNotSimulatedAgain) {
-  // The size of the live file depends on the number of its commits, so the fitting disk is looked for.
+  // The size of the live file depends on the number of its commits, so the fitting disk is looked for: on a smaller one
+  // runs have no room, and a larger one has room for both files.
   test::Finished seen;
   std::string talk;
-  for (int size_k = 300; size_k < 900 && talk.find("c.db.unfinished: the disk is full") == std::string::npos;
-       size_k += 30) {
+  for (int least_k = 200, most_k = 900; most_k - least_k > 5;) {
+    const int size_k = (least_k + most_k) / 2;
     seen = campaign_on(std::to_string(size_k) + "k");
     talk = read(path("first.txt"));
+    if (talk.find("c.db.unfinished: the disk is full") != std::string::npos) break;
+    (seen.out.find("first 3\n") != std::string::npos ? least_k : most_k) = size_k;
   }
   ASSERT_THAT(talk, HasSubstr("c.db.unfinished: the disk is full; free some space"));
   EXPECT_THAT(seen.out, HasSubstr("first 3\n"));
