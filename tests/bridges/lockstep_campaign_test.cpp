@@ -1,6 +1,7 @@
 // A program that speaks lockstep, from the campaign file to the trace of a run.
 #include <gmock/gmock.h>
 
+#include "storage/archive_reader.hpp"
 #include "tests/support/program.hpp"
 
 namespace fleetproof::lockstep_campaign_test {
@@ -38,6 +39,33 @@ TEST_F(LockstepCampaign, AProgramThatBreaksItsProtocolCostsItsRuns) {
   const auto finished = campaign(R"({ run = "python3 -B unruly.py no-json", way = "lockstep" }, "reckless")");
   ASSERT_TRUE(test::has_verdict(finished));
   EXPECT_THAT(run("report c.db").out, HasSubstr("the lockstep program sent a line that is no JSON object"));
+}
+
+// The simplest relative of hull-lock, among lost and late messages and restarts.
+TEST_F(LockstepCampaign, TheExampleThatLocksLanesKeepsItsDistanceAndDelivers) {
+  std::filesystem::copy_file(test::source("tests/examples/lane_lock.py"), path("lane_lock.py"));
+  write("c.toml",
+        "name = \"c\"\nkind = \"search\"\nreplicates = 6\nhorizon_s = 100\n[factors]\nagents = [{ run = \"env "
+        "'PYTHONPATH=" +
+            test::source("core/sdk/python") + R"(' python3 -B lane_lock.py", way = "lockstep" }]
+layouts = ["random-planar"]
+fleet_sizes = [3]
+loss = [0.4]
+delay_s = [2]
+[world]
+transports_per_agv_hour = 60
+[faults]
+restarts_per_agv_hour = 60
+)");
+  ASSERT_TRUE(test::has_verdict(run("run c.toml --db c.db")));
+  std::uint64_t done = 0, faults = 0;
+  ArchiveReader(path("c.db")).for_each_run([&](const RunRecord& run) {
+    EXPECT_FALSE(run.outcome.violation || run.outcome.crash) << run.run_index << run.outcome.message;
+    done += run.outcome.counters.transports_done;
+    faults += run.outcome.counters.faults;
+  });
+  EXPECT_GT(done, 0U);
+  EXPECT_GT(faults, 10U);
 }
 
 TEST_F(LockstepCampaign, WhatIsWrongIsNamed) {

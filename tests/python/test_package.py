@@ -1,5 +1,6 @@
 """The Python package speaks lockstep: lines that a program says, for lines that the engine says."""
 
+import json
 import os
 import sys
 import unittest
@@ -254,6 +255,32 @@ class Package(unittest.TestCase):
         self.assertEqual(engine.event("action_done", 12.0, result="ok")[0][0], "send_broadcast")
         self.assertEqual(engine.bye(), {"bye": {}})
         self.assertEqual(engine.end(), (0, ""))
+
+    def test_who_grants_although_he_asks_asks_anew(self) -> None:
+        def conflict(asked: List[Any]) -> Any:
+            return {"answer": "ok", "conflict": "lane" in asked[1] and "lane" in asked[2]}
+
+        engine = self.started(os.path.join(EXAMPLES, "lane_lock.py"), conflict=conflict)
+        engine.introduce()
+        engine.run()
+        engine.event("start")
+
+        def said(calls: List[List[Any]]) -> List[Any]:
+            return [json.loads(call[1]) for call in calls if call[0].startswith("send_")]
+
+        def hear(at_s: float, **text: Any) -> List[List[Any]]:
+            return engine.event("message", at_s, messages=[message(json.dumps(text))])
+
+        asked = engine.event("order", 1.0, order_id=3, **{"from": 1, "to": 2})
+        mine = {"ask": "0.1", "lane": 0, "since_ns": 1_000_000_000}
+        self.assertEqual(said(asked), [mine])
+        self.assertEqual(said(hear(2.0, ask="0.7", lane=0, since_ns=1_000_000_001)), [], "it has waited longer")
+        older = hear(3.0, ask="0.8", lane=0, since_ns=999_999_999)
+        self.assertEqual(said(older), [{**mine, "ask": "0.2"}, {"grant": "0.8"}])
+        self.assertEqual([call for call in hear(4.0, grant="0.1") if call[0] == "?"], [], "that grant is void")
+        self.assertEqual(hear(5.0, grant="0.2")[-2:], [["?", "move", 0], ["get_message"]])
+        self.assertEqual(said(hear(6.0, ask="0.9", lane=0, since_ns=0)), [], "it holds the floor")
+        self.assertEqual(engine.bye(), {"bye": {}})
 
     def starting(self, name: str) -> Engine:
         engine = self.started(os.path.join(PACKAGE, "starting", name + ".py"))
