@@ -49,11 +49,13 @@ class LaneLock(Callbacks[Agv]):
         self.station = start.start_station or 0
         self.held = self.floor_of_station(agv.id, self.station)
         for segment in (start.start_segment, start.next_segment):  # that a former boot has begun
-            for number in self.map.stations[self.station].lanes:
-                if segment in (self.map.lanes[number].segment, self.map.lanes[number].drive):
-                    self.held += self.floor_of(agv.id, number)
-                    self.station = self.map.lanes[number].destination
-                    break
+            begun = [n for n in self.map.stations[self.station].lanes if segment in self.segments_of(n)]
+            for lane in begun:  # two, if it may be driven forward and backward
+                self.held += self.floor_of(agv.id, lane)
+                self.station = self.map.lanes[lane].destination
+
+    def segments_of(self, lane: int) -> Tuple[int, int]:
+        return self.map.lanes[lane].segment, self.map.lanes[lane].drive
 
     # ---- floor
 
