@@ -18,6 +18,7 @@
 #include "campaign/cli/repeat_page.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/plan/plan_text.hpp"
+#include "campaign/run/program_door.hpp"
 #include "campaign/run/replay.hpp"
 #include "campaign/run/sha256.hpp"
 #include "core/base/error.hpp"
@@ -82,6 +83,9 @@ class EvidenceFolder {
     for (std::string block; block = source.read(kBlock), !block.empty();)
       file.write(block.data(), static_cast<std::streamsize>(block.size()));
     close(file, name);
+    constexpr fs::perms kMayRun = fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec;
+    std::error_code ignored;  // of a file that has just been written
+    fs::permissions(path_of(name), fs::status(from, ignored).permissions() & kMayRun, fs::perm_options::add, ignored);
   }
   void publish() {
     std::string sums;
@@ -126,8 +130,6 @@ std::string identity_text(const ReportInput& input) {
   return shown_json(json);
 }
 
-std::string plugin_title(const std::string& program) { return "the plug-in of agent " + program; }
-
 // The file beside the results file as it is; empty if there is none.
 std::string copied(const std::string& path) { return read_text_file_if_there(path).value_or(""); }
 
@@ -156,11 +158,9 @@ class RunsToReplay {
  private:
   std::string plugin_of(const AgentFactor& agent) const {
     std::string words;
-    for (const KeptFile& plugin : words_.plugins) {
-      const bool is_part = std::ranges::any_of(agent.parts(), [&](const ProgramPart* part) {
-        return plugin.what == plugin_title(part->program) && !plugin.name.empty();
-      });
-      if (is_part) words += " --plugin " + plugin.name;
+    for (const KeptProgram& kept : words_.programs) {
+      const auto is_it = [&](const ProgramPart* part) { return kept.program == part->program; };
+      if (std::ranges::any_of(agent.parts(), is_it)) words += plugin_words(kept);
     }
     return words;
   }
@@ -186,30 +186,44 @@ void write_runs(EvidenceFolder& folder, const ArchiveReader& archive, const Repo
   folder.write("columns.csv", csv_dictionary());
 }
 
-// The file that made the results, if it is still where the session log says.
-KeptFile keep_plugin(EvidenceFolder& folder, const ReportInput& input, const std::string& program, std::size_t number) {
-  KeptFile kept{plugin_title(program), {}, {}};
-  const std::string file = remembered_plugin(input.archive_path, program);
-  if (file.empty()) {
-    kept.trouble = "no session log beside the results file says where it is";
-    return kept;
-  }
-  try {
-    const RegularFile is_there(file);
-  } catch (const InputError& error) {
-    kept.trouble = error.what();
-    return kept;
-  }
-  if (stored_plugins(input.campaign.engine, program) != std::vector{sha256_of_file(file)}) {
-    kept.trouble = printable(file) + " is not the file that made the results";
-    return kept;
-  }
-  kept.name = fmt::format("plugin-{}.so", number);
-  folder.copy(file, kept.name);
-  return kept;
+// What is wrong with the source that the session log names; empty: it made the results.
+std::string trouble_with(const ProgramSource& source, const ReportInput& input, const std::string& program) {
+  if (stored_plugins(input.campaign.engine, program) == std::vector{identity_of(source)}) return {};
+  return printable(source.file) + (source.kind == ProgramKind::Lockstep ? " is not the program that made the results"
+                                                                        : " is not the file that made the results");
 }
 
-std::vector<KeptFile> keep_plugins(EvidenceFolder& folder, const ReportInput& input, const CampaignPlan& plan) {
+// With all files that it names, if they are still what made the results.
+KeptProgram keep_program(EvidenceFolder& folder, const ReportInput& input, const std::string& program,
+                         std::size_t number) {
+  const auto lost = [&](const std::string& trouble) {
+    return KeptProgram{program, {}, {{"the program of agent " + program, {}, trouble}}, false};
+  };
+  const std::string word = remembered_plugin(input.archive_path, program);
+  if (word.empty()) return lost("no session log beside the results file says where it is");
+  try {
+    const ProgramSource source = source_of(word, false);
+    if (const std::string trouble = trouble_with(source, input, program); !trouble.empty()) return lost(trouble);
+    KeptProgram kept{program, {}, {}, source.kind == ProgramKind::Lockstep};
+    std::vector<std::string> names;
+    for (const std::string& file : files_of(source)) {
+      const bool is_object = source.kind == ProgramKind::Plugin;
+      const std::string name = is_object ? fmt::format("plugin-{}.so", number)
+                                         : fmt::format("program-{}-{}-{}", number, names.size() + 1,
+                                                       printable(fs::path(file).filename().string()));
+      folder.copy(file, name);
+      kept.files.push_back(
+          {(is_object ? "the plug-in of agent " : "a file of the command of agent ") + program, name, {}});
+      names.push_back(is_object ? name : "./" + name);
+    }
+    kept.word = word_with(source, names);
+    return kept;
+  } catch (const InputError& error) {
+    return lost(error.what());
+  }
+}
+
+std::vector<KeptProgram> keep_programs(EvidenceFolder& folder, const ReportInput& input, const CampaignPlan& plan) {
   std::set<std::string> programs;
   for (const AgentFactor& agent : plan.agents) {
     if (std::ranges::find(input.campaign.plugin_agents, agent.name) == input.campaign.plugin_agents.end()) continue;
@@ -217,8 +231,8 @@ std::vector<KeptFile> keep_plugins(EvidenceFolder& folder, const ReportInput& in
       if (!stored_plugins(input.campaign.engine, part->program).empty()) programs.insert(part->program);
     }
   }
-  std::vector<KeptFile> kept;
-  for (const std::string& program : programs) kept.push_back(keep_plugin(folder, input, program, kept.size() + 1));
+  std::vector<KeptProgram> kept;
+  for (const std::string& program : programs) kept.push_back(keep_program(folder, input, program, kept.size() + 1));
   return kept;
 }
 
@@ -279,7 +293,7 @@ void write_evidence_set(const std::string& path, const ArchiveReader& archive, c
   words.results_digest = hex_text(archive.results_digest());
   words.verdict = name_of(overall_verdict(report.evidence, report.gates));
   words.exit_code = exit_code_of(report, false);
-  words.plugins = keep_plugins(folder, report, plan);
+  words.programs = keep_programs(folder, report, plan);
   words.layouts = keep_layouts(folder, plan);
   words.campaign = keep_campaign_file(folder, report);
   folder.write("REPEAT.md", repeat_page(report, words));

@@ -16,13 +16,6 @@ std::string files_text(const std::vector<KeptFile>& files) {
   return text;
 }
 
-bool is_complete(const std::vector<KeptFile>& files) {
-  for (const KeptFile& file : files) {
-    if (file.name.empty()) return false;
-  }
-  return true;
-}
-
 std::string command(const std::string& words, const std::string& ending) {
   return fmt::format("\n    {}\n\n{}\n", words, ending);
 }
@@ -37,12 +30,8 @@ std::string program_text(const EngineIdentity& engine) {
 
 }  // namespace
 
-std::string plugin_words(const RepeatWords& words) {
-  std::string text;
-  for (const KeptFile& plugin : words.plugins) {
-    if (!plugin.name.empty()) text += " --plugin " + plugin.name;
-  }
-  return text;
+std::string plugin_words(const KeptProgram& program) {
+  return program.word.empty() ? "" : " --plugin " + shell_word(program.word);
 }
 
 std::string repeat_page(const ReportInput& input, const RepeatWords& words) {
@@ -58,7 +47,20 @@ std::string repeat_page(const ReportInput& input, const RepeatWords& words) {
   text +=
       "\n## 3. The files of the campaign\n\n`plan.json` holds the whole plan: all cells, gates and layouts, as the "
       "program used them.\n\n" +
-      files_text(words.campaign) + files_text(words.layouts) + files_text(words.plugins);
+      files_text(words.campaign) + files_text(words.layouts);
+  std::string plugins;
+  bool is_complete = true;
+  for (const KeptProgram& program : words.programs) {
+    text += files_text(program.files);
+    if (program.is_command) {
+      text += fmt::format(
+          "* What the command of agent {} finds by itself, such as an interpreter and its modules, is not in "
+          "this folder.\n",
+          printable(program.program, 200));
+    }
+    plugins += plugin_words(program);
+    is_complete = is_complete && !program.word.empty();
+  }
   if (words.archive.empty())
     return text +
            "\n## 4. The results\n\nThe campaign was under way when this folder was written, so its results file "
@@ -73,10 +75,10 @@ std::string repeat_page(const ReportInput& input, const RepeatWords& words) {
   text +=
       "\n## 5. The results come out again\n\nThis simulates every run once more. It takes as long as the campaign "
       "did.\n";
-  text += command(fmt::format("fleetproof verify {} --sample 100%{}", archive, plugin_words(words)),
-                  is_complete(words.plugins)
-                      ? "Ends with 0: every run is the same to the bit, if the software does the same each time."
-                      : "Cannot be done without the plug-ins that are not in this folder.");
+  text +=
+      command(fmt::format("fleetproof verify {} --sample 100%{}", archive, plugins),
+              is_complete ? "Ends with 0: every run is the same to the bit, if the software does the same each time."
+                          : "Cannot be done without the programs that are not in this folder.");
   return text +
          "\n`replay.txt` has one command for each failing run, the most serious of the software under test first.\n";
 }

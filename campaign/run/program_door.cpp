@@ -147,6 +147,23 @@ std::string word_of(const ProgramSource& source, const std::string& folder) {
   return folder.empty() ? source.file : file.lexically_proximate(folder).string();
 }
 
+std::vector<std::string> files_of(const ProgramSource& source) {
+  if (source.kind != ProgramKind::Lockstep) return {source.file};
+  std::vector<std::string> files = command_of(source.file).words();
+  std::erase_if(files, [](const std::string& word) { return !is_file(word); });
+  return files;
+}
+
+std::string word_with(const ProgramSource& source, std::span<const std::string> names) {
+  if (source.kind != ProgramKind::Lockstep) return names.front();
+  std::vector<std::string> words = command_of(source.file).words();
+  auto name = names.begin();
+  for (std::string& word : words) {
+    if (is_file(word)) word = *name++;
+  }
+  return std::string(kLockstepWord) + lockstep::command_text(words);
+}
+
 std::string lasting_word_of(const ProgramSource& source) {
   if (source.kind == ProgramKind::Lockstep) return source.file;
   return std::filesystem::weakly_canonical(source.file).string();

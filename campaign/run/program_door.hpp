@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/engine/foreign_calls.hpp"
 #include "core/sdk/fleetproof/agent.h"
@@ -40,6 +42,10 @@ std::string identity_of(const ProgramSource& source);
 OpenedProgram open(const ProgramSource& source, const std::string& word);
 // The same source with its file relative to `folder`; empty: as it is.
 std::string word_of(const ProgramSource& source, const std::string& folder = "");
+// The files that the source names: the shared object, or those of the command. And its word if they have these names
+// instead, in the same order.
+std::vector<std::string> files_of(const ProgramSource& source);
+std::string word_with(const ProgramSource& source, std::span<const std::string> names);
 // The same source for later: without the symbolic links of today.
 std::string lasting_word_of(const ProgramSource& source);
 

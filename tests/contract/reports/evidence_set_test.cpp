@@ -184,6 +184,39 @@ TEST_F(EvidenceSet, IsRepeatedByFollowingItsPageAlone) {
   EXPECT_THAT(read(path("later/set/replay.txt")), HasSubstr(" --plugin plugin-1.so\n"));
 }
 
+TEST_F(EvidenceSet, HoldsTheFilesOfACommand) {
+  std::filesystem::copy_file(test::source("tests/bridges/programs/twin.py"), path("twin.py"));
+  write("start.sh", "#!/bin/sh\nexec \"$@\"\n");
+  std::filesystem::permissions(path("start.sh"), std::filesystem::perms::owner_all);
+  write("e.toml", R"(seed = 7
+replicates = 2
+horizon_s = 8
+[factors]
+agents = [{ run = "./start.sh python3 -B twin.py", way = "lockstep" }]
+layouts = ["corridor-sidings"]
+fleet_sizes = [2]
+loss = [0.4]
+delay_s = [2]
+)");
+  ASSERT_TRUE(test::has_verdict(run("run e.toml --db e.db")));
+  run("report e.db --evidence set");
+  for (const char* gone : {"twin.py", "start.sh"})
+    std::filesystem::rename(path(gone), path("gone." + std::string(gone)));
+  const std::string page = read(path("set/REPEAT.md"));
+  EXPECT_THAT(page, HasSubstr("* `program-1-2-twin.py`: a file of the command of agent twin.\n"));
+  EXPECT_THAT(page, HasSubstr("What the command of agent twin finds by itself, such as an interpreter"));
+  EXPECT_THAT(page, HasSubstr("Ends with 0: every run is the same"));
+  const auto verified = shell(
+      "mkdir bin; ln -s \"$FLEETPROOF\" bin/fleetproof; PATH=$PWD/bin:$PATH; cd set; sha256sum -c --quiet SHA256SUMS "
+      "&& " +
+      promises_of(page).back().first);
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+  run("report e.db --evidence other");
+  const std::string without = read(path("other/REPEAT.md"));
+  EXPECT_THAT(without, HasSubstr("the program of agent twin: not in this folder"));
+  EXPECT_THAT(without, HasSubstr("Cannot be done without the programs"));
+}
+
 TEST_F(EvidenceSet, SaysWhatIsNotAtHandAnyMore) {
   std::filesystem::copy_file(FLEETPROOF_FAILING_AGENT, path("mine.so"));
   write("e.toml",
@@ -194,9 +227,9 @@ TEST_F(EvidenceSet, SaysWhatIsNotAtHandAnyMore) {
   write("e.toml", "# another one\n");
   run("report e.db --evidence set");
   const std::string page = read(path("set/REPEAT.md"));
-  EXPECT_THAT(page, HasSubstr("the plug-in of agent failing: not in this folder"));
+  EXPECT_THAT(page, HasSubstr("the program of agent failing: not in this folder"));
   EXPECT_THAT(page, HasSubstr("e.toml was changed since"));
-  EXPECT_THAT(page, HasSubstr("Cannot be done without the plug-ins"));
+  EXPECT_THAT(page, HasSubstr("Cannot be done without the programs"));
   EXPECT_FALSE(std::filesystem::exists(path("set/campaign.toml")));
   write("mine.so", "another build");
   run("report e.db --evidence other");
