@@ -1,6 +1,7 @@
 #include "core/agents/joint_search.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 
@@ -14,6 +15,7 @@ constexpr double kHaste = 3.0;
 // If AGVs stand at the end of the moves so that one of them cannot leave, so many more states are looked at.
 constexpr std::size_t kLooksForBetter = 100;
 constexpr std::size_t kMostThatPass = 5;
+static_assert(kMostThatPass <= JointSearch::kMostMovers);
 
 }  // namespace
 
@@ -24,7 +26,9 @@ JointSearch::JointSearch(const MapView& map, HullGeometry& geometry, std::vector
 std::vector<AgvPath> JointSearch::find(std::uint32_t goal, std::size_t most) {
   const HullParts& parts = geometry_.parts();
   remains_s_ = remaining_costs_s(parts, model_of(parts.facts(), movers_.front().agv), goal);
-  push({Places(movers_.size(), kBegin)});
+  State begin;
+  begin.places.fill(kBegin);
+  push(begin);
   std::uint32_t found = 0;
   for (std::size_t looks = 0; looks < most && !open_.empty(); ++looks) {
     std::ranges::pop_heap(open_, std::greater<>());
@@ -69,9 +73,8 @@ bool JointSearch::try_move(std::uint32_t state, std::uint32_t mover, const Path&
   path.append(lane);
   Places places = states_[state].places;
   if (!is_clear(mover, places, path)) return false;
-  places[mover] = lane;
-  if (!known_.contains(places))
-    push({std::move(places), state, mover, states_[state].cost_s + movers_[mover].costs_s[lane]});
+  places[mover] = static_cast<Place>(lane);
+  push({places, state, mover, states_[state].cost_s + movers_[mover].costs_s[lane]});
   return true;
 }
 
@@ -80,9 +83,9 @@ bool JointSearch::is_clear(std::uint32_t mover, const Places& places, const Path
   constexpr std::uint64_t kPlaces = kBegin + 1, kMovers = 16;
   const std::uint64_t move = (mover * kPlaces + places[mover]) * kPlaces + path.lane_ids[0];
   const auto ask = [&](std::uint64_t question, auto work_out) {
-    const auto [known, is_new] = clear_.try_emplace(question);
-    if (is_new) known->second = work_out();
-    return known->second;
+    const auto [number, is_new] = questions_.number({question});
+    if (is_new) clear_.push_back(work_out());
+    return bool{clear_[number]};
   };
   if (!ask(move * kMovers * kPlaces, [&] { return obstacle_of(mover, path) == FP_NONE; })) return false;
   for (std::uint32_t other = 0; other < movers_.size(); ++other) {
@@ -103,14 +106,15 @@ std::uint32_t JointSearch::obstacle_of(std::uint32_t mover, const Path& path) {
   return FP_NONE;
 }
 
-void JointSearch::push(State state) {
+// Of the ways to a state, the first one counts.
+void JointSearch::push(const State& state) {
   const double remains_s = remains_s_[standing(0, state.places[0]).station];
   if (remains_s == INFINITY) return;
-  const auto number = static_cast<std::uint32_t>(states_.size());
-  known_.insert(state.places);
+  const auto [number, is_new] = known_.number(std::bit_cast<std::array<std::uint64_t, 2>>(state.places));
+  if (!is_new) return;
   open_.push_back({state.cost_s + kHaste * remains_s, number});
   std::ranges::push_heap(open_, std::greater<>());
-  states_.push_back(std::move(state));
+  states_.push_back(state);
 }
 
 std::vector<AgvPath> JointSearch::moves_to(std::uint32_t state) const {

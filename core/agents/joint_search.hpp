@@ -1,12 +1,10 @@
 // How an AGV gets past others that stand in its way: which of them drives which lane, one after the other.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <set>
 #include <span>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -33,11 +31,55 @@ struct Standing {
   bool makes_way = false;  // it takes part if another one wants to pass
 };
 
+// Numbers keys in the order in which they come: a hash table in two arrays, for searches that meet many states and ask
+// for each of them often. Nothing depends on the order of the slots.
+template <std::size_t words>
+class KeyNumbers {
+ public:
+  using Key = std::array<std::uint64_t, words>;
+
+  // The number of the key, and whether it has come for the first time.
+  std::pair<std::uint32_t, bool> number(const Key& key) {
+    if (2 * keys_.size() >= slots_.size()) grow();
+    std::uint32_t& slot = slot_of(key);
+    const bool is_new = slot == kFree;
+    if (is_new) {
+      slot = static_cast<std::uint32_t>(keys_.size());
+      keys_.push_back(key);
+    }
+    return {slot, is_new};
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = ~0U;
+  static constexpr std::size_t kFirstSlots = 128;  // a power of two, as all later sizes
+
+  std::uint32_t& slot_of(const Key& key) {
+    std::uint64_t hash = 0;
+    for (const std::uint64_t word : key) {
+      hash = (hash ^ word) * 0x9e3779b97f4a7c15;
+      hash ^= hash >> 32;  // the low bits choose the slot
+    }
+    std::size_t at = hash & (slots_.size() - 1);
+    while (slots_[at] != kFree && keys_[slots_[at]] != key) at = (at + 1) & (slots_.size() - 1);
+    return slots_[at];
+  }
+  void grow() {
+    slots_.assign(slots_.empty() ? kFirstSlots : 2 * slots_.size(), kFree);
+    for (std::uint32_t number = 0; number < keys_.size(); ++number) slot_of(keys_[number]) = number;
+  }
+
+  std::vector<Key> keys_;             // by number
+  std::vector<std::uint32_t> slots_;  // of the table: numbers of keys
+};
+
 // A search over the places at which a few AGVs stand, best first. In each move, one of them drives a lane while the
 // others stand. Its hull keeps clear of theirs, and of all obstacles. So the moves can be driven one after the other,
 // and two moves that keep clear of each other at the same time. Requires: map and geometry outlive the object.
 class JointSearch {
  public:
+  static constexpr std::size_t kMostMovers = 8;
+
   // The first mover is the one that has a goal. Obstacles stay where they are.
   JointSearch(const MapView& map, HullGeometry& geometry, std::vector<Standing> movers, std::vector<AgvPath> obstacles);
 
@@ -50,8 +92,8 @@ class JointSearch {
 
  private:
   // Where a mover stands: at the end of a lane, or where it began.
-  using Place = char32_t;
-  using Places = std::u32string;  // by mover
+  using Place = std::uint16_t;
+  using Places = std::array<Place, kMostMovers>;  // by mover
   static constexpr Place kBegin = 0xffff;
   struct State {
     Places places;
@@ -69,7 +111,7 @@ class JointSearch {
   bool try_move(std::uint32_t state, std::uint32_t mover, const Path& from, std::uint32_t lane);
   bool is_clear(std::uint32_t mover, const Places& places, const Path& path);
   std::uint32_t obstacle_of(std::uint32_t mover, const Path& path);
-  void push(State state);
+  void push(const State& state);
   std::vector<AgvPath> moves_to(std::uint32_t state) const;
 
   const MapView& map_;
@@ -78,9 +120,10 @@ class JointSearch {
   std::vector<AgvPath> obstacles_;
   std::span<const float> remains_s_;  // by station: the way of the first mover
   std::vector<State> states_;
-  std::vector<Open> open_;  // heap, the best first
-  std::set<Places> known_;
-  std::map<std::uint64_t, bool> clear_;  // by move, and by move and place of another mover
+  std::vector<Open> open_;   // heap, the best first
+  KeyNumbers<2> known_;      // places of all states
+  KeyNumbers<1> questions_;  // a move; a move and the place of another mover
+  std::vector<bool> clear_;  // by question: the answer
   std::vector<std::uint32_t> met_;
 };
 
