@@ -24,6 +24,16 @@ constexpr fp_agent_type agent_type(const char* name, const char* description, Cr
           nullptr};
 }
 
+// An agent behind one interface: its class stays in its source.
+class Program {
+ public:
+  Program() = default;
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  virtual ~Program() = default;
+  virtual void on_event(const fp_event& event) = 0;
+};
+
 // The most stations, lanes or AGVs that a plant may have for agents whose paths and messages name each by 16 bits.
 inline constexpr std::uint32_t kNumbersOnTheWire = 0xffff;
 // Whether this plant has no more of them. If it has, it says why the agent cannot start.

@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "core/agents/agent_type.hpp"
-#include "core/agents/central/roles.hpp"
+#include "core/agents/central/programs.hpp"
 #include "core/agents/faulty/faulty_agents.hpp"
 #include "core/agents/hull_lock.hpp"
 

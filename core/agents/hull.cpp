@@ -30,6 +30,17 @@ bool HullGeometry::conflict(std::uint32_t agv_a, const Path& a, std::uint32_t ag
   });
 }
 
+std::uint32_t HullGeometry::clear_lanes(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b) {
+  if (!conflict(agv_a, a, agv_b, b)) return a.count;
+  Path part = a;
+  std::uint32_t clear = 0, met = a.count;
+  while (clear + 1 < met) {
+    part.count = (clear + met) / 2;
+    (conflict(agv_a, part, agv_b, b) ? met : clear) = part.count;
+  }
+  return clear;
+}
+
 bool HullGeometry::lane_conflict(std::uint32_t agv_a, std::uint32_t lane, std::uint32_t agv_b, const Path& b) {
   if (is_far(parts_.of_lane(agv_a, lane), agv_b, b)) return false;
   Parts of_b;

@@ -20,7 +20,9 @@ class HullGeometry {
 
   // True if the hulls of the two paths come closer than the safety distance plus the tolerance.
   bool conflict(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b);
-  // The same for one lane, or for turning at one station.
+  // So many lanes of a path keep clear of the other path. Requires: the path has lanes.
+  std::uint32_t clear_lanes(std::uint32_t agv_a, const Path& a, std::uint32_t agv_b, const Path& b);
+  // As `conflict`, for one lane, or for turning at one station.
   bool lane_conflict(std::uint32_t agv_a, std::uint32_t lane, std::uint32_t agv_b, const Path& b);
   bool turn_conflict(std::uint32_t agv_a, std::uint32_t station, std::uint32_t agv_b, const Path& b);
   bool turns_conflict(std::uint32_t agv_a, std::uint32_t station_a, std::uint32_t agv_b, std::uint32_t station_b) {

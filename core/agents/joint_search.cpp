@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
 
 #include "core/agents/lane_costs.hpp"
 
@@ -163,6 +162,19 @@ Passing find_passing(const MapView& map, HullGeometry& geometry, std::span<const
     }
   }
   return passing;
+}
+
+bool carry_out(std::vector<AgvPath>& moves, HullGeometry& geometry, const std::function<bool(const AgvPath&)>& give) {
+  std::vector<AgvPath> later;
+  for (const AgvPath& move : moves) {
+    const bool is_next = std::ranges::none_of(later, [&](const AgvPath& before) {
+      return before.agv == move.agv || geometry.conflict(move.agv, move.path, before.agv, before.path);
+    });
+    if (!is_next || !give(move)) later.push_back(move);
+  }
+  const bool gave = later.size() < moves.size();
+  moves = std::move(later);
+  return gave;
 }
 
 namespace {

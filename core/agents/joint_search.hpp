@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -137,6 +138,10 @@ struct Passing {
 // paths on which others will drive. `most`: see JointSearch.
 Passing find_passing(const MapView& map, HullGeometry& geometry, std::span<const Standing> fleet,
                      std::span<const AgvPath> promised, std::uint32_t leader, std::uint32_t goal, std::size_t most);
+
+// Carries out a row of moves: gives each one as soon as it keeps clear of all earlier ones that still have to wait.
+// Those that have to wait stay in the row. `give(move)`: false if it has to wait. Returns whether a move was given.
+bool carry_out(std::vector<AgvPath>& moves, HullGeometry& geometry, const std::function<bool(const AgvPath&)>& give);
 
 // Whether an AGV can drive no lane, and none of those that are in its way can: they would stay there for ever.
 bool is_stuck(const MapView& map, HullGeometry& geometry, std::span<const Standing> fleet, std::uint32_t agv);

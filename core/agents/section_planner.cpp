@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/agents/fleet_routes.hpp"
 #include "core/agents/lane_costs.hpp"
 
 namespace fleetproof::agents {
@@ -19,9 +20,6 @@ constexpr double kArrivingCost_s = 8.0;
 constexpr double kIdleCost_s = 10.0;
 constexpr double kWaitingCost_s = 20.0;
 constexpr double kNoWayCost_s = 1000.0;
-// In a row of chargers, wide AGVs cannot turn beside each other. An AGV would rather hold up others there than run
-// empty.
-constexpr double kUnsafeChargerCost_s = 30.0;
 // Of a place that another AGV asks for, and of one at which the two lock each other in.
 constexpr double kAskedForCost_s = 60.0;
 constexpr double kCrampedCost_s = 60.0;
@@ -255,17 +253,7 @@ Section SectionPlanner::out_of_the_way(const Path& standing, Budget budget, bool
 std::uint32_t SectionPlanner::free_charger(const Path& standing, bool loaded, bool urgent) {
   price_lanes(loaded, kWaitingCost_s, kIdleCost_s, {});
   routes_.search(standing.station, standing.heading, prices_.costs_s());
-  std::uint32_t best = FP_NONE;
-  double best_s = urgent ? 2.0 * kNoWayCost_s : kNoWayCost_s;
-  for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
-    if ((map_.station(station).purposes & FP_CHARGING) == 0 || routes_.cost_s(station) >= best_s) continue;
-    const double cost_s = routes_.cost_s(station) + (places_.is_safe(station) ? 0.0 : kUnsafeChargerCost_s) +
-                          (is_taken(station) ? kNoWayCost_s : 0.0);
-    if (cost_s >= best_s) continue;
-    best = station;
-    best_s = cost_s;
-  }
-  return best;
+  return quickest_charger(map_, routes_, places_, urgent, [&](std::uint32_t station) { return is_taken(station); });
 }
 
 // By an AGV that stands there, or will soon. Of two that go to a charger, the one with the smaller number gets it.

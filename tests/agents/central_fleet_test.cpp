@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/agents/central/roles.hpp"
+#include "core/agents/central/programs.hpp"
 #include "core/engine/fleet_software.hpp"
 #include "core/engine/simulation.hpp"
 #include "core/scenario/faults.hpp"

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/agents/central/roles.hpp"
+#include "core/agents/central/programs.hpp"
 #include "core/engine/fleet_software.hpp"
 #include "core/engine/simulation.hpp"
 #include "core/scenario/scenario.hpp"

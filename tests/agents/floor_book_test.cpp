@@ -124,6 +124,25 @@ TEST_F(FloorBookInARow, AServerKnowsNothingOfItsFormerSelf) {
   EXPECT_FALSE(later.all_joined());
 }
 
+// The new book has the floor and the numbers of the old one, as it was when an AGV was told something last.
+TEST_F(FloorBookInARow, GoesOnFromItsRecords) {
+  join_both();
+  ASSERT_TRUE(grant(0, {row.lane(0, 1), row.lane(1, 2), row.lane(2, 1)}));
+  hear_of(3, 1, 2);
+  FloorBook later(map, geometry, 2, 9);
+  for (std::uint32_t agv = 0; agv < 2; ++agv) later.recall(agv, book.record_of(agv));
+  EXPECT_TRUE(later.all_joined());
+  EXPECT_EQ(later.server_boot(), 0U);
+  EXPECT_EQ(later.way(0).granted(), 3U);
+  EXPECT_FALSE(later.grant(1, std::vector{row.lane(4, 3), row.lane(3, 2)})) << "AGV 0 may be there";
+  EXPECT_EQ(later.unknown_steps(0).first, 1U);
+  EXPECT_EQ(later.unknown_steps(0).steps, (std::vector{row.lane(1, 2), row.lane(2, 1)}));
+  State state = standing(0);
+  state.known = state.done = 3, state.number = 3;
+  EXPECT_EQ(later.hear(0, state), News::Progress);
+  EXPECT_TRUE(later.grant(1, std::vector{row.lane(4, 3)}));
+}
+
 // Bodies are apart at the start, but the hulls of bodies with loads need not be.
 TEST(FloorBookAtTheStart, LetsPickOnlyOnFloorOfItsOwn) {
   DrawnMap drawn;
@@ -147,14 +166,18 @@ TEST(CentralMessages, ComeBackAsTheyWere) {
   state.load = 5, state.known = 9, state.done = 8, state.battery = 0.25, state.out_of_order = true;
   state.first_order = 2;
   state.orders = {{1, 2, 3}, {4, 5, 6}};
-  const auto back = decode_state(encode(state));
+  const auto back = decode_as<State>(encode(state));
   ASSERT_TRUE(back);
   EXPECT_EQ(encode(*back), encode(state));
   EXPECT_EQ(back->orders, state.orders);
   EXPECT_EQ(back->way, state.way);
   EXPECT_EQ(back->battery, 0.25);
+  const AgvRecord record{state, {{3, 4}, 9, {{Step::Kind::Pick, 5}}}, {{{4, {Step::Kind::Drop, 5}}}, 2, true}};
+  const auto record_back = decode_as<AgvRecord>(encode(record));
+  ASSERT_TRUE(record_back);
+  EXPECT_EQ(encode(*record_back), encode(record));
   const Grant grant{{1, 2}, 3, {{Step::Kind::Drive, 4}, {Step::Kind::Drop, 5}}, 6};
-  const auto grant_back = decode_grant(encode(grant));
+  const auto grant_back = decode_as<Grant>(encode(grant));
   ASSERT_TRUE(grant_back);
   EXPECT_EQ(encode(*grant_back), encode(grant));
   EXPECT_EQ(grant_back->steps, grant.steps);
@@ -167,19 +190,19 @@ TEST(CentralMessages, AreReadCompletelyOrNotAtAll) {
   grant.steps.resize(kMostStepsInAMessage);
   for (std::vector<std::byte> bytes : {encode(state), encode(grant)}) {
     EXPECT_LE(bytes.size(), FP_MESSAGE_BYTES_MAX);
-    EXPECT_TRUE(decode_state(bytes) || decode_grant(bytes));
+    EXPECT_TRUE(decode_as<State>(bytes) || decode_as<Grant>(bytes));
     for (std::size_t size = 0; size < bytes.size(); ++size) {
       const auto part = std::span(bytes).first(size);
-      EXPECT_FALSE(decode_state(part) || decode_grant(part)) << size;
+      EXPECT_FALSE(decode_as<State>(part) || decode_as<Grant>(part)) << size;
     }
     bytes.push_back({});
-    EXPECT_FALSE(decode_state(bytes) || decode_grant(bytes));
+    EXPECT_FALSE(decode_as<State>(bytes) || decode_as<Grant>(bytes));
   }
   state.heading = {2.0, 0.0};
-  EXPECT_FALSE(decode_state(encode(state))) << "no unit vector";
+  EXPECT_FALSE(decode_as<State>(encode(state))) << "no unit vector";
   state.heading = {1.0, 0.0};
   state.done = 1;
-  EXPECT_FALSE(decode_state(encode(state))) << "more done than known";
+  EXPECT_FALSE(decode_as<State>(encode(state))) << "more done than known";
 }
 
 }  // namespace

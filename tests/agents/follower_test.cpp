@@ -1,11 +1,12 @@
 // The follower by itself: which steps it takes, and what it says of itself.
-#include "core/agents/central/follower.hpp"
-
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "core/agents/central/messages.hpp"
+#include "core/agents/central/programs.hpp"
 #include "tests/agents/drawn_map.hpp"
 #include "tests/agents/stub_host.hpp"
 
@@ -30,7 +31,7 @@ class FollowerAlone : public ::testing::Test {
     fp_event event{};
     event.struct_size = sizeof event;
     event.kind = kind;
-    follower.on_event(event);
+    follower->on_event(event);
   }
   void arrives(const Grant& grant) {
     host.inbox.emplace_back(1, encode(grant));
@@ -38,7 +39,7 @@ class FollowerAlone : public ::testing::Test {
   }
   State told() {
     tell(FP_EVENT_TIMER);
-    const std::optional<State> state = decode_state(host.sent.back());
+    const std::optional<State> state = decode_as<State>(host.sent.back());
     return state.value_or(State{});
   }
 
@@ -46,7 +47,7 @@ class FollowerAlone : public ::testing::Test {
   TestFleet fleet{drawn.map(), 1};
   fp_briefing briefing = fleet.briefing(0, 0);
   StubHost host;
-  Follower follower{host.table, host.handle(), briefing};
+  std::unique_ptr<Program> follower{create(host.table, host.handle(), briefing, FollowerOptions{})};
   const Step ahead{Step::Kind::Drive, drawn.lane_between(0, 1)}, back{Step::Kind::Drive, drawn.lane_between(1, 0)};
 };
 

@@ -1,12 +1,13 @@
 // The zone-server by itself: what it grants is on its disk before, and a new self goes on with that.
-#include "core/agents/central/zone_server.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "core/agents/central/messages.hpp"
+#include "core/agents/central/programs.hpp"
 #include "tests/agents/drawn_map.hpp"
 #include "tests/agents/stub_host.hpp"
 
@@ -42,7 +43,7 @@ class ServerOfTwoAgvs : public ::testing::Test {
   }
   void start() {
     host.sent.clear();
-    server.emplace(host.table, host.handle(), briefing);
+    server.reset(create(host.table, host.handle(), briefing, ServerOptions{}));
     tell(FP_EVENT_START);
   }
   void start_again() {
@@ -68,7 +69,7 @@ class ServerOfTwoAgvs : public ::testing::Test {
   std::vector<Step> granted() const {
     std::vector<Step> steps;
     for (const StubHost::Bytes& bytes : host.sent) {
-      const std::optional<Grant> grant = decode_grant(bytes);
+      const std::optional<Grant> grant = decode_as<Grant>(bytes);
       if (grant && !grant->steps.empty()) steps = grant->steps;
     }
     return steps;
@@ -78,7 +79,7 @@ class ServerOfTwoAgvs : public ::testing::Test {
   TestFleet fleet{drawn.map(), 2};
   fp_briefing briefing = fleet.briefing(2, 0);
   StubHost host;
-  std::optional<ZoneServer> server;
+  std::unique_ptr<Program> server;
   std::uint32_t messages = 0;
   std::int64_t now_ns = 0;
 };

@@ -1,6 +1,6 @@
 // The two programs of a central fleet in one shared object, under a name of their own: the role in the briefing says
 // which of them an agent is. They stand for a user's control software in tests.
-#include "core/agents/central/roles.hpp"
+#include "core/agents/central/programs.hpp"
 
 namespace {
 using namespace fleetproof::agents::central;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
+#include <utility>
 
 #include "core/agents/fleet.hpp"
 #include "core/agents/lane_costs.hpp"
@@ -27,21 +29,12 @@ constexpr double kGivesUp_s = 120.0;  // if nothing of a passing was granted for
 constexpr double kTransferTakes_s = 5.0, kTurnTakes_s = 3.0;  // expected
 // Prices of a station at which another AGV will stand for a while, or for good.
 constexpr double kMovingPrice_s = 8.0, kWallPrice_s = 1000.0;
-constexpr double kUnsafeChargerPrice_s = 30.0;
 constexpr std::uint32_t kCrowdedBurden = 1;
 
-bool contains(std::span<const std::uint32_t> agvs, std::uint32_t agv) {
-  return std::ranges::find(agvs, agv) != agvs.end();
-}
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+bool takes_part(const Passing& passing, std::uint32_t agv) { return std::ranges::count(passing.agvs, agv) > 0; }
 
 }  // namespace
-
-FleetPlanner::Model::Model(const MapView& map, const HullGeometry& geometry, std::uint32_t agv, std::uint32_t of)
-    : rules(map, tells_minor_2(geometry.parts().facts()) ? agv_of(geometry.parts().facts(), agv).vehicle_type : 0),
-      routes(map, rules),
-      prices(map, rules, lane_costs_s(geometry.parts(), agv), geometry.parts().facts().fleet_count),
-      number(of) {}
 
 FleetPlanner::FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook& book, const Settings& settings,
                            const ServerOptions& options)
@@ -51,64 +44,55 @@ FleetPlanner::FleetPlanner(const MapView& map, HullGeometry& geometry, FloorBook
       settings_(settings),
       options_(options),
       places_(map, geometry),
-      has_chargers_(map.has_chargers()),
-      tasks_(book.fleet_count()) {
-  for (std::uint32_t agv = 0; agv < book.fleet_count(); ++agv) {
-    const std::uint32_t number = agents::model_of(geometry.parts().facts(), agv);
-    auto& model = models_[number];
-    if (!model) model = std::make_unique<Model>(map, geometry, agv, number);
-    model_of_.push_back(model.get());
-  }
-}
+      routes_(map, geometry.parts()),
+      tasks_(book.fleet_count()) {}
 
 // ---- work
+
+bool Task::carries_load() const {
+  const auto next = std::ranges::find_if(goals, [](const Goal& goal) { return !goal.step.charges(); });
+  return next != goals.end() && next->step.kind == Step::Kind::Drop;
+}
+
+bool Task::has_to(Step::Kind kind, std::uint32_t order) const {
+  return std::ranges::find(goals, Step{kind, order}, &Goal::step) != goals.end();
+}
+
+void Task::take_order(const Order& order, bool on_board) {
+  if (!on_board) goals.push_back({order.from, {Step::Kind::Pick, order.id}});
+  goals.push_back({order.to, {Step::Kind::Drop, order.id}});
+}
 
 // What its former self was to pick, another AGV may pick now. It has waited as long as its former self.
 void FleetPlanner::begin(std::uint32_t agv) {
   const std::int64_t since_ns = tasks_[agv].since_ns;
   tasks_[agv] = {};
   tasks_[agv].since_ns = since_ns;
-  std::erase_if(passings_, [&](const Passing& passing) { return contains(passing.agvs, agv); });
+  std::erase_if(passings_, [&](const Passing& passing) { return takes_part(passing, agv); });
   for (OpenOrder& open : open_) {
-    if (open.agv == agv) open.agv = FP_NONE;
-    if (open.order.id != book_.way(agv).first_load) continue;
-    open.agv = agv;
-    tasks_[agv].goals.push_back({open.order.to, {Step::Kind::Drop, open.order.id}});
+    const bool on_board = open.order.id == book_.way(agv).first_load;
+    if (on_board) tasks_[agv].take_order(open.order, true);
+    if (open.agv == agv || on_board) open.agv = on_board ? agv : std::uint32_t{FP_NONE};
   }
 }
 
-void FleetPlanner::take_orders(std::uint32_t agv, std::uint32_t first, std::span<const Order> orders) {
+bool FleetPlanner::take_orders(std::uint32_t agv, std::uint32_t first, std::span<const Order> orders) {
   Task& task = tasks_[agv];
-  if (task.cancelling && !carries_load(agv)) task.goals.clear();
+  if (task.cancelling && !task.carries_load()) task.goals.clear();
   task.cancelling = false;
-  for (std::size_t i = 0; i < orders.size(); ++i) {
-    if (first + i != task.orders) continue;
-    const Order& order = orders[i];
-    if (order.id != book_.way(agv).first_load) task.goals.push_back({order.from, {Step::Kind::Pick, order.id}});
-    task.goals.push_back({order.to, {Step::Kind::Drop, order.id}});
+  if (first > task.orders || first + orders.size() <= task.orders) return false;
+  for (const Order& order : orders.subspan(task.orders - first)) {
+    task.take_order(order, order.id == book_.way(agv).first_load);
     ++task.orders;
   }
-}
-
-void FleetPlanner::put_work(std::uint32_t agv, AgvRecord& record) const {
-  const Task& task = tasks_[agv];
-  record.grant.orders = task.orders;
-  record.goals.assign(task.goals.begin(), task.goals.end());
-  record.charging = task.charging;
-}
-
-void FleetPlanner::recall(std::uint32_t agv, const AgvRecord& record) {
-  tasks_[agv].orders = record.grant.orders;
-  tasks_[agv].goals.assign(record.goals.begin(), record.goals.end());
-  tasks_[agv].charging = record.charging;
+  return true;
 }
 
 // After a restart of the server, an AGV may be carrying it out.
 void FleetPlanner::take_open_order(const Order& order) {
-  OpenOrder open{order, 0};
-  while (open.agv < book_.fleet_count() && !is_under_way(open)) ++open.agv;
-  if (open.agv == book_.fleet_count()) open.agv = FP_NONE;
-  open_.push_back(open);
+  const auto agvs = book_.agvs();
+  const auto agv = std::ranges::find_if(agvs, [&](std::uint32_t id) { return is_under_way(order.id, id); });
+  open_.push_back({order, agv == agvs.end() ? std::uint32_t{FP_NONE} : *agv});
 }
 
 void FleetPlanner::withdraw(std::uint32_t order) {
@@ -116,10 +100,8 @@ void FleetPlanner::withdraw(std::uint32_t order) {
   if (open == open_.end()) return;
   if (open->agv != FP_NONE) {
     Task& task = tasks_[open->agv];
-    const Step pick{Step::Kind::Pick, order};
-    if (std::ranges::find(task.goals, pick, &Goal::step) == task.goals.end()) return;
-    std::erase_if(task.goals,
-                  [&](const Goal& goal) { return goal.step.what == order && goal.step.kind != Step::Kind::Charge; });
+    if (!task.has_to(Step::Kind::Pick, order)) return;
+    std::erase_if(task.goals, [&](const Goal& goal) { return goal.step.what == order && !goal.step.charges(); });
     task.wanted.reset();
     task.cancelling = !options_.cancels_name_an_order;
   }
@@ -136,65 +118,45 @@ std::uint32_t FleetPlanner::waits_for(std::uint32_t agv) const {
   return task.wanted && book_.way(agv).is_waiting() ? task.obstruction.by : FP_NONE;
 }
 
-// The oldest first, each to the AGV that is there first. An AGV has at most the load on board to deliver before.
+// An AGV has at most the load on board to deliver before.
 void FleetPlanner::assign_open_orders() {
-  std::erase_if(open_, [&](const OpenOrder& open) { return open.agv != FP_NONE && !is_under_way(open); });
-  for (OpenOrder& open : open_) {
-    if (open.agv != FP_NONE) continue;
-    open.agv = quickest_free_agv(open.order.from);
-    if (open.agv == FP_NONE) continue;
-    auto& goals = tasks_[open.agv].goals;
-    goals.push_back({open.order.from, {Step::Kind::Pick, open.order.id}});
-    goals.push_back({open.order.to, {Step::Kind::Drop, open.order.id}});
-  }
+  std::erase_if(open_,
+                [&](const OpenOrder& open) { return open.agv != FP_NONE && !is_under_way(open.order.id, open.agv); });
+  std::vector<std::uint32_t> free;
+  std::ranges::copy_if(book_.agvs(), std::back_inserter(free), [&](std::uint32_t agv) { return is_free(agv); });
+  const auto takes_s = [&](std::uint32_t agv, std::uint32_t station) {
+    const Task& task = tasks_[agv];
+    const std::uint32_t end = book_.end_of_way(agv).station;
+    if (task.is_idle()) return time_left_s(agv) + routes_.usual_cost_s(agv, end, station);
+    const std::uint32_t last = task.goals.front().station;
+    const double delivery_s = routes_.usual_cost_s(agv, end, last) + kTransferTakes_s;
+    return time_left_s(agv) + delivery_s + routes_.usual_cost_s(agv, last, station);
+  };
+  assign(open_, free, takes_s, [&](std::uint32_t agv, const Order& order) { tasks_[agv].take_order(order, false); });
 }
 
 // What is neither a goal nor a granted step is done, or turned out to be impossible.
-bool FleetPlanner::is_under_way(const OpenOrder& open) const {
-  const auto is_part = [&](const Step& step) {
-    return (step.kind == Step::Kind::Pick || step.kind == Step::Kind::Drop) && step.what == open.order.id;
-  };
-  return std::ranges::any_of(tasks_[open.agv].goals, is_part, &Goal::step) ||
-         std::ranges::any_of(book_.way(open.agv).steps, is_part);
+bool FleetPlanner::is_under_way(std::uint32_t order, std::uint32_t agv) const {
+  const auto is_part = [&](const Step& step) { return !step.drives() && !step.charges() && step.what == order; };
+  return std::ranges::any_of(tasks_[agv].goals, is_part, &Goal::step) ||
+         std::ranges::any_of(book_.way(agv).steps, is_part);
 }
 
-std::uint32_t FleetPlanner::quickest_free_agv(std::uint32_t station) const {
-  std::uint32_t best = FP_NONE;
-  double best_s = INFINITY;
-  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
-    const Task& task = tasks_[agv];
-    const FloorBook::Way& way = book_.way(agv);
-    const bool delivers = task.goals.size() == 1 && task.goals.front().step.kind == Step::Kind::Drop;
-    if (task.charging || way.out_of_order || settings_.is_low(way.battery) || !(task.is_idle() || delivers)) continue;
-    const auto cost_s = [&](std::uint32_t from, std::uint32_t to) {
-      return double{remaining_costs_s(geometry_.parts(), model_of_[agv]->number, to)[from]};
-    };
-    const std::uint32_t end = book_.end_of_way(agv).station, last = delivers ? task.goals.front().station : end;
-    const double delivery_s = delivers ? cost_s(end, last) + kTransferTakes_s : 0.0;
-    const double takes_s = time_left_s(agv) + delivery_s + cost_s(last, station);
-    if (takes_s < best_s) best = agv, best_s = takes_s;
-  }
-  return best;
-}
-
-bool FleetPlanner::carries_load(std::uint32_t agv) const {
-  const auto& goals = tasks_[agv].goals;
-  const auto next = std::ranges::find_if(goals, [](const Goal& goal) { return goal.step.kind != Step::Kind::Charge; });
-  return next != goals.end() && next->step.kind == Step::Kind::Drop;
+bool FleetPlanner::is_free(std::uint32_t agv) const {
+  const Task& task = tasks_[agv];
+  const FloorBook::Way& way = book_.way(agv);
+  const bool delivers = task.goals.size() == 1 && task.carries_load();
+  return (task.is_idle() || delivers) && !task.charging && !way.out_of_order && !settings_.is_low(way.battery);
 }
 
 // Those that do not wait are younger than all others.
 bool FleetPlanner::is_older(std::uint32_t a, std::uint32_t b) const {
-  const auto age = [&](std::uint32_t agv) {
-    const Task& task = tasks_[agv];
-    return std::tuple(task.since_ns < 0, task.since_ns, agv);
-  };
+  const auto age = [&](std::uint32_t agv) { return std::tuple(tasks_[agv].since_ns < 0, tasks_[agv].since_ns, agv); };
   return age(a) < age(b);
 }
 
 std::vector<std::uint32_t> FleetPlanner::by_age() const {
-  std::vector<std::uint32_t> agvs;
-  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) agvs.push_back(agv);
+  std::vector<std::uint32_t> agvs(book_.agvs().begin(), book_.agvs().end());
   std::ranges::sort(agvs, [&](std::uint32_t a, std::uint32_t b) { return is_older(a, b); });
   return agvs;
 }
@@ -213,7 +175,6 @@ void FleetPlanner::plan_for(std::uint32_t agv) {
   Task& task = tasks_[agv];
   if (book_.way(agv).out_of_order || is_passing(agv) || time_left_s(agv) > kLead_s) return;
   look_at_battery(agv);
-  if (task.charging) return;
   transfer_here(agv);
   if (task.charging) return;
   if (task.is_idle() && (!book_.way(agv).is_waiting() || places_.is_safe(book_.end_of_way(agv).station))) return;
@@ -230,31 +191,33 @@ void FleetPlanner::plan_for(std::uint32_t agv) {
 
 void FleetPlanner::transfer_here(std::uint32_t agv) {
   Task& task = tasks_[agv];
-  while (!task.goals.empty()) {
+  while (!task.charging && !task.is_idle()) {
     const Path here = book_.end_of_way(agv);
     const Goal goal = task.goals.front();
     if (goal.station != here.station || !map_.may_stay(here.station, here.heading)) return;
     if (!book_.grant(agv, {&goal.step, 1})) return;
-    task.goals.pop_front();
-    task.since_ns = -1;
-    task.wanted.reset();
-    task.charging = goal.step.kind == Step::Kind::Charge;
-    if (task.charging) return;
+    note_grant(agv, 1);
+    task.charging = goal.step.charges();
   }
 }
 
 void FleetPlanner::look_at_battery(std::uint32_t agv) {
-  if (!has_chargers_) return;
   Task& task = tasks_[agv];
   const double level = book_.way(agv).battery;
   if (level >= settings_.charge_to) task.charging = false;
-  if (task.charging || !settings_.is_low(level)) return;
-  if (!task.goals.empty() && task.goals.front().step.kind == Step::Kind::Charge) return;
-  const bool loaded = carries_load(agv), urgent = settings_.is_urgent(level, loaded);
+  if (task.charging || !settings_.is_low(level) || task.goes_to_charger() || !map_.has_chargers()) return;
+  const bool loaded = task.carries_load(), urgent = settings_.is_urgent(level, loaded);
   if (loaded && !urgent) return;
-  const std::uint32_t charger = free_charger(agv, urgent);
+  const auto is_taken = [&](std::uint32_t station) {
+    return std::ranges::any_of(book_.agvs(), [&](std::uint32_t other) {
+      const bool goes_there = tasks_[other].goes_to_charger() && tasks_[other].goals.front().station == station;
+      return other != agv && (goes_there || geometry_.turn_conflict(agv, station, other, book_.end_of_way(other)));
+    });
+  };
+  price(agv, loaded);
+  const std::uint32_t charger = routes_.charger(agv, book_.end_of_way(agv), places_, urgent, is_taken);
   if (charger == FP_NONE) return;
-  task.goals.push_front({charger, {Step::Kind::Charge, FP_NONE}});
+  task.goals.insert(task.goals.begin(), {charger, {Step::Kind::Charge, FP_NONE}});
   task.wanted.reset();
 }
 
@@ -276,37 +239,33 @@ double FleetPlanner::time_left_s(std::uint32_t agv) const {
   return sum_s;
 }
 
-// ---- ways
-
-void FleetPlanner::price(Model& model, std::uint32_t agv, bool loaded) {
-  model.prices.begin(loaded);
-  for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
-    if (other == agv) continue;
-    const FloorBook::Way& way = book_.way(other);
-    const Task& task = tasks_[other];
-    model.prices.price_station(book_.end_of_way(other).station, way.out_of_order    ? kWallPrice_s
-                                                                : !way.is_waiting() ? kMovingPrice_s
-                                                                                    : 0.0);
-    model.prices.price_meetings(way.held);
-    if (task.wanted) model.prices.price_meetings(task.wanted->path);
-  }
+double FleetPlanner::waits_s(std::uint32_t agv) const {
+  return tasks_[agv].since_ns < 0 ? 0.0 : seconds(now_ns_ - tasks_[agv].since_ns);
 }
 
-void FleetPlanner::search(Model& model, const Path& from, std::uint32_t goal) {
-  const auto remains_s = remaining_costs_s(geometry_.parts(), model.number, goal);
-  model.routes.search_towards(goal, remains_s, from.station, from.heading, model.prices.costs_s());
+// ---- ways
+
+void FleetPlanner::price(std::uint32_t agv, bool loaded) {
+  LanePrices& prices = routes_.prices(agv);
+  prices.begin(loaded);
+  for (const std::uint32_t other : book_.agvs()) {
+    if (other == agv) continue;
+    const FloorBook::Way& way = book_.way(other);
+    const double price_s = way.out_of_order ? kWallPrice_s : way.is_waiting() ? 0.0 : kMovingPrice_s;
+    prices.price_station(book_.end_of_way(other).station, price_s);
+    prices.price_meetings(way.held);
+    if (tasks_[other].wanted) prices.price_meetings(tasks_[other].wanted->path);
+  }
 }
 
 // How much an AGV that stands there blocks. Two AGVs so near to each other that none of them can turn may stay for
 // ever.
 std::uint32_t FleetPlanner::burden_at(std::uint32_t agv, const Path& standing) {
   const std::uint32_t burden = places_.burden(standing.station);
-  if (burden != 0) return burden;
-  for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
-    if (other != agv && geometry_.turns_conflict(agv, standing.station, other, book_.end_of_way(other).station))
-      return kCrowdedBurden;
-  }
-  return 0;
+  const auto crowds = [&](std::uint32_t other) {
+    return other != agv && geometry_.turns_conflict(agv, standing.station, other, book_.end_of_way(other).station);
+  };
+  return burden == 0 && std::ranges::any_of(book_.agvs(), crowds) ? kCrowdedBurden : burden;
 }
 
 // A section that grows lane by lane.
@@ -324,22 +283,18 @@ struct FleetPlanner::Walk {
   Path end() const { return end_of(planner.map_, section.path); }
   bool is_done() const { return !section.ends.empty() && (length_m >= kSection_m || here.goals > 0); }
 
-  // False if the walk is done, or has no room for this lane.
-  bool drive(std::uint32_t lane) {
-    const double lane_m = planner.map_.lane(lane).length_m;
-    if (planner.book_.way(agv).held.count + here.lanes >= kPathLanesMax) return false;
-    if ((here.lanes > 0 && length_m + lane_m > kMostOfASection_m) || !section.path.append(lane)) return false;
-    length_m += lane_m;
-    section.steps.push_back({Step::Kind::Drive, lane});
-    ++here.lanes;
-    note_end();
-    return true;
-  }
-
-  // False if the walk ends before the end of these lanes.
+  // False if the walk ends before the end of these lanes: it is done, or has no room for the next one.
   bool follow(std::span<const std::uint32_t> lanes) {
+    const std::uint32_t held = planner.book_.way(agv).held.count;
     for (std::size_t i = 0; i < lanes.size(); ++i) {
-      if (!drive(lanes[i]) || (i + 1 < lanes.size() && is_done())) return false;
+      const double longer_m = length_m + planner.map_.lane(lanes[i]).length_m;
+      const bool is_full = held + here.lanes >= kPathLanesMax || (here.lanes > 0 && longer_m > kMostOfASection_m);
+      if (is_full || (i > 0 && is_done())) return false;
+      length_m = longer_m;
+      section.path.append(lanes[i]);
+      section.steps.push_back({Step::Kind::Drive, lanes[i]});
+      ++here.lanes;
+      note_end();
     }
     return !lanes.empty();
   }
@@ -369,74 +324,34 @@ struct FleetPlanner::Walk {
 
 // To the first goal and on to a waiting place, or to a waiting place on the way.
 Section FleetPlanner::towards_goals(std::uint32_t agv) {
-  Model& model = *model_of_[agv];
-  bool loaded = carries_load(agv);
-  price(model, agv, loaded);
+  const Task& task = tasks_[agv];
+  bool loaded = task.carries_load();
+  price(agv, loaded);
   Walk walk(*this, agv);
-  const auto& goals = tasks_[agv].goals;
-  walk.ends_anywhere =
-      !options_.ways_to_chargers_are_whole && !goals.empty() && goals.front().step.kind == Step::Kind::Charge;
-  for (const Goal& goal : goals) {
+  walk.ends_anywhere = !options_.ways_to_chargers_are_whole && task.goes_to_charger();
+  for (const Goal& goal : task.goals) {
     const Path here = walk.end();
-    if (here.station != goal.station || !map_.may_stay(here.station, here.heading)) {
-      search(model, here, goal.station);
-      if (!walk.follow(model.routes.lanes(goal.station))) return walk.take();
-    }
+    const bool is_there = here.station == goal.station && map_.may_stay(here.station, here.heading);
+    if (!is_there && !walk.follow(routes_.way(agv, here, goal.station))) return walk.take();
     walk.transfer(goal);
-    if (goal.step.kind == Step::Kind::Charge && !walk.ends_anywhere) {  // it stays there, and nothing is behind it
+    if (goal.step.charges() && !walk.ends_anywhere) {  // it stays there, and nothing is behind it
       walk.section.ends.assign(1, walk.here);
       return walk.take();
     }
     if (walk.is_done()) return walk.take();
     const bool now_loaded = goal.step.kind == Step::Kind::Pick;
-    if (model.rules.any() && now_loaded != loaded) price(model, agv, now_loaded);
+    if (routes_.rules(agv).any() && now_loaded != loaded) price(agv, now_loaded);
     loaded = now_loaded;
   }
-  const std::uint32_t place = waiting_place(agv, walk.end());
-  if (place != FP_NONE) walk.follow(model.routes.lanes(place));
+  // To the nearest one at which no other AGV is or will be.
+  const Path from = walk.end();
+  walk.follow(routes_.way_to_first(agv, from, [&](std::uint32_t station) {
+    return station != from.station && places_.is_safe(station) &&
+           std::ranges::none_of(book_.agvs(), [&](std::uint32_t other) {
+             return other != agv && geometry_.turn_conflict(agv, station, other, book_.way(other).held);
+           });
+  }));
   return walk.take();
-}
-
-// The nearest one at which no other AGV is or will be. Afterwards, the way there may be asked for.
-std::uint32_t FleetPlanner::waiting_place(std::uint32_t agv, const Path& from) {
-  Model& model = *model_of_[agv];
-  std::uint32_t found = FP_NONE;
-  const auto look_at = [&](std::uint32_t station, double) {
-    if (station == from.station || !places_.is_safe(station)) return false;
-    for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
-      if (other != agv && geometry_.turn_conflict(agv, station, other, book_.way(other).held)) return false;
-    }
-    found = station;
-    return true;
-  };
-  model.routes.search_until(look_at, from.station, from.heading, model.prices.costs_s());
-  return found;
-}
-
-std::uint32_t FleetPlanner::free_charger(std::uint32_t agv, bool urgent) {
-  Model& model = *model_of_[agv];
-  const Path standing = book_.end_of_way(agv);
-  price(model, agv, carries_load(agv));
-  model.routes.search(standing.station, standing.heading, model.prices.costs_s());
-  const auto is_taken = [&](std::uint32_t station) {
-    for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
-      if (other == agv) continue;
-      const auto& goals = tasks_[other].goals;
-      const bool goes_there =
-          !goals.empty() && goals.front().step.kind == Step::Kind::Charge && goals.front().station == station;
-      if (goes_there || geometry_.turn_conflict(agv, station, other, book_.end_of_way(other))) return true;
-    }
-    return false;
-  };
-  std::uint32_t best = FP_NONE;
-  double best_s = urgent ? 2.0 * kWallPrice_s : kWallPrice_s;
-  for (std::uint32_t station = 0; station < map_.station_count(); ++station) {
-    if ((map_.station(station).purposes & FP_CHARGING) == 0 || model.routes.cost_s(station) >= best_s) continue;
-    const double cost_s = model.routes.cost_s(station) + (places_.is_safe(station) ? 0.0 : kUnsafeChargerPrice_s) +
-                          (is_taken(station) ? kWallPrice_s : 0.0);
-    if (cost_s < best_s) best = station, best_s = cost_s;
-  }
-  return best;
 }
 
 // ---- granting
@@ -452,35 +367,34 @@ bool FleetPlanner::extend(std::uint32_t agv, const Section& section) {
     if (end.lanes <= free && !is_stuck(map_, geometry_, fleet, agv)) best = &end;
   }
   if (best == nullptr || !book_.grant(agv, std::span(section.steps).first(best->steps))) return false;
-  Task& task = tasks_[agv];
-  task.charging = section.steps[best->steps - 1].kind == Step::Kind::Charge;
-  task.goals.erase(task.goals.begin(), task.goals.begin() + best->goals);
-  if (best->goals > 0) task.since_ns = -1;
-  task.wanted.reset();
-  task.in_vain = 0;
+  tasks_[agv].charging = section.steps[best->steps - 1].charges();
+  tasks_[agv].in_vain = 0;
+  note_grant(agv, best->goals);
   return true;
+}
+
+// So many of its goals are among the granted steps.
+void FleetPlanner::note_grant(std::uint32_t agv, std::uint32_t goals) {
+  Task& task = tasks_[agv];
+  task.goals.erase(task.goals.begin(), task.goals.begin() + goals);
+  if (goals > 0) task.since_ns = -1;
+  task.wanted.reset();
 }
 
 std::uint32_t FleetPlanner::free_lanes(std::uint32_t agv, const Path& path) {
   Path part = path;
   const auto shorten = [&](std::uint32_t other, const Path& of_other) {
-    if (other == agv || part.empty() || !book_.holds_floor(other) || !geometry_.conflict(agv, part, other, of_other))
-      return;
-    std::uint32_t free = 0, taken = part.count;
-    while (free + 1 < taken) {
-      part.count = (free + taken) / 2;
-      (geometry_.conflict(agv, part, other, of_other) ? taken : free) = part.count;
-    }
-    part.count = free;
+    if (other != agv && !part.empty() && book_.holds_floor(other))
+      part.count = geometry_.clear_lanes(agv, part, other, of_other);
   };
   for (const AgvPath& need : reserved_) shorten(need.agv, need.path);
-  for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) shorten(other, book_.way(other).held);
+  for (const std::uint32_t other : book_.agvs()) shorten(other, book_.way(other).held);
   return part.count;
 }
 
 bool FleetPlanner::is_still_obstructed(std::uint32_t agv) const {
   const Obstruction& known = tasks_[agv].obstruction;
-  return known.by != FP_NONE && book_.way(known.by).changes == known.changes &&
+  return known.by != FP_NONE && book_.way(known.by).change == known.change &&
          seconds(now_ns_ - known.seen_ns) < kLookAgain_s;
 }
 
@@ -493,23 +407,22 @@ void FleetPlanner::wait(std::uint32_t agv) {
     // If nothing is in the way, it would be stuck at each end of the section.
     bool passes = free_lanes(agv, need.path) == need.path.count;
     task.obstruction = {};
-    for (std::uint32_t other = 0; other < book_.fleet_count(); ++other) {
+    for (const std::uint32_t other : book_.agvs()) {
       if (!book_.is_held_by(other, agv, need.path)) continue;
       const FloorBook::Way& way = book_.way(other);
       const bool lasts = task.obstruction.lasts || way.is_waiting() || way.out_of_order;
-      task.obstruction = {other, way.changes, now_ns_, lasts};
+      task.obstruction = {other, way.change, now_ns_, lasts};
       passes = passes || makes_way(other, agv);
     }
     if (passes && book_.way(agv).is_waiting() && now_ns_ >= task.passes_ns) pass(agv);
   }
-  if (!task.obstruction.lasts && task.since_ns >= 0 && seconds(now_ns_ - task.since_ns) > kKeepsFreeAfter_s)
-    reserved_.push_back(need);
+  if (!task.obstruction.lasts && waits_s(agv) > kKeepsFreeAfter_s) reserved_.push_back(need);
 }
 
 // ---- passing
 
 bool FleetPlanner::is_passing(std::uint32_t agv) const {
-  return std::ranges::any_of(passings_, [&](const Passing& passing) { return contains(passing.agvs, agv); });
+  return std::ranges::any_of(passings_, [&](const Passing& passing) { return takes_part(passing, agv); });
 }
 
 // An AGV makes way if it stands and has no work, or has waited and is younger. After a while, older ones do, too.
@@ -519,18 +432,17 @@ bool FleetPlanner::makes_way(std::uint32_t agv, std::uint32_t leader) const {
   if (!way.is_waiting() || way.out_of_order || is_passing(agv)) return false;
   if (task.charging && !settings_.is_enough(way.battery)) return false;
   if (task.is_idle()) return true;
-  if (!options_.ways_to_chargers_are_whole && task.goals.front().step.kind == Step::Kind::Charge) return false;
-  const bool insists = seconds(now_ns_ - tasks_[leader].since_ns) > kInsists_s;
-  return task.since_ns >= 0 && seconds(now_ns_ - task.since_ns) >= kYields_s && (insists || is_older(leader, agv));
+  if (!options_.ways_to_chargers_are_whole && task.goes_to_charger()) return false;
+  return waits_s(agv) >= kYields_s && (waits_s(leader) > kInsists_s || is_older(leader, agv));
 }
 
 // All AGVs, as this one sees them when it looks for a way past the others.
 std::vector<Standing> FleetPlanner::standing_fleet(std::uint32_t leader) const {
   std::vector<Standing> fleet;
-  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
+  for (const std::uint32_t agv : book_.agvs()) {
     const FloorBook::Way& way = book_.way(agv);
-    fleet.push_back({agv, way.out_of_order ? way.held : book_.end_of_way(agv), &model_of_[agv]->rules,
-                     lane_costs_s(geometry_.parts(), agv), carries_load(agv), makes_way(agv, leader)});
+    fleet.push_back({agv, way.out_of_order ? way.held : book_.end_of_way(agv), &routes_.rules(agv),
+                     lane_costs_s(geometry_.parts(), agv), tasks_[agv].carries_load(), makes_way(agv, leader)});
   }
   return fleet;
 }
@@ -553,38 +465,28 @@ void FleetPlanner::pass(std::uint32_t leader) {
   carry_out(passings_.emplace_back(UnderWay{{std::move(passing)}}));
 }
 
-// Grants moves of it as soon as they keep clear of all earlier ones that still have to wait.
+// Grants moves of it, if the floor has changed.
 void FleetPlanner::carry_out(UnderWay& passing) {
-  std::uint32_t changes = 0;
-  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) changes += book_.way(agv).changes;
-  std::vector<AgvPath> later;
-  if (changes != passing.changes) {
-    for (const AgvPath& move : passing.moves) {
-      const bool is_next = std::ranges::none_of(later, [&](const AgvPath& before) {
-        return before.agv == move.agv || geometry_.conflict(move.agv, move.path, before.agv, before.path);
-      });
-      const Step step{Step::Kind::Drive, move.path.lanes().front()};
-      if (!is_next || !book_.grant(move.agv, {&step, 1})) later.push_back(move);
-    }
-    if (later.size() < passing.moves.size()) passing.granted_ns = now_ns_;
-    passing.moves = std::move(later);
-    passing.changes = changes;
+  const auto grant = [&](const AgvPath& move) {
+    const Step step{Step::Kind::Drive, move.path.lanes().front()};
+    return book_.grant(move.agv, {&step, 1});
+  };
+  if (passing.changes != book_.changes()) {
+    passing.changes = book_.changes();
+    if (agents::carry_out(passing.moves, geometry_, grant)) passing.granted_ns = now_ns_;
   }
   reserved_.insert(reserved_.end(), passing.moves.begin(), passing.moves.end());
 }
 
 // Done, or not to be done any more: one of them is out of order, or an AGV stands in the way that did not before.
-bool FleetPlanner::is_over(const UnderWay& passing) {
+bool FleetPlanner::is_over(const UnderWay& passing) const {
   if (passing.moves.empty() || seconds(now_ns_ - passing.granted_ns) > kGivesUp_s) return true;
   const AgvPath& next = passing.moves.front();
-  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
+  return std::ranges::any_of(book_.agvs(), [&](std::uint32_t agv) {
     const FloorBook::Way& way = book_.way(agv);
-    if (contains(passing.agvs, agv)
-            ? way.out_of_order
-            : (way.is_waiting() || way.out_of_order) && book_.is_held_by(agv, next.agv, next.path))
-      return true;
-  }
-  return false;
+    if (takes_part(passing, agv)) return way.out_of_order;
+    return (way.is_waiting() || way.out_of_order) && book_.is_held_by(agv, next.agv, next.path);
+  });
 }
 
 }  // namespace fleetproof::agents::central

@@ -2,22 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <map>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/agents/central/floor_book.hpp"
 #include "core/agents/central/messages.hpp"
-#include "core/agents/central/zone_options.hpp"
-#include "core/agents/drive_rules.hpp"
+#include "core/agents/central/programs.hpp"
+#include "core/agents/fleet_routes.hpp"
 #include "core/agents/hull.hpp"
 #include "core/agents/joint_search.hpp"
-#include "core/agents/lane_prices.hpp"
 #include "core/agents/map_view.hpp"
-#include "core/agents/routes.hpp"
+#include "core/agents/open_orders.hpp"
 #include "core/agents/settings.hpp"
 #include "core/agents/waiting_places.hpp"
 
@@ -43,22 +39,14 @@ struct Section {
 // An AGV that holds floor of what another one needs: while its book does not change, nothing has to be worked out
 // again.
 struct Obstruction {
-  std::uint32_t by = FP_NONE, changes = 0;
+  std::uint32_t by = FP_NONE, change = 0;
   std::int64_t seen_ns = 0;
   bool lasts = false;  // one of those in the way stands and waits, or is out of order
 };
 
-struct OpenOrder {
-  Order order;
-  std::uint32_t agv = FP_NONE;  // the one that is to carry it out
-};
-
-// The work of one AGV.
-struct Task {
-  std::deque<Goal> goals;         // that nothing was granted for
-  std::uint32_t orders = 0;       // of its present way, so many are known
+// The work of one AGV, and how it gets on with it.
+struct Task : Work {
   std::int64_t since_ns = -1;     // since when it has wanted to reach its next goal; below 0: it does not wait
-  bool charging = false;          // it is at a charger, or on the last steps to one
   bool cancelling = false;        // of a faulty server: the AGV has not answered a cancel yet
   std::optional<Section> wanted;  // what it needs next, while it cannot get that
   std::int64_t planned_ns = 0;    // when that was found
@@ -66,6 +54,10 @@ struct Task {
   std::int64_t passes_ns = 0;     // before then, it does not look again for a way past others
   int in_vain = 0;                // it has looked so often
   bool is_idle() const { return goals.empty(); }
+  bool goes_to_charger() const { return !goals.empty() && goals.front().step.charges(); }
+  bool carries_load() const;
+  bool has_to(Step::Kind kind, std::uint32_t order) const;
+  void take_order(const Order& order, bool on_board);
 };
 
 // A passing that is carried out: its moves that were not granted yet. Nobody else gets floor of them, and its AGVs get
@@ -84,12 +76,14 @@ class FleetPlanner {
 
   // The AGV has begun a way: nothing is known of its work.
   void begin(std::uint32_t agv);
-  // Orders of this AGV, by its own numbers from `first` on. Known ones may be among them.
-  void take_orders(std::uint32_t agv, std::uint32_t first, std::span<const Order> orders);
-  std::uint32_t orders_of(std::uint32_t agv) const { return tasks_[agv].orders; }
-  // The work of an AGV, on the disk of the server and back.
-  void put_work(std::uint32_t agv, AgvRecord& record) const;
-  void recall(std::uint32_t agv, const AgvRecord& record);
+  // Orders of this AGV, by its own numbers from `first` on. Known ones may be among them. True if one was not known.
+  bool take_orders(std::uint32_t agv, std::uint32_t first, std::span<const Order> orders);
+  // The work of an AGV: on the disk of the server and back.
+  const Work& work(std::uint32_t agv) const { return tasks_[agv]; }
+  void recall(std::uint32_t agv, const AgvRecord& record) {
+    static_cast<Work&>(tasks_[agv]) = record.work;
+    tasks_[agv].orders = record.grant.orders;
+  }
   // Open orders: of no AGV; the planner chooses one. Withdrawn: over, unless its pick has been granted already.
   void take_open_order(const Order& order);
   void withdraw(std::uint32_t order);
@@ -100,35 +94,25 @@ class FleetPlanner {
   void plan(std::int64_t now_ns);
 
  private:
-  // What depends on the kind of vehicle.
-  struct Model {
-    Model(const MapView& map, const HullGeometry& geometry, std::uint32_t agv, std::uint32_t number);
-    DriveRules rules;
-    Routes routes;
-    LanePrices prices;
-    std::uint32_t number;
-  };
   struct Walk;
 
   void assign_open_orders();
-  bool is_under_way(const OpenOrder& open) const;
-  std::uint32_t quickest_free_agv(std::uint32_t station) const;
+  bool is_under_way(std::uint32_t order, std::uint32_t agv) const;
+  bool is_free(std::uint32_t agv) const;
   std::vector<std::uint32_t> by_age() const;
   bool is_older(std::uint32_t a, std::uint32_t b) const;
   void plan_for(std::uint32_t agv);
   void transfer_here(std::uint32_t agv);
   void look_at_battery(std::uint32_t agv);
   double time_left_s(std::uint32_t agv) const;
-  bool carries_load(std::uint32_t agv) const;
+  double waits_s(std::uint32_t agv) const;
 
   Section towards_goals(std::uint32_t agv);
   std::uint32_t burden_at(std::uint32_t agv, const Path& standing);
-  std::uint32_t waiting_place(std::uint32_t agv, const Path& from);
-  std::uint32_t free_charger(std::uint32_t agv, bool urgent);
-  void search(Model& model, const Path& from, std::uint32_t goal);
-  void price(Model& model, std::uint32_t agv, bool loaded);
+  void price(std::uint32_t agv, bool loaded);
 
   bool extend(std::uint32_t agv, const Section& section);
+  void note_grant(std::uint32_t agv, std::uint32_t goals);
   std::uint32_t free_lanes(std::uint32_t agv, const Path& path);
   bool is_still_obstructed(std::uint32_t agv) const;
   void wait(std::uint32_t agv);
@@ -137,7 +121,7 @@ class FleetPlanner {
   void pass(std::uint32_t leader);
   std::vector<Standing> standing_fleet(std::uint32_t leader) const;
   void carry_out(UnderWay& passing);
-  bool is_over(const UnderWay& passing);
+  bool is_over(const UnderWay& passing) const;
 
   const MapView& map_;
   HullGeometry& geometry_;
@@ -145,11 +129,9 @@ class FleetPlanner {
   const Settings& settings_;
   ServerOptions options_;
   WaitingPlaces places_;
-  bool has_chargers_;
-  std::map<std::uint32_t, std::unique_ptr<Model>> models_;
-  std::vector<Model*> model_of_;  // by AGV
-  std::vector<Task> tasks_;       // by AGV
-  std::vector<OpenOrder> open_;   // not done, the oldest first
+  FleetRoutes routes_;
+  std::vector<Task> tasks_;      // by AGV
+  std::vector<OpenOrder> open_;  // not done, the oldest first
   std::vector<UnderWay> passings_;
   // Of the present call.
   std::int64_t now_ns_ = 0;

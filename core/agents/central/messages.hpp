@@ -1,12 +1,13 @@
 // What a follower and its zone-server tell each other, and what the server keeps on its disk of each follower.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <vector>
 
+#include "core/agents/byte_fields.hpp"
+#include "core/agents/open_orders.hpp"
 #include "core/agents/shapes.hpp"
 #include "core/sdk/fleetproof/agent.h"
 
@@ -18,37 +19,19 @@ struct Step {
   Kind kind = Kind::Drive;
   std::uint32_t what = FP_NONE;  // Drive: the lane; Pick and Drop: the order
   bool drives() const { return kind == Kind::Drive; }
+  bool charges() const { return kind == Kind::Charge; }
   friend bool operator==(const Step&, const Step&) = default;
-};
-constexpr const char* name_of(Step::Kind kind) {
-  switch (kind) {
-    case Step::Kind::Drive:
-      return "driving";
-    case Step::Kind::Pick:
-      return "picking";
-    case Step::Kind::Drop:
-      return "dropping";
-    case Step::Kind::Charge:
-      return "connecting to a charger";
+  void fields(auto& io) {
+    io(kind, what);
+    io.require(kind <= Kind::Charge);
   }
-  return "?";
-}
+};
 
 // Which way a message is about: an AGV begins one at rest, for one boot of the server and of its own computer.
 struct WayNumber {
   std::uint32_t server_boot = 0, agv_boot = 0;
   friend bool operator==(const WayNumber&, const WayNumber&) = default;
-};
-
-struct Order {
-  std::uint32_t id = FP_NONE, from = FP_NONE, to = FP_NONE;  // stations
-  friend bool operator==(const Order&, const Order&) = default;
-};
-
-// A station to go to, and what to do there.
-struct Goal {
-  std::uint32_t station = FP_NONE;
-  Step step;
+  void fields(auto& io) { io(server_boot, agv_boot); }
 };
 
 // From a follower. All numbers of steps and orders count from the beginning of its way.
@@ -66,6 +49,13 @@ struct State {
   bool has_work = false;          // as the newest Grant says
   std::uint32_t first_order = 0;  // the number of the first of these
   std::vector<Order> orders;      // that the server may not have
+  void fields(auto& io) {
+    constexpr double kRounding = 1e-9;
+    io.mark(0xB1);
+    io(way, stands, station, heading.x, heading.y, load, known, done);
+    io(number, battery, out_of_order, has_work, first_order, orders);
+    io.require(std::abs(length(heading) - 1.0) < kRounding && done <= known);
+  }
 };
 
 // From the server. Without steps, it says which boot of the server is the present one, and what has arrived.
@@ -75,25 +65,39 @@ struct Grant {
   std::vector<Step> steps;
   std::uint32_t orders = 0;  // the server has so many orders of this way
   bool has_work = false;     // an open order is for this AGV
+  void fields(auto& io) {
+    io.mark(0xB2);
+    io(way, first, steps, orders, has_work);
+  }
+};
+
+// A station to go to, and what to do there.
+struct Goal {
+  std::uint32_t station = FP_NONE;
+  Step step;
+  void fields(auto& io) { io(station, step); }
+};
+
+// What an AGV is to do.
+struct Work {
+  std::vector<Goal> goals;   // that nothing was granted for
+  std::uint32_t orders = 0;  // of its present way, so many are known
+  bool charging = false;     // it is at a charger, or on the last steps to one
 };
 
 // All that the server has told an AGV, and that is not done.
 struct AgvRecord {
   State state;  // as if the AGV had begun its way where the path begins that the book has for it
   Grant grant;  // all steps from there
-  std::vector<Goal> goals;
-  bool charging = false;
+  Work work;    // how many orders are known, the grant says
+  std::uint32_t era() const { return state.way.server_boot; }
+  void fields(auto& io) {
+    io.mark(0xB3);
+    io(state, grant, work.goals, work.charging);
+  }
 };
 
 // No message is longer than FP_MESSAGE_BYTES_MAX.
 inline constexpr std::size_t kMostOrdersInAMessage = 48, kMostStepsInAMessage = 120;
-
-std::vector<std::byte> encode(const State& state);
-std::vector<std::byte> encode(const Grant& grant);
-std::vector<std::byte> encode(const AgvRecord& record);
-// The message, if the bytes are exactly one. The caller must check that stations and lanes exist on its map.
-std::optional<State> decode_state(std::span<const std::byte> bytes);
-std::optional<Grant> decode_grant(std::span<const std::byte> bytes);
-std::optional<AgvRecord> decode_record(std::span<const std::byte> bytes);
 
 }  // namespace fleetproof::agents::central

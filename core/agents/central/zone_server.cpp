@@ -1,168 +1,201 @@
-#include "core/agents/central/zone_server.hpp"
-
+// The program of the computer of a central fleet: it plans for all followers and grants each its next steps. It keeps
+// the book of the floor (floor_book.hpp), and repeats what an AGV does not seem to have.
 #include <algorithm>
 #include <string>
+#include <utility>
 
-#include "core/agents/agent_type.hpp"
-#include "core/agents/central/roles.hpp"
+#include "core/agents/central/fleet_planner.hpp"
+#include "core/agents/central/floor_book.hpp"
+#include "core/agents/central/messages.hpp"
+#include "core/agents/central/programs.hpp"
+#include "core/agents/controller.hpp"
+#include "core/agents/disk_table.hpp"
+#include "core/agents/facts.hpp"
+#include "core/agents/hull.hpp"
+#include "core/agents/map_view.hpp"
+#include "core/agents/settings.hpp"
 
 namespace fleetproof::agents::central {
+namespace {
 
-ZoneServer::ZoneServer(const fp_host& host, fp_controller* handle, const fp_briefing& briefing,
-                       const ServerOptions& options)
-    : options_(options),
-      controller_(host, handle, briefing.boot),
-      settings_(read_settings(briefing.config)),
-      facts_(briefing),
-      map_(facts_.shared()),
-      geometry_(map_, briefing),
-      disk_(controller_, map_, briefing.fleet_count, briefing.boot),
-      book_(map_, geometry_, briefing.fleet_count, briefing.boot, options),
-      planner_(map_, geometry_, book_, settings_, options),
-      declared_(briefing.fleet_count),
-      kept_(briefing.fleet_count),
-      owes_(briefing.fleet_count, briefing.boot > 0),
-      told_(briefing.fleet_count),
-      heard_ns_(briefing.fleet_count, controller_.now_ns()) {
-  if (briefing.boot == 0) return;
-  const std::vector<AgvRecord> records = disk_.recall();
-  controller_.sometimes("restarted");
-  if (!records.empty()) controller_.sometimes("recalled");
-  book_.recall(records);
-  for (std::uint32_t agv = 0; agv < records.size(); ++agv) {
-    planner_.recall(agv, records[agv]);
-    kept_[agv] = kept_now(agv);
+class ZoneServer : public Program {
+ public:
+  ZoneServer(const fp_host& host, fp_controller* handle, const fp_briefing& briefing, const ServerOptions& options)
+      : options_(options),
+        controller_(host, handle, briefing.boot),
+        settings_(read_settings(briefing.config)),
+        facts_(briefing),
+        map_(facts_.shared()),
+        geometry_(map_, briefing),
+        disk_(controller_, {briefing.fleet_count, map_.station_count(), map_.lane_count()}, briefing.fleet_count,
+              briefing.boot),
+        book_(map_, geometry_, briefing.fleet_count, briefing.boot, options),
+        planner_(map_, geometry_, book_, settings_, options),
+        told_(briefing.fleet_count, Told{.owes = briefing.boot > 0, .heard_ns = controller_.now_ns()}) {
+    if (briefing.boot == 0) return;
+    controller_.sometimes("restarted");
+    const auto records = disk_.recall<AgvRecord>();
+    if (!records.empty()) controller_.sometimes("recalled");
+    for (std::uint32_t agv = 0; agv < records.size(); ++agv) {
+      book_.recall(agv, records[agv]);
+      planner_.recall(agv, records[agv]);
+      told_[agv].kept = mark_of(agv);
+    }
   }
-}
 
-void ZoneServer::on_event(const fp_event& event) {
-  controller_.set_clock(event.now_ns);
-  if (event.kind == FP_EVENT_MESSAGE) {
-    bool news = false;
-    controller_.drain_inbox(
-        [&](std::uint32_t sender, std::span<const std::byte> bytes) { news = hear(sender, bytes) || news; });
-    if (news) plan();
+  void on_event(const fp_event& event) override {
+    controller_.set_clock(event.now_ns);
+    if (event.kind == FP_EVENT_MESSAGE) {
+      bool news = false;
+      controller_.drain_inbox(
+          [&](std::uint32_t sender, std::span<const std::byte> bytes) { news = hear(sender, bytes) || news; });
+      if (news) plan();
+    }
+    // An order of no AGV comes to the server; after a restart again, until it is done.
+    if (event.kind == FP_EVENT_WITHDRAWN) planner_.withdraw(event.order_id);
+    if (event.kind == FP_EVENT_ORDER) planner_.take_open_order({event.order_id, event.from, event.to});
+    if (event.kind == FP_EVENT_START || event.kind == FP_EVENT_TIMER) tick();
   }
-  // An order of no AGV comes to the server; after a restart again, until it is done.
-  if (event.kind == FP_EVENT_WITHDRAWN) planner_.withdraw(event.order_id);
-  if (event.kind == FP_EVENT_ORDER) planner_.take_open_order({event.order_id, event.from, event.to});
-  if (event.kind == FP_EVENT_START || event.kind == FP_EVENT_TIMER) tick();
-}
 
-void ZoneServer::tick() {
-  const double pause_s = kPulse_s * (0.8 + 0.4 * controller_.random(kPulseDraws));
-  controller_.set_timer(kPulseTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
-  disk_.open(book_.server_boot());
-  if (options_.writes_every_ns > 0) write_late();
-  if (options_.silence_frees_after_ns > 0) lose_the_silent();
-  plan();
-  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
-    const FloorBook::Way& way = book_.way(agv);
-    const bool repeats = way.joined && way.known < way.granted();
-    if (repeats) controller_.sometimes("retransmission");
-    if (repeats || owes_[agv] || !way.joined) send(agv);
+ private:
+  // What has to be on the disk anew when it changes.
+  struct Mark {
+    std::uint32_t boot = FP_NONE, granted = 0, orders = 0;
+    friend bool operator==(const Mark&, const Mark&) = default;
+  };
+  // What an AGV was told, and what was said of it.
+  struct Told {
+    std::uint32_t steps = 0;  // so many were sent at least once
+    bool owes = false;        // an answer to what it told
+    Mark kept{};              // what is on the disk
+    std::uint32_t work = FP_NONE, waits_for = FP_NONE;
+    std::int64_t heard_ns = 0;  // when it was heard; only a faulty server looks
+  };
+
+  void tick() {
+    const double pause_s = kPulse_s * (0.8 + 0.4 * controller_.random(kPulseDraws));
+    controller_.set_timer(kPulseTimer, controller_.now_ns() + static_cast<std::int64_t>(pause_s * 1e9));
+    disk_.open(book_.server_boot());
+    fail_on_purpose();
+    plan();
+    for (const std::uint32_t agv : book_.agvs()) {
+      const FloorBook::Way& way = book_.way(agv);
+      const bool repeats = way.joined && way.known < way.granted();
+      if (repeats) controller_.sometimes("retransmission");
+      if (repeats || told_[agv].owes || !way.joined) send(agv);
+    }
+    controller_.declare_state(book_.all_joined() ? "planning" : "learning");
   }
-  controller_.declare_state(book_.all_joined() ? "planning" : "learning");
-}
 
-// Of a faulty server.
-void ZoneServer::lose_the_silent() {
-  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
-    if (controller_.now_ns() - heard_ns_[agv] > options_.silence_frees_after_ns) book_.lose(agv);
+  // Of faulty servers.
+  void fail_on_purpose() {
+    const auto is_over = [&](std::int64_t since_ns, std::int64_t time_ns) {
+      return time_ns > 0 && controller_.now_ns() - since_ns > time_ns;
+    };
+    const bool writes = is_over(written_ns_, options_.writes_every_ns);
+    if (writes) written_ns_ = controller_.now_ns();
+    for (const std::uint32_t agv : book_.agvs()) {
+      if (writes) keep(agv);
+      if (is_over(told_[agv].heard_ns, options_.silence_frees_after_ns)) book_.lose(agv);
+    }
   }
-}
 
-// Of a faulty server.
-void ZoneServer::write_late() {
-  if (controller_.now_ns() - written_ns_ < options_.writes_every_ns) return;
-  written_ns_ = controller_.now_ns();
-  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) keep(agv);
-}
-
-// True if there may be something new to grant.
-bool ZoneServer::hear(std::uint32_t sender, std::span<const std::byte> bytes) {
-  const std::optional<State> state = decode_state(bytes);
-  if (!state || !is_possible(sender, *state)) return false;
-  heard_ns_[sender] = controller_.now_ns();
-  const Path held = book_.way(sender).held;
-  const bool knew = book_.way(sender).joined;
-  const FloorBook::News news = book_.hear(sender, *state);
-  if (news == FloorBook::News::Joined && knew && !share_a_station(map_, held, book_.way(sender).held) &&
-      !book_.is_free(sender, book_.way(sender).held))
-    controller_.sometimes("set-down-in-the-way");
-  if (news == FloorBook::News::Joined) {
-    planner_.begin(sender);
-    told_[sender] = 0;
-    owes_[sender] = true;  // so that its way is on the disk, also if it gets no work
+  // True if there may be something new to grant.
+  bool hear(std::uint32_t sender, std::span<const std::byte> bytes) {
+    const std::optional<State> state = decode_as<State>(bytes);
+    if (!state || !is_possible(sender, *state)) return false;
+    Told& told = told_[sender];
+    told.heard_ns = controller_.now_ns();
+    const bool knew = book_.way(sender).joined;
+    const Path before = book_.way(sender).held;
+    const FloorBook::News news = book_.hear(sender, *state);
+    const Path& held = book_.way(sender).held;
+    if (news == FloorBook::News::Joined) {
+      if (knew && !share_a_station(map_, before, held) && !book_.is_free(sender, held))
+        controller_.sometimes("set-down-in-the-way");
+      planner_.begin(sender);
+      told.steps = 0;
+      told.owes = true;  // so that its way is on the disk, also if it gets no work
+    }
+    const bool is_present = state->way == book_.number_of(sender);
+    told.owes = told.owes || !state->orders.empty() || !is_present || state->has_work != has_work(sender);
+    if (!state->stands || !is_present) return false;
+    const bool takes = planner_.take_orders(sender, state->first_order, state->orders);
+    return takes || news != FloorBook::News::None;
   }
-  owes_[sender] = owes_[sender] || !state->orders.empty() || state->way != book_.number_of(sender) ||
-                  state->has_work != has_work(sender);
-  if (!state->stands || state->way != book_.number_of(sender)) return false;
-  const std::uint32_t orders = planner_.orders_of(sender);
-  planner_.take_orders(sender, state->first_order, state->orders);
-  return news != FloorBook::News::None || planner_.orders_of(sender) != orders;
-}
 
-bool ZoneServer::is_possible(std::uint32_t sender, const State& state) const {
-  const auto exists = [&](std::uint32_t station) { return station < map_.station_count(); };
-  return sender < book_.fleet_count() && exists(state.station) &&
-         std::ranges::all_of(state.orders, [&](const Order& order) { return exists(order.from) && exists(order.to); });
-}
-
-void ZoneServer::plan() {
-  planner_.plan(controller_.now_ns());
-  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
-    if (told_[agv] >= book_.way(agv).granted()) continue;
-    controller_.sometimes("grant");
-    send(agv);
+  bool is_possible(std::uint32_t sender, const State& state) const {
+    const auto exists = [&](std::uint32_t station) { return station < map_.station_count(); };
+    return sender < book_.fleet_count() && exists(state.station) &&
+           std::ranges::all_of(state.orders,
+                               [&](const Order& order) { return exists(order.from) && exists(order.to); });
   }
-  declare();
-}
 
-// For results: whose work an open order is before its load is picked, and who is to blame if an AGV stands.
-void ZoneServer::declare() {
-  for (std::uint32_t agv = 0; agv < book_.fleet_count(); ++agv) {
-    const Declared now{planner_.work_of(agv), planner_.waits_for(agv)};
-    Declared& known = declared_[agv];
-    if (now.work != known.work) controller_.works_on(agv, now.work);
-    if (now.waits_for != known.waits_for) controller_.declare_waiting(agv, now.waits_for);
-    known = now;
+  void plan() {
+    planner_.plan(controller_.now_ns());
+    for (const std::uint32_t agv : book_.agvs()) {
+      if (told_[agv].steps >= book_.way(agv).granted()) continue;
+      controller_.sometimes("grant");
+      send(agv);
+    }
+    // For results: whose work an open order is before its load is picked, and who is to blame if an AGV stands.
+    for (const std::uint32_t agv : book_.agvs()) {
+      const std::uint32_t work = planner_.work_of(agv), waits_for = planner_.waits_for(agv);
+      if (work != std::exchange(told_[agv].work, work)) controller_.works_on(agv, work);
+      if (waits_for != std::exchange(told_[agv].waits_for, waits_for)) controller_.declare_waiting(agv, waits_for);
+    }
   }
-}
 
-// What an AGV is told is on the disk before. False: it is not, and has to wait.
-bool ZoneServer::keep(std::uint32_t agv) {
-  const Kept now = kept_now(agv);
-  if (!book_.way(agv).joined || kept_[agv] == now) return true;
-  AgvRecord record = book_.record_of(agv);
-  planner_.put_work(agv, record);
-  if (!disk_.keep(agv, record)) return false;
-  kept_[agv] = now;
-  return true;
-}
+  Mark mark_of(std::uint32_t agv) const {
+    return {book_.way(agv).boot, book_.way(agv).granted(), planner_.work(agv).orders};
+  }
+  bool has_work(std::uint32_t agv) const { return planner_.work_of(agv) != FP_NONE; }
 
-void ZoneServer::send(std::uint32_t agv) {
-  if (options_.writes_every_ns == 0 && !keep(agv)) return;
-  Grant grant = book_.unknown_steps(agv);
-  if (!options_.repeats_grants && grant.first + grant.steps.size() <= told_[agv]) grant.steps.clear();
-  grant.orders = planner_.orders_of(agv);
-  grant.has_work = has_work(agv);
-  owes_[agv] = false;
-  told_[agv] = std::max(told_[agv], static_cast<std::uint32_t>(grant.first + grant.steps.size()));
-  const std::string text = grant.steps.empty() ? std::string("GRANT: nothing new")
-                                               : "GRANT: steps " + std::to_string(grant.first + 1) + " to " +
-                                                     std::to_string(grant.first + grant.steps.size());
-  controller_.describe(text.c_str());
-  controller_.send(encode(grant), agv);
-}
+  // What an AGV is told is on the disk before. False: it is not, and has to wait.
+  bool keep(std::uint32_t agv) {
+    const Mark now = mark_of(agv);
+    if (!book_.way(agv).joined || told_[agv].kept == now) return true;
+    AgvRecord record = book_.record_of(agv);
+    record.work = planner_.work(agv);
+    record.grant.orders = record.work.orders;
+    if (!disk_.keep(agv, record)) return false;
+    told_[agv].kept = now;
+    return true;
+  }
 
-void* create_zone_server(const fp_host* host, fp_controller* controller, const fp_briefing* briefing,
-                         const ServerOptions& options) {
-  if (!can_start(*host, controller, *briefing, FP_COMPUTER)) return nullptr;
-  return new ZoneServer(*host, controller, *briefing, options);
-}
+  void send(std::uint32_t agv) {
+    if (options_.writes_every_ns == 0 && !keep(agv)) return;
+    Told& told = told_[agv];
+    Grant grant = book_.unknown_steps(agv);
+    if (!options_.repeats_grants && grant.first + grant.steps.size() <= told.steps) grant.steps.clear();
+    grant.orders = planner_.work(agv).orders;
+    grant.has_work = has_work(agv);
+    const auto last = static_cast<std::uint32_t>(grant.first + grant.steps.size());
+    told.owes = false;
+    told.steps = std::max(told.steps, last);
+    const std::string steps = "steps " + std::to_string(grant.first + 1) + " to " + std::to_string(last);
+    controller_.describe(("GRANT: " + (grant.steps.empty() ? "nothing new" : steps)).c_str());
+    controller_.send(encode(grant), agv);
+  }
 
-constinit const fp_agent_type kZoneServer = faulty_zone_server<ServerOptions{}>(
-    "zone-server", "plans for a fleet of followers and grants each the floor that it may use");
+  const ServerOptions options_;
+  Controller controller_;
+  const Settings settings_;
+  const Facts facts_;
+  const MapView map_;
+  HullGeometry geometry_;
+  DiskTable disk_;
+  FloorBook book_;
+  FleetPlanner planner_;
+  std::vector<Told> told_;       // by AGV
+  std::int64_t written_ns_ = 0;  // only a faulty server looks
+};
+
+}  // namespace
+
+Program* create(const fp_host& host, fp_controller* controller, const fp_briefing& briefing,
+                const ServerOptions& options) {
+  return new ZoneServer(host, controller, briefing, options);
+}
 
 }  // namespace fleetproof::agents::central

@@ -1,9 +1,7 @@
 // The reference agents with one planted fault each. Every agent breaks one rule; otherwise it is the sound one.
 #include "core/agents/faulty/faulty_agents.hpp"
 
-#include "core/agents/central/follower.hpp"
-#include "core/agents/central/roles.hpp"
-#include "core/agents/central/zone_server.hpp"
+#include "core/agents/central/programs.hpp"
 #include "core/agents/hull_lock.hpp"
 
 namespace fleetproof::agents {
@@ -18,11 +16,11 @@ constexpr FaultyAgent lock_with(const char* name, const char* description) {
 }
 template <ServerOptions options>
 constexpr FaultyAgent server_with(const char* name, const char* description) {
-  return {&central::kZoneServer, central::faulty_zone_server<options>(name, description)};
+  return {&central::kZoneServer, central::program<options>(name, description)};
 }
 template <FollowerOptions options>
 constexpr FaultyAgent follower_with(const char* name, const char* description) {
-  return {&central::kFollower, central::faulty_follower<options>(name, description)};
+  return {&central::kFollower, central::program<options>(name, description)};
 }
 
 constinit const FaultyAgent kTable[] = {

@@ -1,6 +1,4 @@
-#include "core/agents/central/roles.hpp"
-
-#include "core/agents/agent_type.hpp"
+#include "core/agents/central/programs.hpp"
 
 namespace fleetproof::agents::central {
 
@@ -16,5 +14,10 @@ bool can_start(const fp_host& host, fp_controller* controller, const fp_briefing
   if (briefing.computer_count > 0) return true;
   return cannot_start(host, controller, "there is no computer for the zone-server that it follows");
 }
+
+constinit const fp_agent_type kFollower =
+    program<FollowerOptions{}>("follower", "drives as its zone-server grants, and stops where that ends");
+constinit const fp_agent_type kZoneServer =
+    program<ServerOptions{}>("zone-server", "plans for a fleet of followers and grants each the floor that it may use");
 
 }  // namespace fleetproof::agents::central
