@@ -164,17 +164,18 @@ Passing find_passing(const MapView& map, HullGeometry& geometry, std::span<const
   return passing;
 }
 
-bool carry_out(std::vector<AgvPath>& moves, HullGeometry& geometry, const std::function<bool(const AgvPath&)>& give) {
+void carry_out(UnderWay& passing, HullGeometry& geometry, std::uint32_t floor, std::int64_t now_ns,
+               const std::function<bool(const AgvPath&)>& give) {
+  if (std::exchange(passing.floor, floor) == floor) return;
   std::vector<AgvPath> later;
-  for (const AgvPath& move : moves) {
+  for (const AgvPath& move : passing.moves) {
     const bool is_next = std::ranges::none_of(later, [&](const AgvPath& before) {
       return before.agv == move.agv || geometry.conflict(move.agv, move.path, before.agv, before.path);
     });
     if (!is_next || !give(move)) later.push_back(move);
   }
-  const bool gave = later.size() < moves.size();
-  moves = std::move(later);
-  return gave;
+  if (later.size() < passing.moves.size()) passing.given_ns = now_ns;
+  passing.moves = std::move(later);
 }
 
 namespace {

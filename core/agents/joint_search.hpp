@@ -139,9 +139,16 @@ struct Passing {
 Passing find_passing(const MapView& map, HullGeometry& geometry, std::span<const Standing> fleet,
                      std::span<const AgvPath> promised, std::uint32_t leader, std::uint32_t goal, std::size_t most);
 
-// Carries out a row of moves: gives each one as soon as it keeps clear of all earlier ones that still have to wait.
-// Those that have to wait stay in the row. `give(move)`: false if it has to wait. Returns whether a move was given.
-bool carry_out(std::vector<AgvPath>& moves, HullGeometry& geometry, const std::function<bool(const AgvPath&)>& give);
+// A passing that is carried out: its moves that were not given yet.
+struct UnderWay : Passing {
+  std::uint32_t floor = 0;    // the state of the floor when it was last looked at
+  std::int64_t given_ns = 0;  // when the newest move was given
+};
+
+// Gives each move as soon as it keeps clear of all earlier ones that still have to wait. `give(move)`: false if it has
+// to wait. `floor`: another number whenever the floor has changed; otherwise, nothing is worked out again.
+void carry_out(UnderWay& passing, HullGeometry& geometry, std::uint32_t floor, std::int64_t now_ns,
+               const std::function<bool(const AgvPath&)>& give);
 
 // Whether an AGV can drive no lane, and none of those that are in its way can: they would stay there for ever.
 bool is_stuck(const MapView& map, HullGeometry& geometry, std::span<const Standing> fleet, std::uint32_t agv);

@@ -1,10 +1,11 @@
-// The planner of the zone-server: which AGV carries out an open order, and who makes way.
+// The planner of the zone-server: which AGV carries out an open order, who makes way, and when an AGV charges.
 #include "core/agents/central/fleet_planner.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/agents/central/floor_book.hpp"
@@ -20,20 +21,11 @@ namespace {
 using testing::DrawnMap;
 using testing::TestFleet;
 
-// A ring of eight stations, 10 m apart, with two-way lanes. AGV 0 stands at station 0, AGV 1 at station 4.
-class PlannerOnARing : public ::testing::Test {
+class PlannerOfTwoAgvs : public ::testing::Test {
  protected:
-  static DrawnMap ring() {
-    DrawnMap drawn;
-    const double at[8][2] = {{0, 0}, {10, 0}, {20, 0}, {20, 10}, {20, 20}, {10, 20}, {0, 20}, {0, 10}};
-    for (const auto& [x_m, y_m] : at) drawn.station(x_m, y_m, FP_STORAGE);
-    for (std::uint32_t i = 0; i < 8; ++i) drawn.segment(i, (i + 1) % 8);
-    return drawn;
-  }
-
-  PlannerOnARing() {
-    join(0, 0, 0);
-    join(1, 4, 0);
+  PlannerOfTwoAgvs(DrawnMap of, std::uint32_t place_0, std::uint32_t place_1) : drawn(std::move(of)) {
+    join(0, place_0, 0);
+    join(1, place_1, 0);
   }
 
   void join(std::uint32_t agv, std::uint32_t station, std::uint32_t boot, std::uint32_t load = FP_NONE) {
@@ -46,8 +38,9 @@ class PlannerOnARing : public ::testing::Test {
     planner.begin(agv);
   }
   // The AGV has carried out all that was granted.
-  void arrive(std::uint32_t agv) {
+  void arrive(std::uint32_t agv, double battery = 1.0) {
     State state;
+    state.battery = battery;
     state.way = book.number_of(agv);
     state.stands = true;
     state.known = state.done = book.way(agv).granted();
@@ -70,7 +63,7 @@ class PlannerOnARing : public ::testing::Test {
   }
 
   static constexpr std::int64_t kSecond = 1'000'000'000;
-  DrawnMap drawn = ring();
+  DrawnMap drawn;
   TestFleet fleet{drawn.map(), 2};
   fp_briefing briefing = fleet.briefing(0, 0);
   Facts facts{briefing};
@@ -81,6 +74,19 @@ class PlannerOnARing : public ::testing::Test {
   FleetPlanner planner{map, geometry, book, settings};
   std::int64_t now_ns = 0;
   std::uint32_t messages = 0;
+};
+
+// A ring of eight stations, 10 m apart, with two-way lanes. AGV 0 stands at station 0, AGV 1 at station 4.
+class PlannerOnARing : public PlannerOfTwoAgvs {
+ protected:
+  PlannerOnARing() : PlannerOfTwoAgvs(ring(), 0, 4) {}
+  static DrawnMap ring() {
+    DrawnMap drawn;
+    const double at[8][2] = {{0, 0}, {10, 0}, {20, 0}, {20, 10}, {20, 20}, {10, 20}, {0, 20}, {0, 10}};
+    for (const auto& [x_m, y_m] : at) drawn.station(x_m, y_m, FP_STORAGE);
+    for (std::uint32_t i = 0; i < 8; ++i) drawn.segment(i, (i + 1) % 8);
+    return drawn;
+  }
 };
 
 TEST_F(PlannerOnARing, AnOpenOrderGoesToTheAgvThatIsThereFirst) {
@@ -132,6 +138,48 @@ TEST_F(PlannerOnARing, AnAgvWithoutWorkMakesWay) {
   for (int i = 0; i < 20; ++i) plan(), arrive(0), arrive(1);
   EXPECT_NE(book.way(0).held.station, 0U) << "the other one had to pick there";
   EXPECT_GE(book.way(1).done, 5U);
+}
+
+// Stations 0 to 3 in a row, 10 m apart, and station 4 beside station 1, which is the only charger. A loaded AGV cannot
+// leave station 0. AGV 0 stands at the charger, AGV 1 at station 3.
+class PlannerOnARow : public PlannerOfTwoAgvs {
+ protected:
+  PlannerOnARow() : PlannerOfTwoAgvs(row(), 1, 3) {}
+  static DrawnMap row() {
+    DrawnMap drawn;
+    for (std::uint32_t i = 0; i < 4; ++i) drawn.station(10.0 * i, 0, i == 1 ? FP_CHARGING : FP_STORAGE);
+    for (std::uint32_t i = 0; i < 3; ++i) drawn.segment(i, i + 1);
+    drawn.segment(1, drawn.station(10, 10));
+    drawn.permit(0, 1, FP_EMPTY_ONLY);
+    return drawn;
+  }
+  // AGV 0 charges, and AGV 1 drives.
+  void live(double seconds, double battery_1 = 1.0) {
+    for (; seconds > 0.0; seconds -= 1.0) arrive(0, 0.15), arrive(1, battery_1), plan();
+  }
+};
+
+TEST_F(PlannerOnARow, AnAgvThatChargesMakesWayForOneThatHasWaitedLong) {
+  planner.take_orders(1, 0, std::vector<Order>{{7, 0, 3}});
+  live(30);
+  EXPECT_EQ(book.end_of_way(0).station, 1U);
+  EXPECT_FALSE(has_step(1, Step::Kind::Pick, 7));
+  live(30);
+  EXPECT_TRUE(book.way(1).done > 2 || has_step(1, Step::Kind::Pick, 7)) << "it got past";
+}
+
+TEST_F(PlannerOnARow, AnAgvWithALowBatteryWorksOnIfNoChargerIsFree) {
+  live(3, 0.25);
+  planner.take_open_order({7, 2, 3});
+  live(1, 0.25);
+  EXPECT_TRUE(has_step(1, Step::Kind::Pick, 7));
+}
+
+TEST_F(PlannerOnARow, AnAgvDropsItsLoadWhereItCannotLeaveWithIt) {
+  join(0, 1, 1, 7);
+  planner.take_orders(0, 0, std::vector<Order>{{7, 3, 0}});
+  plan();
+  EXPECT_TRUE(has_step(0, Step::Kind::Drop, 7));
 }
 
 }  // namespace

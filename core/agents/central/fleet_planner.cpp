@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/agents/fleet.hpp"
 #include "core/agents/lane_costs.hpp"
 
 namespace fleetproof::agents::central {
@@ -21,14 +20,16 @@ constexpr double kLookAgain_s = 1.0;
 constexpr double kKeepsFreeAfter_s = 20.0;
 // An AGV that waits for so long itself makes way for an older one, and so long it waits before an older one makes way.
 constexpr double kYields_s = 4.0, kInsists_s = 15.0;
+// So long an AGV waits before another one stops charging for it, although it has not enough.
+constexpr double kEndsCharging_s = 40.0;
 constexpr std::size_t kMostStates = 300, kMostStatesOfTheOldest = 2000;
 constexpr std::int64_t kTryAgain_ns = 2'000'000'000;
 constexpr int kMostDoublings = 4;
 constexpr double kGivesUp_s = 120.0;  // if nothing of a passing was granted for so long
 
-constexpr double kTransferTakes_s = 5.0, kTurnTakes_s = 3.0;  // expected
+constexpr double kTransferTakes_s = 5.0;  // expected
 // Prices of a station at which another AGV will stand for a while, or for good.
-constexpr double kMovingPrice_s = 8.0, kWallPrice_s = 1000.0;
+constexpr double kMovingPrice_s = 8.0, kChargingPrice_s = 60.0, kWallPrice_s = 1000.0;
 constexpr std::uint32_t kCrowdedBurden = 1;
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
@@ -101,11 +102,17 @@ void FleetPlanner::withdraw(std::uint32_t order) {
   if (open->agv != FP_NONE) {
     Task& task = tasks_[open->agv];
     if (!task.has_to(Step::Kind::Pick, order)) return;
-    std::erase_if(task.goals, [&](const Goal& goal) { return goal.step.what == order && !goal.step.charges(); });
-    task.wanted.reset();
+    take_back(*open);
     task.cancelling = !options_.cancels_name_an_order;
   }
   open_.erase(open);
+}
+
+// Requires: its pick has not been granted.
+void FleetPlanner::take_back(OpenOrder& open) {
+  Task& task = tasks_[std::exchange(open.agv, FP_NONE)];
+  std::erase_if(task.goals, [&](const Goal& goal) { return goal.step.what == open.order.id && !goal.step.charges(); });
+  task.wanted.reset();
 }
 
 std::uint32_t FleetPlanner::work_of(std::uint32_t agv) const {
@@ -118,19 +125,18 @@ std::uint32_t FleetPlanner::waits_for(std::uint32_t agv) const {
   return task.wanted && book_.way(agv).is_waiting() ? task.obstruction.by : FP_NONE;
 }
 
-// An AGV has at most the load on board to deliver before.
+// An AGV has at most the load on board to deliver before. If no charger is free, it works on, as long as it can.
 void FleetPlanner::assign_open_orders() {
   std::erase_if(open_,
                 [&](const OpenOrder& open) { return open.agv != FP_NONE && !is_under_way(open.order.id, open.agv); });
   std::vector<std::uint32_t> free;
   std::ranges::copy_if(book_.agvs(), std::back_inserter(free), [&](std::uint32_t agv) { return is_free(agv); });
   const auto takes_s = [&](std::uint32_t agv, std::uint32_t station) {
-    const Task& task = tasks_[agv];
-    const std::uint32_t end = book_.end_of_way(agv).station;
-    if (task.is_idle()) return time_left_s(agv) + routes_.usual_cost_s(agv, end, station);
-    const std::uint32_t last = task.goals.front().station;
-    const double delivery_s = routes_.usual_cost_s(agv, end, last) + kTransferTakes_s;
-    return time_left_s(agv) + delivery_s + routes_.usual_cost_s(agv, last, station);
+    double sum_s = time_left_s(agv);
+    std::uint32_t at = book_.end_of_way(agv).station;
+    for (const Goal& goal : tasks_[agv].goals)
+      sum_s += routes_.usual_cost_s(agv, std::exchange(at, goal.station), goal.station) + kTransferTakes_s;
+    return sum_s + routes_.usual_cost_s(agv, at, station);
   };
   assign(open_, free, takes_s, [&](std::uint32_t agv, const Order& order) { tasks_[agv].take_order(order, false); });
 }
@@ -145,8 +151,9 @@ bool FleetPlanner::is_under_way(std::uint32_t order, std::uint32_t agv) const {
 bool FleetPlanner::is_free(std::uint32_t agv) const {
   const Task& task = tasks_[agv];
   const FloorBook::Way& way = book_.way(agv);
-  const bool delivers = task.goals.size() == 1 && task.carries_load();
-  return (task.is_idle() || delivers) && !task.charging && !way.out_of_order && !settings_.is_low(way.battery);
+  if (task.charging || way.out_of_order) return false;
+  if (task.is_idle()) return !settings_.is_urgent(way.battery, false);
+  return task.goals.size() == 1 && task.carries_load() && !settings_.is_low(way.battery);
 }
 
 // Those that do not wait are younger than all others.
@@ -165,6 +172,7 @@ void FleetPlanner::plan(std::int64_t now_ns) {
   if (!book_.all_joined()) return;
   now_ns_ = now_ns;
   reserved_.clear();
+  for (const std::uint32_t agv : by_age()) look_at_battery(agv);
   assign_open_orders();
   for (UnderWay& passing : passings_) carry_out(passing);
   std::erase_if(passings_, [&](const UnderWay& passing) { return is_over(passing); });
@@ -174,7 +182,6 @@ void FleetPlanner::plan(std::int64_t now_ns) {
 void FleetPlanner::plan_for(std::uint32_t agv) {
   Task& task = tasks_[agv];
   if (book_.way(agv).out_of_order || is_passing(agv) || time_left_s(agv) > kLead_s) return;
-  look_at_battery(agv);
   transfer_here(agv);
   if (task.charging) return;
   if (task.is_idle() && (!book_.way(agv).is_waiting() || places_.is_safe(book_.end_of_way(agv).station))) return;
@@ -206,6 +213,7 @@ void FleetPlanner::look_at_battery(std::uint32_t agv) {
   const double level = book_.way(agv).battery;
   if (level >= settings_.charge_to) task.charging = false;
   if (task.charging || !settings_.is_low(level) || task.goes_to_charger() || !map_.has_chargers()) return;
+  if (book_.way(agv).out_of_order || is_passing(agv) || time_left_s(agv) > kLead_s) return;
   const bool loaded = task.carries_load(), urgent = settings_.is_urgent(level, loaded);
   if (loaded && !urgent) return;
   const auto is_taken = [&](std::uint32_t station) {
@@ -217,6 +225,9 @@ void FleetPlanner::look_at_battery(std::uint32_t agv) {
   price(agv, loaded);
   const std::uint32_t charger = routes_.charger(agv, book_.end_of_way(agv), places_, urgent, is_taken);
   if (charger == FP_NONE) return;
+  for (OpenOrder& open : open_) {
+    if (open.agv == agv && task.has_to(Step::Kind::Pick, open.order.id)) take_back(open);  // another AGV is there first
+  }
   task.goals.insert(task.goals.begin(), {charger, {Step::Kind::Charge, FP_NONE}});
   task.wanted.reset();
 }
@@ -224,19 +235,7 @@ void FleetPlanner::look_at_battery(std::uint32_t agv) {
 // As far as the server knows; what the AGV has done since makes it less.
 double FleetPlanner::time_left_s(std::uint32_t agv) const {
   const FloorBook::Way& way = book_.way(agv);
-  const fp_agv& like = agv_of(geometry_.parts().facts(), agv);
-  double sum_s = 0.0;
-  Vec heading = way.held.heading;
-  for (const Step& step : way.steps) {
-    if (!step.drives()) {
-      sum_s += kTransferTakes_s;
-      continue;
-    }
-    if (!same_heading(heading, map_.start_heading(step.what))) sum_s += kTurnTakes_s;
-    sum_s += map_.lane(step.what).length_m / lane_speed_mps(map_, step.what, like);
-    heading = map_.end_heading(step.what);
-  }
-  return sum_s;
+  return routes_.takes_s(agv, way.held) + kTransferTakes_s * static_cast<double>(way.steps.size() - way.held.count);
 }
 
 double FleetPlanner::waits_s(std::uint32_t agv) const {
@@ -251,7 +250,8 @@ void FleetPlanner::price(std::uint32_t agv, bool loaded) {
   for (const std::uint32_t other : book_.agvs()) {
     if (other == agv) continue;
     const FloorBook::Way& way = book_.way(other);
-    const double price_s = way.out_of_order ? kWallPrice_s : way.is_waiting() ? 0.0 : kMovingPrice_s;
+    const double waiting_s = tasks_[other].charging ? kChargingPrice_s : 0.0;
+    const double price_s = way.out_of_order ? kWallPrice_s : way.is_waiting() ? waiting_s : kMovingPrice_s;
     prices.price_station(book_.end_of_way(other).station, price_s);
     prices.price_meetings(way.held);
     if (tasks_[other].wanted) prices.price_meetings(tasks_[other].wanted->path);
@@ -270,7 +270,10 @@ std::uint32_t FleetPlanner::burden_at(std::uint32_t agv, const Path& standing) {
 
 // A section that grows lane by lane.
 struct FleetPlanner::Walk {
-  Walk(FleetPlanner& of, std::uint32_t id) : planner(of), agv(id) { section.path = planner.book_.end_of_way(agv); }
+  Walk(FleetPlanner& of, std::uint32_t id) : planner(of), agv(id) {
+    section.path = planner.book_.end_of_way(agv);
+    here.loaded = planner.tasks_[agv].carries_load();
+  }
 
   FleetPlanner& planner;
   std::uint32_t agv;
@@ -302,6 +305,7 @@ struct FleetPlanner::Walk {
   void transfer(const Goal& goal) {
     section.steps.push_back(goal.step);
     ++here.goals;
+    if (!goal.step.charges()) here.loaded = goal.step.kind == Step::Kind::Pick;
     note_end();
   }
 
@@ -325,23 +329,19 @@ struct FleetPlanner::Walk {
 // To the first goal and on to a waiting place, or to a waiting place on the way.
 Section FleetPlanner::towards_goals(std::uint32_t agv) {
   const Task& task = tasks_[agv];
-  bool loaded = task.carries_load();
-  price(agv, loaded);
+  price(agv, task.carries_load());
   Walk walk(*this, agv);
   walk.ends_anywhere = !options_.ways_to_chargers_are_whole && task.goes_to_charger();
   for (const Goal& goal : task.goals) {
     const Path here = walk.end();
+    const bool loaded = walk.here.loaded;
     const bool is_there = here.station == goal.station && map_.may_stay(here.station, here.heading);
     if (!is_there && !walk.follow(routes_.way(agv, here, goal.station))) return walk.take();
     walk.transfer(goal);
-    if (goal.step.charges() && !walk.ends_anywhere) {  // it stays there, and nothing is behind it
-      walk.section.ends.assign(1, walk.here);
-      return walk.take();
-    }
-    if (walk.is_done()) return walk.take();
-    const bool now_loaded = goal.step.kind == Step::Kind::Pick;
-    if (routes_.rules(agv).any() && now_loaded != loaded) price(agv, now_loaded);
-    loaded = now_loaded;
+    const bool stays = goal.step.charges() && !walk.ends_anywhere;  // whatever it blocks there
+    if (stays) walk.section.ends.assign(1, walk.here);
+    if (stays || walk.is_done()) return walk.take();
+    if (routes_.rules(agv).any() && walk.here.loaded != loaded) price(agv, walk.here.loaded);
   }
   // To the nearest one at which no other AGV is or will be.
   const Path from = walk.end();
@@ -364,6 +364,7 @@ bool FleetPlanner::extend(std::uint32_t agv, const Section& section) {
   std::vector<Standing> fleet = standing_fleet(agv);
   for (const Section::End& end : section.ends) {
     fleet[agv].path = end_of(map_, section.up_to(end.lanes));
+    fleet[agv].loaded = end.loaded;
     if (end.lanes <= free && !is_stuck(map_, geometry_, fleet, agv)) best = &end;
   }
   if (best == nullptr || !book_.grant(agv, std::span(section.steps).first(best->steps))) return false;
@@ -430,7 +431,9 @@ bool FleetPlanner::makes_way(std::uint32_t agv, std::uint32_t leader) const {
   const Task& task = tasks_[agv];
   const FloorBook::Way& way = book_.way(agv);
   if (!way.is_waiting() || way.out_of_order || is_passing(agv)) return false;
-  if (task.charging && !settings_.is_enough(way.battery)) return false;
+  const bool stops = waits_s(leader) > kEndsCharging_s && !tasks_[leader].goes_to_charger();
+  if (task.charging && !settings_.is_enough(way.battery) && (!stops || settings_.is_urgent(way.battery, true)))
+    return false;
   if (task.is_idle()) return true;
   if (!options_.ways_to_chargers_are_whole && task.goes_to_charger()) return false;
   return waits_s(agv) >= kYields_s && (waits_s(leader) > kInsists_s || is_older(leader, agv));
@@ -465,22 +468,18 @@ void FleetPlanner::pass(std::uint32_t leader) {
   carry_out(passings_.emplace_back(UnderWay{{std::move(passing)}}));
 }
 
-// Grants moves of it, if the floor has changed.
+// Grants moves of it, and keeps the floor of the others.
 void FleetPlanner::carry_out(UnderWay& passing) {
-  const auto grant = [&](const AgvPath& move) {
+  agents::carry_out(passing, geometry_, book_.changes(), now_ns_, [&](const AgvPath& move) {
     const Step step{Step::Kind::Drive, move.path.lanes().front()};
     return book_.grant(move.agv, {&step, 1});
-  };
-  if (passing.changes != book_.changes()) {
-    passing.changes = book_.changes();
-    if (agents::carry_out(passing.moves, geometry_, grant)) passing.granted_ns = now_ns_;
-  }
+  });
   reserved_.insert(reserved_.end(), passing.moves.begin(), passing.moves.end());
 }
 
 // Done, or not to be done any more: one of them is out of order, or an AGV stands in the way that did not before.
 bool FleetPlanner::is_over(const UnderWay& passing) const {
-  if (passing.moves.empty() || seconds(now_ns_ - passing.granted_ns) > kGivesUp_s) return true;
+  if (passing.moves.empty() || seconds(now_ns_ - passing.given_ns) > kGivesUp_s) return true;
   const AgvPath& next = passing.moves.front();
   return std::ranges::any_of(book_.agvs(), [&](std::uint32_t agv) {
     const FloorBook::Way& way = book_.way(agv);

@@ -24,6 +24,7 @@ struct Section {
   // A part of it after which the AGV blocks no other AGV.
   struct End {
     std::uint32_t lanes = 0, steps = 0, goals = 0;
+    bool loaded = false;
   };
   Path path;
   std::vector<Step> steps;
@@ -60,13 +61,6 @@ struct Task : Work {
   void take_order(const Order& order, bool on_board);
 };
 
-// A passing that is carried out: its moves that were not granted yet. Nobody else gets floor of them, and its AGVs get
-// nothing else.
-struct UnderWay : Passing {
-  std::uint32_t changes = 0;    // of the book, when it was last looked at
-  std::int64_t granted_ns = 0;  // when the last move was granted
-};
-
 // Grants sections that end at waiting places, the AGV first that has waited longest. AGVs that stand in each other's
 // way pass each other (joint_search.hpp). Requires: all that is passed outlives the object.
 class FleetPlanner {
@@ -99,6 +93,7 @@ class FleetPlanner {
   void assign_open_orders();
   bool is_under_way(std::uint32_t order, std::uint32_t agv) const;
   bool is_free(std::uint32_t agv) const;
+  void take_back(OpenOrder& open);
   std::vector<std::uint32_t> by_age() const;
   bool is_older(std::uint32_t a, std::uint32_t b) const;
   void plan_for(std::uint32_t agv);

@@ -115,12 +115,11 @@ class FloorBook {
   // What has to be on the disk before the AGV hears more of its way: all but its work.
   AgvRecord record_of(std::uint32_t agv) const {
     const Way& way = ways_[agv];
-    AgvRecord record;
+    AgvRecord record{{}, {number_of(agv), way.done, {way.steps.begin(), way.steps.end()}}, {}};
     record.state.way = number_of(agv);
     record.state.station = way.held.station;
     record.state.heading = way.held.heading;
     record.state.load = way.first_load;
-    record.grant = {number_of(agv), way.done, {way.steps.begin(), way.steps.end()}};
     return record;
   }
 

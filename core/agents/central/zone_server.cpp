@@ -1,6 +1,7 @@
 // The program of the computer of a central fleet: it plans for all followers and grants each its next steps. It keeps
 // the book of the floor (floor_book.hpp), and repeats what an AGV does not seem to have.
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -59,15 +60,12 @@ class ZoneServer : public Program {
 
  private:
   // What has to be on the disk anew when it changes.
-  struct Mark {
-    std::uint32_t boot = FP_NONE, granted = 0, orders = 0;
-    friend bool operator==(const Mark&, const Mark&) = default;
-  };
+  using Mark = std::array<std::uint32_t, 3>;  // the boot of the AGV, so many steps, so many orders
   // What an AGV was told, and what was said of it.
   struct Told {
     std::uint32_t steps = 0;  // so many were sent at least once
     bool owes = false;        // an answer to what it told
-    Mark kept{};              // what is on the disk
+    Mark kept{FP_NONE};       // what is on the disk
     std::uint32_t work = FP_NONE, waits_for = FP_NONE;
     std::int64_t heard_ns = 0;  // when it was heard; only a faulty server looks
   };
@@ -89,14 +87,12 @@ class ZoneServer : public Program {
 
   // Of faulty servers.
   void fail_on_purpose() {
-    const auto is_over = [&](std::int64_t since_ns, std::int64_t time_ns) {
-      return time_ns > 0 && controller_.now_ns() - since_ns > time_ns;
-    };
-    const bool writes = is_over(written_ns_, options_.writes_every_ns);
-    if (writes) written_ns_ = controller_.now_ns();
+    const std::int64_t now_ns = controller_.now_ns(), silence_ns = options_.silence_frees_after_ns;
+    const bool writes = options_.writes_every_ns > 0 && now_ns - written_ns_ > options_.writes_every_ns;
+    if (writes) written_ns_ = now_ns;
     for (const std::uint32_t agv : book_.agvs()) {
       if (writes) keep(agv);
-      if (is_over(told_[agv].heard_ns, options_.silence_frees_after_ns)) book_.lose(agv);
+      if (silence_ns > 0 && now_ns - told_[agv].heard_ns > silence_ns) book_.lose(agv);
     }
   }
 
