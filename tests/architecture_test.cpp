@@ -95,6 +95,7 @@ const std::map<std::string, std::string> kInsideARoom = {
     {"campaign/cli/evidence", "one verb of campaign/cli"},
     {"core/agents/central", "the pair of core/agents for fleets with a computer"},
     {"core/bridges/lockstep", "one way in of core/bridges"},
+    {"core/bridges/wrapped", "the faults around any way in, of core/bridges"},
     {"core/agents/faulty", "the faulty agents of core/agents"},
     {"core/sdk/fleetproof", "the headers of core/sdk, under the name by which agents include them"},
 };

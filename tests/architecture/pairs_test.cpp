@@ -31,6 +31,7 @@ const std::vector<Catalogue> kCatalogues = {
     {"campaign/cli/", "_verb.cpp", "campaign/cli/verbs.hpp"},
     {"campaign/cli/", "_methods.cpp", "campaign/cli/evidence/evidence_methods.hpp"},
     {"core/agents/central/", ".cpp", "core/agents/central/programs.hpp"},
+    {"core/bridges/wrapped/", "_faults.cpp", "core/bridges/wrapped/fault_agents.hpp"},
     {"generators/families/", ".cpp", "generators/families/families.hpp"}};
 
 // Its own, if it has one.

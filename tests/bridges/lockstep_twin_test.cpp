@@ -3,6 +3,7 @@
 #include <cstring>
 #include <memory>
 
+#include "core/bridges/wrapped/wrapped_program.hpp"
 #include "core/engine/simulation.hpp"
 #include "tests/bridges/lockstep_bench.hpp"
 
@@ -111,6 +112,20 @@ TEST(Lockstep, HasTheTraceOfItsTwinWhateverACallCosts) {
     const test::ToldRun recorded = test::recorded(scenario, program.type());
     test::expect_same(recorded, twin);
     test::expect_same(test::played(scenario, recorded.tape), twin);
+  }
+}
+
+// What is disturbed around a program does not depend on its way in.
+TEST(Lockstep, HasTheTraceOfItsTwinInsideEachFault) {
+  const lockstep::LockstepProgram program(test::python("twin.py"));
+  const Scenario scenario = restless(0.003);
+  for (const char* words : {"drop every 3rd message", "repeat every 3rd message", "stall 3 s every 9 s",
+                            "forget memory every 13 s", "position 2 s old", "clock 5 s off"}) {
+    SCOPED_TRACE(words);
+    const wrapped::Fault fault = wrapped::parse_fault(words);
+    const test::ToldRun twin = test::watched(scenario, wrapped::WrappedProgram(kTwin, fault).type(), {});
+    EXPECT_NE(twin.outcome, test::watched(scenario, kTwin, {}).outcome);
+    test::expect_same(test::watched(scenario, wrapped::WrappedProgram(program.type(), fault).type(), {}), twin);
   }
 }
 
