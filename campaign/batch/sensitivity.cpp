@@ -10,7 +10,7 @@
 
 #include "campaign/batch/task_pool.hpp"
 #include "campaign/run/agent_programs.hpp"
-#include "campaign/run/run_one.hpp"
+#include "campaign/workers/run_host.hpp"
 #include "core/agents/agents.h"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
@@ -101,6 +101,67 @@ void require_known(const std::vector<std::string>& wanted, const std::vector<std
   }
 }
 
+// A sound agent, and what is compared with it.
+struct Comparison {
+  AgentFactor sound;
+  std::vector<AgentFactor> copies;
+};
+
+std::vector<Comparison> planted_ones(const CampaignPlan& plan, const SensitivityOptions& options) {
+  const std::vector<AgentFactor> sound_ones = sound_agents(plan);
+  require_known(options.agents, faulty_agent_names(plan), sound_ones);
+  std::vector<Comparison> found;
+  for (const AgentFactor& sound : sound_ones) {
+    Comparison comparison{sound, {}};
+    for (const std::string& name : wanted_copies(sound, options.agents))
+      comparison.copies.push_back(with_fault(sound, name).value());
+    if (!comparison.copies.empty()) found.push_back(std::move(comparison));
+  }
+  return found;
+}
+
+// The agent with the fault around this program of it. Only an AGV has a position. None: there is nothing to disturb.
+std::optional<AgentFactor> with_fault_around(AgentFactor agent, const std::string& program,
+                                             const wrapped::Fault& fault) {
+  if (fault.kind == wrapped::FaultKind::OldPosition && agent.program != program) return std::nullopt;
+  const std::string with = std::string(wrapped::kWith) + text_of(fault);
+  agent.name = (agent.computers.empty() ? agent.name : program) + with;
+  if (agent.program == program) agent.program += with;
+  for (ComputerPart& part : agent.computers) {
+    if (part.program == program) part.program += with;
+  }
+  return agent;
+}
+
+Comparison around_all_parts(AgentFactor agent, const std::vector<wrapped::Fault>& faults) {
+  agent.role = AgentRole::ByOrigin;
+  std::vector<std::string> tried;
+  Comparison comparison{agent, {}};
+  for (const ProgramPart* part : agent.parts()) {
+    if (std::ranges::find(tried, part->program) != tried.end()) continue;
+    tried.push_back(part->program);
+    for (const wrapped::Fault& fault : faults) {
+      if (auto copy = with_fault_around(agent, part->program, fault)) comparison.copies.push_back(std::move(*copy));
+    }
+  }
+  return comparison;
+}
+
+std::vector<Comparison> comparisons_of(const CampaignPlan& plan, const AgentPrograms& programs,
+                                       const SensitivityOptions& options) {
+  std::vector<Comparison> found;
+  if (!options.agents.empty() || options.with.empty()) found = planted_ones(plan, options);
+  if (!options.agents.empty() && options.with.empty()) return found;
+  const std::vector<wrapped::Fault> faults = options.with.empty() ? wrapped::usual_faults() : options.with;
+  const bool any_foreign =
+      std::ranges::any_of(plan.agents, [&](const AgentFactor& agent) { return programs.needs_worker(agent); });
+  for (const AgentFactor& agent : plan.agents) {
+    if (programs.needs_worker(agent) || (!any_foreign && !options.with.empty()))
+      found.push_back(around_all_parts(agent, faults));
+  }
+  return found;
+}
+
 // The worlds of the plan, with this agent alone in them.
 CampaignPlan with_agent(CampaignPlan plan, const AgentFactor& agent) {
   plan.agents = {agent};
@@ -117,25 +178,19 @@ AgentTally tally_of(const CampaignPlan& plan, const AgentPrograms& programs, con
   AgentTally tally;
   tally.agent = plan.agents.front().name;
   const std::vector<CellRecord> cells = plan.cells();
-  const RunOne run_one(plan, programs);
+  RunHost host(plan, programs, {.workers = options.workers});
   TaskPool<RunRecord> pool(
       {.workers = options.workers, .end = std::min(options.runs, plan.run_count()), .window = kRunsAhead},
-      [&](std::uint64_t index) -> std::optional<RunRecord> {
-        try {
-          RunWatch watch;
-          if (options.limit != nullptr) watch.abandon = &options.limit->over();
-          return run_one(index, nullptr, watch);
-        } catch (const RunAbandoned&) {
-          return std::nullopt;
-        }
-      });
+      [&](std::uint64_t index) { return host(index); });
   pool.take_all(
       [&](std::uint64_t, const RunRecord& record) {
         if (until_violation && record.outcome.violation) pool.stop();
         tally.count(record, cells);
       },
       [&] {
-        if (is_over(options)) pool.stop();
+        if (!is_over(options)) return;
+        host.abandon();
+        pool.stop();
       });
   return tally;
 }
@@ -198,19 +253,16 @@ std::vector<std::string> faulty_agent_names(const CampaignPlan& plan) {
 Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& programs,
                                 const SensitivityOptions& options,
                                 const std::function<void(const FaultDetection&)>& told) {
-  const std::vector<AgentFactor> sound_ones = sound_agents(plan);
-  require_known(options.agents, faulty_agent_names(plan), sound_ones);
   Sensitivity result;
-  for (const AgentFactor& sound : sound_ones) {
-    const std::vector<std::string> copies = wanted_copies(sound, options.agents);
-    if (copies.empty()) continue;
-    const AgentTally& tally = result.sound.emplace_back(tally_of(with_agent(plan, sound), programs, options, false));
-    const bool until_violation = tally.all.with(kAccusedOfViolation) == 0;
-    for (const std::string& name : copies) {
-      const CampaignPlan worlds = with_agent(plan, with_fault(sound, name).value());
+  for (const Comparison& comparison : comparisons_of(plan, programs, options)) {
+    const AgentTally& sound =
+        result.sound.emplace_back(tally_of(with_agent(plan, comparison.sound), programs, options, false));
+    const bool until_violation = sound.all.with(kAccusedOfViolation) == 0;
+    for (const AgentFactor& copy : comparison.copies) {
+      const CampaignPlan worlds = with_agent(plan, copy);
       AgentTally faulty = tally_of(worlds, programs, options, until_violation);
       if (is_over(options)) return result;  // not all of its runs are there
-      result.faults.push_back(finding_of(std::move(faulty), tally, worlds));
+      result.faults.push_back(finding_of(std::move(faulty), sound, worlds));
       if (told) told(result.faults.back());
     }
   }

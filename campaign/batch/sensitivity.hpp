@@ -10,6 +10,7 @@
 #include "campaign/batch/time_limit.hpp"
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/agent_programs.hpp"
+#include "core/bridges/wrapped/fault_words.hpp"
 #include "storage/records.hpp"
 
 namespace fleetproof {
@@ -38,23 +39,31 @@ struct Sensitivity {
 struct SensitivityOptions {
   std::uint64_t runs = 10'000;  // of each agent, at most; never more than the plan has
   int workers = 1;
-  std::vector<std::string> agents;   // empty: all faulty agents
+  std::vector<std::string> agents;   // faulty agents; empty: all, but none if `with` names faults
+  std::vector<wrapped::Fault> with;  // around the software of the plan; empty: the usual ones
   const TimeLimit* limit = nullptr;  // when it is over, the result has the faults that were measured; null: none
 };
 
-// Runs sound agents and their faulty copies in the worlds of `plan`, and stores nothing. The sound agents are those of
+// Runs sound agents and their faulty copies in the worlds of `plan`, and stores nothing. The faulty copies are planted
+// in programs of fleetproof or put around those of others.
+//
+// Planted: the sound agents are those of
 // the plan of which copies exist: hull-lock, and fleet software with computers, whose copies have one faulty program
 // each and else sound ones. If the plan has neither, the sound agent is hull-lock.
+// Around (core/bridges/wrapped): what they are compared with is each agent of the plan with a part that is not built
+// in, without the fault; each of its programs has each fault in turn. If there is no such agent, none is tried unless
+// `with` names faults: then they are put around each agent of the plan.
+//
 // A fault is detected by its first violation, if its sound agent has none in all its runs; then its other runs are not
 // simulated. Otherwise a fault is detected if the laws accuse it of something in more runs than the sound agent, over
 // all runs or with one of the radios of the plan: the lower bound of one rate lies above the upper bound of the other,
-// with 5 % risk over all comparisons of this fault. Throws InputError for an agent that is not a faulty one. `told`
+// with 5 % risk over all comparisons of this fault. Throws InputError for an agent that is not a faulty one,. `told`
 // hears each finding.
 Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& programs,
                                 const SensitivityOptions& options,
                                 const std::function<void(const FaultDetection&)>& told = {});
 
-// The faulty agents that measure_sensitivity() tries for this plan, by name.
+// The faulty agents that measure_sensitivity() knows for this plan, by name, without faults around programs.
 std::vector<std::string> faulty_agent_names(const CampaignPlan& plan);
 
 }  // namespace fleetproof

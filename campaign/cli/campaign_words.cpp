@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <thread>
 
 #include "campaign/batch/campaign.hpp"
@@ -21,6 +22,7 @@
 #include "campaign/run/replay.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/bridges/wrapped/fault_words.hpp"
 #include "core/scenario/field.hpp"
 #include "generators/formats/vehicles.hpp"
 #include "generators/map/permitted_types.hpp"
@@ -40,10 +42,19 @@ std::string know_at(const std::string& place, const std::string& path, bool glob
   }
 }
 
+// The file or name of a program, and the faults around it.
+wrapped::WrappedWord parts_of_word(const std::string& word, const std::string& place) {
+  try {
+    return wrapped::split_checked(word);
+  } catch (const std::invalid_argument& wrong) {
+    throw InputError(place, wrong.what());
+  }
+}
+
 // Pages would speak of software that did not run.
 void require_own_name(const AgentFactor& agent, const AgentPrograms& programs, const std::string& place) {
   if (agent.name == name_of_parts(agent)) return;
-  if (std::ranges::find(programs.all(), agent.name, &AgentProgram::name) == programs.all().end()) return;
+  if (programs.known(agent.name) == nullptr) return;
   throw InputError(place, fmt::format("factors.agents: {} has the name of another agent, {}; give it a name of its own",
                                       in_quotes(name_of_parts(agent)), in_quotes(agent.name)));
 }
@@ -53,16 +64,17 @@ class KnownObjects {
  public:
   explicit KnownObjects(AgentPrograms& programs) : programs_(programs) {}
 
-  // Gives a part of an agent the name of its program. `path` is empty: it is none of a shared object.
-  void name_program(ProgramPart& part, const std::string& path, const std::string& place) {
-    if (path.empty()) return;
+  // Gives a part of an agent the name of its program. `word` is empty: it is none of a shared object.
+  void name_program(ProgramPart& part, const std::string& word, const std::string& place) {
+    if (word.empty()) return;
+    const auto [path, with] = parts_of_word(word, place + ": factors.agents");
     Known& object = known_[canonical(path)];
     if (object.program.empty()) object = {know_at(place, path, part.global_symbols, programs_), part.global_symbols};
     if (object.global_symbols != part.global_symbols) {
       throw InputError(place, fmt::format("factors.agents: {} is loaded once; give all its agents the same symbols",
                                           in_quotes(path)));
     }
-    part.program = object.program;
+    part.program = object.program + with;
   }
 
  private:
@@ -87,7 +99,8 @@ bool wants_global_symbols(const std::string& path, std::span<const AgentFactor> 
   for (const AgentFactor& agent : agents) std::ranges::copy(agent.parts(), std::back_inserter(parts));
   if (std::ranges::none_of(parts, &ProgramPart::global_symbols)) return false;
   if (std::ranges::all_of(parts, &ProgramPart::global_symbols)) return true;
-  const auto part = std::ranges::find(parts, inspect_agent(path, true).name, &ProgramPart::program);
+  const auto part = std::ranges::find(parts, inspect_agent(path, true).name,
+                                      [](const ProgramPart* other) { return wrapped::bare_name(other->program); });
   return part != parts.end() && (*part)->global_symbols;
 }
 
@@ -214,13 +227,13 @@ void meet_plugins(const std::string& archive_path, const CampaignRecord& campaig
   for (const AgentFactor& agent : agents) {
     if (std::ranges::find(plugins, agent.name) == plugins.end()) continue;
     for (const ProgramPart* part : agent.parts()) {
-      if (std::ranges::find(programs.all(), part->program, &AgentProgram::name) != programs.all().end()) continue;
-      const std::string remembered = remembered_plugin(archive_path, part->program);
+      if (programs.known(part->program) != nullptr) continue;
+      const std::string name = wrapped::bare_name(part->program), remembered = remembered_plugin(archive_path, name);
       if (remembered.empty()) {
         throw InputError("--plugin",
                          fmt::format("the agent {} comes from a shared object, and no session log beside {} says where "
                                      "it is; name its file",
-                                     in_quotes(part->program), archive_path));
+                                     in_quotes(name), archive_path));
       }
       (programs.*meet)(remembered, part->global_symbols);
     }
@@ -234,7 +247,7 @@ void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentF
   for (const AgentFactor& factor : agents) {
     for (const AgentProgram* part : programs.parts_of(factor, "--plugin")) {
       if (part->is_built_in() || !told.insert(part->name).second) continue;
-      std::vector<std::string> stored = stored_plugins(campaign.engine, part->name);
+      std::vector<std::string> stored = stored_plugins(campaign.engine, part->innermost().name);
       if (stored == std::vector{part->source.sha256}) continue;
       for (std::string& digest : stored) digest = digest.substr(0, kToldDigits) + "...";
       talk("warning: {} is not the one of the campaign (stored {}, now {}...); what follows is about this one\n",
@@ -246,14 +259,15 @@ void tell_rebuilt_plugins(const CampaignRecord& campaign, std::span<const AgentF
 
 std::string meet_agent(const std::string& word, std::vector<std::string>& plugins, AgentPrograms& programs,
                        MeetPlugin meet, bool global_symbols) {
-  const bool is_path = is_path_of_object(word);
-  if (is_path && std::ranges::find(plugins, word) == plugins.end()) plugins.push_back(word);
-  std::string name = word;
+  const auto [bare, with] = parts_of_word(word, "--agent");
+  const bool is_path = is_path_of_object(bare);
+  if (is_path && std::ranges::find(plugins, bare) == plugins.end()) plugins.push_back(bare);
+  std::string name = bare;
   for (const std::string& path : plugins) {
     const std::string met = (programs.*meet)(path, global_symbols);
-    if (is_path && path == word) name = met;
+    if (is_path && path == bare) name = met;
   }
-  return name;
+  return name + with;
 }
 
 void add_computer_option(Options& options, std::vector<std::string>& programs) {
@@ -293,19 +307,20 @@ std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<s
     ComputerPart& part = parts.emplace_back();
     part.computer = computer.name;
     part.config = computer.agent_config;
-    part.program = computer.agent;
-    if (!is_path_of_object(computer.agent)) {
-      if (std::ranges::find(programs.all(), computer.agent, &AgentProgram::name) == programs.all().end())
+    const auto [bare, with] = parts_of_word(computer.agent, "--computer");
+    part.program = bare + with;
+    if (!is_path_of_object(bare)) {
+      if (std::ranges::find(programs.all(), bare, &AgentProgram::name) == programs.all().end())
         throw InputError("--plugin",
                          fmt::format("the computer {} runs {}, which is not built in; name its shared object, or "
                                      "another program with --computer",
                                      in_quotes(computer.name), in_quotes(computer.agent)));
       continue;
     }
-    const auto known = std::ranges::find(programs.all(), absolute_name(computer.agent),
+    const auto known = std::ranges::find(programs.all(), absolute_name(bare),
                                          [](const AgentProgram& program) { return program.source.file; });
-    part.program = known != programs.all().end() ? known->name : (programs.*meet)(computer.agent, global_symbols);
-    if (std::ranges::find(plugins, computer.agent) == plugins.end()) plugins.push_back(computer.agent);
+    part.program = (known != programs.all().end() ? known->name : (programs.*meet)(bare, global_symbols)) + with;
+    if (std::ranges::find(plugins, bare) == plugins.end()) plugins.push_back(bare);
   }
   return parts;
 }

@@ -89,8 +89,8 @@ void warn_of_unknown_faults(const Scenario& scenario, const std::string& path) {
     const Fault& fault = scenario.faults[i];
     if (fault.kind != Fault::Kind::Named) continue;
     const std::string& agent = scenario.is_agv(fault.agv) ? scenario.agent : scenario.computer(fault.agv).agent;
-    const auto program = std::ranges::find(programs.all(), agent, &AgentProgram::name);
-    if (program != programs.all().end() && is_unknown_fault(*program, fault.word))
+    const AgentProgram* program = programs.known(agent);
+    if (program != nullptr && is_unknown_fault(*program, fault.word))
       talk("warning: {}: /faults/{}/word: {}\n", path, i, sentence_on_fault(*program, fault.word));
   }
 }
@@ -120,18 +120,18 @@ void warn_of_foreign_types(const Scenario& scenario, const std::string& path) {
 // An agent that is not built in is not here: it says itself why it cannot start.
 void require_room_for_agent(const Scenario& scenario, const std::string& path) {
   const AgentPrograms programs;
-  const auto program = std::ranges::find(programs.all(), scenario.agent, &AgentProgram::name);
-  if (program != programs.all().end()) {
+  const AgentProgram* program = programs.known(scenario.agent);
+  if (program != nullptr) {
     require_room(*program, *scenario.map, scenario.agvs.size(), "the scenario", path + ": /agent");
     require_distribution(*program, !scenario.open_orders.empty(), !scenario.computers.empty(), path + ": /agent");
   }
   for (std::size_t i = 0; i < scenario.computers.size(); ++i) {
     const std::string &name = scenario.computers[i].name, &agent = scenario.computers[i].agent;
     const std::string where = fmt::format("{}: /computers/{}/agent", path, i);
-    const auto known = std::ranges::find(programs.all(), agent, &AgentProgram::name);
+    const AgentProgram* known = programs.known(agent);
     if (agent.empty())
       throw InputError(where, fmt::format("the computer {} has no program; name one", in_quotes(name)));
-    if (known != programs.all().end() && (known->flags & FP_SERVES_COMPUTERS) == 0)
+    if (known != nullptr && (known->flags & FP_SERVES_COMPUTERS) == 0)
       throw InputError(where, why_not_on_computer(agent, name));
   }
 }

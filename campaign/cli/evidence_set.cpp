@@ -24,6 +24,7 @@
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
 #include "core/base/regular_file.hpp"
+#include "core/bridges/wrapped/fault_words.hpp"
 #include "generators/formats/layout_file.hpp"
 #include "reports/formats/csv_tables.hpp"
 #include "reports/formats/report_formats.hpp"
@@ -159,7 +160,7 @@ class RunsToReplay {
   std::string plugin_of(const AgentFactor& agent) const {
     std::string words;
     for (const KeptProgram& kept : words_.programs) {
-      const auto is_it = [&](const ProgramPart* part) { return kept.program == part->program; };
+      const auto is_it = [&](const ProgramPart* part) { return kept.program == wrapped::bare_name(part->program); };
       if (std::ranges::any_of(agent.parts(), is_it)) words += plugin_words(kept);
     }
     return words;
@@ -228,7 +229,8 @@ std::vector<KeptProgram> keep_programs(EvidenceFolder& folder, const ReportInput
   for (const AgentFactor& agent : plan.agents) {
     if (std::ranges::find(input.campaign.plugin_agents, agent.name) == input.campaign.plugin_agents.end()) continue;
     for (const ProgramPart* part : agent.parts()) {
-      if (!stored_plugins(input.campaign.engine, part->program).empty()) programs.insert(part->program);
+      const std::string name = wrapped::bare_name(part->program);
+      if (!stored_plugins(input.campaign.engine, name).empty()) programs.insert(name);
     }
   }
   std::vector<KeptProgram> kept;

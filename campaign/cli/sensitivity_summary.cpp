@@ -9,6 +9,7 @@
 
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/run/engine_identity.hpp"
+#include "core/bridges/wrapped/fault_words.hpp"
 #include "reports/page/wording.hpp"
 
 namespace fleetproof::cli {
@@ -76,6 +77,8 @@ PlantedFault summary_of(const std::vector<const FaultDetection*>& findings) {
 
 // What the agent says of itself, without the words that all faulty agents begin with.
 std::string fault_of(const AgentPrograms& programs, const std::string& name) {
+  if (const std::string with = wrapped::split_word(name).with; !with.empty())
+    return description_of(wrapped::parse_fault(with.substr(with.rfind(wrapped::kWith) + wrapped::kWith.size())));
   for (const AgentProgram& program : programs.all()) {
     if (program.name != name) continue;
     const std::size_t colon = program.description.find(": ");
@@ -92,7 +95,8 @@ SensitivityRecord summary_of(const CampaignPlan& plan, const AgentPrograms& prog
   record.worlds = worlds_of(plan_text(plan));
   record.engine_version = engine_identity().version;
   record.program_sha256 = engine_identity().program_sha256;
-  record.known_faults = faulty_agent_names(plan).size();
+  const std::vector<std::string> planted = faulty_agent_names(plan);
+  record.known_faults = planted.size();
   for (const auto& [seed, found] : measured) {
     record.seeds.push_back(seed);
     for (const AgentTally& tally : found.sound) {
@@ -111,6 +115,7 @@ SensitivityRecord summary_of(const CampaignPlan& plan, const AgentPrograms& prog
       if (place < found.faults.size()) findings.push_back(&found.faults[place]);
     }
     record.faults.push_back(summary_of(findings));
+    if (std::ranges::find(planted, record.faults.back().agent) == planted.end()) ++record.known_faults;
     record.faults.back().text = fault_of(programs, record.faults.back().agent);
   }
   return record;

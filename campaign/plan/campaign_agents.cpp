@@ -12,6 +12,7 @@
 #include "campaign/plan/plan_names.hpp"
 #include "core/base/error.hpp"
 #include "core/bridges/lockstep/command.hpp"
+#include "core/bridges/wrapped/fault_words.hpp"
 
 namespace fleetproof {
 namespace {
@@ -26,9 +27,10 @@ void take_symbols(TomlTable& table, ProgramPart& part) {
   part.global_symbols = word == "global";
 }
 
-// What a part is: a program by its name, or a shared object by its path.
+// What a part is: a program by its name, or a shared object by its path; either with faults around it.
 void take_word(const std::string& word, ProgramPart& part, std::string& file) {
-  (is_path_of_object(word) ? file : part.program) = word;
+  const auto [bare, with] = wrapped::split_word(word);
+  (is_path_of_object(word) ? file : part.program) = bare + with;
 }
 
 // A command, and how it is spoken to.
@@ -48,8 +50,9 @@ void take_command(TomlTable& table, std::string& file) {
 
 // A word of a command that names a file beside the campaign file becomes the path of that file, so that the program can
 // be started from any folder.
-std::string from_campaign(const std::string& campaign_path, const std::string& file) {
-  if (!file.starts_with(kLockstepWord)) return beside(campaign_path, file);
+std::string from_campaign(const std::string& campaign_path, const std::string& word) {
+  const auto [file, with] = wrapped::split_word(word);
+  if (!file.starts_with(kLockstepWord)) return beside(campaign_path, file) + with;
   try {
     std::vector<std::string> words = lockstep::Command(std::string_view(file).substr(kLockstepWord.size())).words();
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -58,13 +61,25 @@ std::string from_campaign(const std::string& campaign_path, const std::string& f
       const bool may_be_file = i > 0 || words[i].find('/') != std::string::npos;
       if (may_be_file && std::filesystem::exists(there, ignored)) words[i] = there;
     }
-    return std::string(kLockstepWord) + lockstep::command_text(words);
+    return std::string(kLockstepWord) + lockstep::command_text(words) + with;
   } catch (const std::invalid_argument&) {
-    return file;  // refused with its place when it is opened
+    return word;  // refused with its place when it is opened
   }
 }
 
-// agent, file or run with way; config, symbols.
+// Behind the name of the program, as everywhere.
+void take_faults(TomlTable& table, ProgramPart& part, std::string& file) {
+  std::string faults;
+  table.get("with", faults);
+  if (!table.has("with")) return;
+  try {
+    (file.empty() ? part.program : file) += wrapped::with_text(faults);
+  } catch (const std::invalid_argument& wrong) {
+    throw InputError(table.place("with"), fmt::format("with: {}", wrong.what()));
+  }
+}
+
+// agent, file or run with way; with, config, symbols.
 void take_program(TomlTable& table, ProgramPart& part, std::string& file) {
   table.get("agent", part.program);
   table.get("file", file);
@@ -74,6 +89,7 @@ void take_program(TomlTable& table, ProgramPart& part, std::string& file) {
         table.place("file"),
         "a table under factors.agents has either file = \"...\" or agent = \"...\" or run = \"...\", or vehicle = "
         "... with computer = ...");
+  take_faults(table, part, file);
   std::string config;
   table.get("config", config);
   if (table.has("config")) part.config = config;
@@ -130,7 +146,8 @@ AgentFactor agent_from_table(TomlTable& table, AgentFiles& files) {
 }  // namespace
 
 bool is_path_of_object(std::string_view word) {
-  return word.starts_with(kLockstepWord) || word.find('/') != std::string_view::npos || word.ends_with(".so");
+  const std::string bare = wrapped::split_word(word).bare;
+  return bare.starts_with(kLockstepWord) || bare.find('/') != std::string::npos || bare.ends_with(".so");
 }
 
 void read_agents(TomlTable& factors, std::string_view key, const std::string& campaign_path,

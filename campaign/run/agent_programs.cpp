@@ -3,22 +3,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "campaign/run/agent_inspection.hpp"
 #include "core/agents/agents.h"
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/bridges/wrapped/wrapped_program.hpp"
 
 namespace fleetproof {
 namespace {
 
-// Whether a program is this reference agent, or one with a planted fault of it.
-bool is_or_copies(std::string_view program, std::string_view sound) {
+// Whether a program is this reference agent, or one with a planted fault of it, or has faults around one of these.
+bool is_or_copies(std::string_view name, std::string_view sound) {
+  const std::string program = wrapped::bare_name(name);
   for (std::uint32_t i = 0; const fp_agent_type* faulty = fp_faulty_agent(i); ++i) {
     if (program == faulty->name) return sound == fp_sound_agent(faulty)->name;
   }
   return program == sound;
+}
+
+[[noreturn]] void refuse_fault(std::string_view name, std::string_view words, std::string_view where) {
+  try {
+    wrapped::parse_fault(words);
+  } catch (const std::invalid_argument& wrong) {
+    throw InputError(where, fmt::format("agent {}: {}", in_quotes(name), wrong.what()));
+  }
+  throw InvariantViolation("words of a fault that read are no reason to refuse it");
 }
 
 AgentProgram program_of(const fp_agent_type& type) {
@@ -50,7 +62,7 @@ void require_room(const AgentProgram& program, const LogicalMap& map, std::size_
 // A program that is not built in says itself when it starts whether it takes open transports. `scripted` takes none at
 // all. Of the reference agents, only `follower` hears from a computer what to do.
 void require_distribution(const AgentProgram& program, bool are_open, bool has_computers, const std::string& where) {
-  if (!are_open || !program.is_built_in() || program.name == "scripted") return;
+  if (!are_open || !program.is_built_in() || program.innermost().name == "scripted") return;
   const bool asks_computers = is_or_copies(program.name, "follower");
   if (has_computers && asks_computers) return;
   const char* why = asks_computers
@@ -126,14 +138,47 @@ const AgentProgram& AgentPrograms::add(AgentProgram program, const std::string& 
 }
 
 const AgentProgram& AgentPrograms::program(std::string_view name, std::string_view where) const {
+  if (const AgentProgram* found = known(name)) return *found;
+  const std::size_t at = name.rfind(wrapped::kWith);
+  if (at != std::string_view::npos && known(name.substr(0, at)) != nullptr)
+    refuse_fault(name, name.substr(at + wrapped::kWith.size()), where);
   std::vector<std::string_view> names;
-  for (const AgentProgram& program : programs_) {
-    if (name == program.name) return program;
-    names.emplace_back(program.name);
-  }
+  for (const AgentProgram& program : programs_) names.emplace_back(program.name);
   throw InputError(where, fmt::format("agent {} is not known{} (see: fleetproof list agents; a shared object is "
                                       "loaded by its path or with --plugin)",
                                       in_quotes(name), name_hint(name, names)));
+}
+
+const AgentProgram* AgentPrograms::known(std::string_view name) const {
+  const auto found = std::ranges::find(programs_, name, &AgentProgram::name);
+  if (found != programs_.end()) return &*found;
+  const std::size_t at = name.rfind(wrapped::kWith);
+  const AgentProgram* inside = at != std::string_view::npos ? known(name.substr(0, at)) : nullptr;
+  if (inside == nullptr) return nullptr;
+  try {
+    return &with_fault(*inside, wrapped::parse_fault(name.substr(at + wrapped::kWith.size())));
+  } catch (const std::invalid_argument&) {
+    return nullptr;
+  }
+}
+
+// A program that is not open here has faults that are not open either.
+const AgentProgram& AgentPrograms::with_fault(const AgentProgram& inside, const wrapped::Fault& fault) const {
+  const std::string name = inside.name + std::string(wrapped::kWith) + text_of(fault);
+  const std::lock_guard lock(mutex_);
+  const auto known = std::ranges::find(wrapped_, name, &AgentProgram::name);
+  if (known != wrapped_.end()) return *known;
+  AgentProgram program = inside;
+  program.inside = &inside;
+  program.name = name;
+  program.description = fmt::format("{} that {}", inside.name, description_of(fault));
+  program.opened.renew = {};
+  if (inside.opened.type != nullptr) {
+    const auto around = std::make_shared<wrapped::WrappedProgram>(*inside.opened.type, fault);
+    program.opened.type = &around->type();
+    program.opened.own = around;
+  }
+  return wrapped_.emplace_back(std::move(program));
 }
 
 const fp_agent_type& AgentPrograms::find(std::string_view name, std::string_view where) const {
@@ -144,8 +189,8 @@ const fp_agent_type& AgentPrograms::find(std::string_view name, std::string_view
 
 bool AgentPrograms::needs_worker(const AgentFactor& agent) const {
   return std::ranges::any_of(agent.parts(), [&](const ProgramPart* part) {
-    const auto found = std::ranges::find(programs_, part->program, &AgentProgram::name);
-    return found != programs_.end() && !found->is_built_in();
+    const AgentProgram* found = known(part->program);
+    return found != nullptr && !found->is_built_in();
   });
 }
 
@@ -156,7 +201,8 @@ std::vector<const AgentProgram*> AgentPrograms::parts_of(const AgentFactor& agen
 }
 
 std::vector<const AgentProgram*> AgentPrograms::foreign_parts_of(const AgentFactor& agent) const {
-  const auto parts = parts_of(agent, "agent");
+  std::vector<const AgentProgram*> parts = parts_of(agent, "agent");
+  for (const AgentProgram*& part : parts) part = &part->innermost();
   std::vector<const AgentProgram*> found = foreign();
   std::erase_if(found, [&](const AgentProgram* program) { return std::ranges::find(parts, program) == parts.end(); });
   std::ranges::sort(found, {}, [&](const AgentProgram* program) { return std::ranges::find(parts, program); });

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "campaign/plan/plan.hpp"
 #include "campaign/run/program_door.hpp"
+#include "core/bridges/wrapped/fault_words.hpp"
 #include "core/engine/fleet_software.hpp"
 #include "core/engine/foreign_calls.hpp"
 #include "core/scenario/layout.hpp"
@@ -24,8 +26,11 @@ struct AgentProgram {
   OpenedProgram opened{};  // its type is null: it is not open in this process
   // Of stations, drives and AGVs, so many each at most; FP_NONE: a program that is not built in says it when it starts.
   std::uint32_t most_of_each = FP_NONE;
+  const AgentProgram* inside = nullptr;  // around which it puts a fault; null: it is none of these
 
   bool is_built_in() const { return source.kind == ProgramKind::BuiltIn; }
+  // Inside all faults.
+  const AgentProgram& innermost() const { return inside == nullptr ? *this : inside->innermost(); }
 };
 
 // Throws InputError, at `where`, if this agent cannot start on the map with so many AGVs. `place`: what has the map, as
@@ -62,11 +67,15 @@ class AgentPrograms {
   // Opens what another AgentPrograms knows. Throws MachineError if it has changed since.
   void load_unchanged(const ProgramSource& known);
 
-  // Throws InputError with the nearest known name if there is no such agent.
+  // Throws InputError with the nearest known name if there is no such agent. "NAME with clock 5 s off" is the program
+  // NAME with this fault around it (core/bridges/wrapped), and needs no other call than this. Threads: any number.
   const AgentProgram& program(std::string_view name, std::string_view where) const;
   // The same. Requires: the agent is open in this process.
   const fp_agent_type& find(std::string_view name, std::string_view where) const;
+  // Without those that have faults around them.
   const std::deque<AgentProgram>& all() const { return programs_; }
+  // As program(). Null: there is none.
+  const AgentProgram* known(std::string_view name) const;
   // Whether its runs belong to worker processes: a part of it is not built in. Parts may be missing among the programs.
   bool needs_worker(const AgentFactor& agent) const;
   // The program on board, then those on its computers. Throws InputError if one is not known.
@@ -96,9 +105,12 @@ class AgentPrograms {
 
  private:
   const AgentProgram& add(AgentProgram program, const std::string& word);
+  const AgentProgram& with_fault(const AgentProgram& inside, const wrapped::Fault& fault) const;
 
   LimitSetup limits_;
   std::deque<AgentProgram> programs_;
+  mutable std::mutex mutex_;
+  mutable std::deque<AgentProgram> wrapped_;  // with faults around them, as they were asked for
 };
 
 }  // namespace fleetproof

@@ -29,6 +29,7 @@ std::string release_digest(const CampaignPlan& plan, const AgentPrograms& progra
     add(bytes, agent.name);
     for (const ProgramPart* part : agent.parts()) {
       const AgentProgram& program = programs.program(part->program, "factors.agents");
+      if (program.inside != nullptr) add(bytes, program.name);
       add(bytes, program.is_built_in() ? engine_identity().program_sha256 : program.source.sha256);
       add(bytes, plan.config_of(*part));
     }

@@ -112,7 +112,7 @@ std::vector<std::string> stored_plugins(const EngineIdentity& stored, const std:
 std::string software_difference(const EngineIdentity& stored, const std::vector<const AgentProgram*>& parts) {
   for (const AgentProgram* part : parts) {
     if (part->is_built_in()) continue;
-    const auto then = stored_plugins(stored, part->name);
+    const auto then = stored_plugins(stored, part->innermost().name);
     if (then != std::vector{part->source.sha256})
       return fmt::format("the software differs (plug-in {}: sha256 {} then, {} now)", part->name,
                          then.empty() ? "unknown" : fmt::format("{}", fmt::join(then, " and ")), part->source.sha256);

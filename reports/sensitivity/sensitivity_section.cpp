@@ -68,7 +68,7 @@ Table sensitivity_table(const SensitivityRecord& record) {
                {"met there", false}},
               {}};
   for (const PlantedFault& fault : record.faults) {
-    table.rows.push_back({printable(fault.agent, 40), printable(fault.text, 80),
+    table.rows.push_back({printable(fault.agent, 80), printable(fault.text, 80),
                           fmt::format("{} of {}", fault.seeds, record.seeds.size()), runs_text(fault), most_text(fault),
                           fault.tried ? or_dash(fault.seen_as) : "never tried", or_dash(fault.cell),
                           or_dash(fault.probe)});
