@@ -129,6 +129,17 @@ void take_computers(TomlTable& table, AgentFactor& agent, AgentFiles& files) {
     throw InputError(table.place("computers"), "computers names none; name one as in computers = { server = ... }");
 }
 
+// The faults around its parts, each once: a name that somebody has given does not hide them.
+std::string faults_of(const AgentFactor& agent, const AgentFiles& files) {
+  std::string all;
+  const auto parts = agent.parts();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string with = wrapped::split_word(files[i].empty() ? parts[i]->program : files[i]).with;
+    if (all.find(with) == std::string::npos) all += with;
+  }
+  return all;
+}
+
 AgentFactor agent_from_table(TomlTable& table, AgentFiles& files) {
   AgentFactor agent;
   if (table.has("vehicle")) {
@@ -161,6 +172,7 @@ void read_agents(TomlTable& factors, std::string_view key, const std::string& ca
       take_word(item.word, agent, of_agent.front());
     }
     for (std::string& file : of_agent) file = file.empty() ? "" : from_campaign(campaign_path, file);
+    if (!agent.name.empty()) agent.name += faults_of(agent, of_agent);
     if (agent.name.empty() && agent.computers.empty()) agent.name = agent.program;
     agents.push_back(std::move(agent));
     files.push_back(std::move(of_agent));

@@ -40,6 +40,9 @@ TEST(WrappedAgents, AreNamedInCampaignFiles) {
   const AgentFactor central =
       agent_of("{ vehicle = \"follower\", computer = { agent = \"zone-server\", with = \"stall 1 s every 9 s\" } }");
   EXPECT_EQ(central.computers.front().program, "zone-server with stall 1 s every 9 s");
+  EXPECT_EQ(agent_of("{ agent = \"hull-lock\", name = \"late\", with = \"clock 2 s off\" }").name,
+            "late with clock 2 s off")
+      << "pages tell of the fault";
   AgentFiles files;
   agent_of("{ file = \"my.so\", with = \"position 1 s old with clock 1 s off\" }", &files);
   EXPECT_EQ(files.front(), "/f/my.so with position 1 s old with clock 1 s off");
@@ -83,14 +86,14 @@ TEST(WrappedAgents, AreProgramsOfTheirOwn) {
 // The same in a worker, which opens the program inside.
 TEST(WrappedAgents, RunWhereTheirProgramBelongs) {
   AgentPrograms here, elsewhere;
-  const std::string name = here.load(FLEETPROOF_RETOUCHED_AGENT), wrapped = name + " with drop every 3rd message";
+  const std::string name = here.load(FLEETPROOF_RETOUCHED_AGENT), wrapped = name + " with stall 5 s every 20 s";
   elsewhere.know(FLEETPROOF_RETOUCHED_AGENT);
   CampaignPlan plan = test::small_plan(), bare = plan;
   plan.gates.clear();
   plan.agents = {wrapped};
   bare.agents = {name};
   EXPECT_TRUE(elsewhere.needs_worker(plan.agents.front()));
-  EXPECT_FALSE(elsewhere.needs_worker("hull-lock with drop every 3rd message"));
+  EXPECT_FALSE(elsewhere.needs_worker("hull-lock with stall 5 s every 20 s"));
   ASSERT_EQ(elsewhere.foreign_parts_of(plan.agents.front()).size(), 1U);
   EXPECT_EQ(elsewhere.foreign_parts_of(plan.agents.front()).front()->name, name);
   const RunRecord record = RunOne(plan, here)(1);
@@ -109,6 +112,8 @@ std::vector<std::string> tried(const Sensitivity& found) {
 // Around software of one's own without being asked, around programs of fleetproof by name.
 TEST(WrappedAgents, AreWhatSensitivityTriesAroundSoftware) {
   CampaignPlan plan = test::small_plan();
+  plan.horizon_s = 20.0;
+  plan.layouts.resize(1);
   plan.agents = {"hull-lock"};
   AgentFactor& central = plan.agents.emplace_back("follower");
   central.name = "pair";
