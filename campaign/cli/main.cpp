@@ -47,8 +47,8 @@ int main(int argc, char** argv) {
            "fleetproof compare old.db new.db --fail-on-regression", prepare_compare},
       Verb{"sensitivity", "run agents with planted faults in the worlds of a campaign, and say which faults it detects",
            "fleetproof sensitivity tests/campaigns/standard-short.toml --runs 1000", prepare_sensitivity},
-      Verb{"new", "write the standard campaign, with explanations, to start from", "fleetproof new campaign night.toml",
-           prepare_new},
+      Verb{"new", "write the standard campaign, or control software of your own, to start from",
+           "fleetproof new campaign night.toml", prepare_new},
       Verb{"list", "list agents, laws, generators, importers, reports or fields", "fleetproof list agents",
            prepare_list},
   };

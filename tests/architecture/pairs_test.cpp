@@ -20,6 +20,8 @@ const std::map<std::string, std::string> kDeclaredElsewhere = {
     {"core/agents/agents.cpp fp_faulty_agent", "a C header, agents.h, declares it"},
     {"core/agents/central/central_plugin.cpp fp_agent_query",
      "the entry point that core/sdk/fleetproof/agent.h declares"},
+    {"core/sdk/starting/callbacks.cpp fp_agent_query", "the entry point that core/sdk/fleetproof/agent.h declares"},
+    {"core/sdk/starting/straight.cpp fp_agent_query", "the entry point that core/sdk/fleetproof/agent.h declares"},
     {"core/agents/plugin.cpp fp_agent_query", "the entry point that core/sdk/fleetproof/agent.h declares"},
 };
 

@@ -77,6 +77,7 @@ const std::map<std::string, std::string> kWideFiles = {
 // Folders of sources without a README.md of their own, each with the reason.
 const std::map<std::string, std::string> kFoldersWithoutPage = {
     {"core/sdk/fleetproof", "core/sdk/README.md describes the headers in it"},
+    {"core/sdk/starting", "core/sdk/README.md says what is in it"},
     {"core/bridges/lockstep", "core/bridges/README.md describes it: one way in"},
     {"tests/agents", "mirrors core/agents: tests/README.md"},
     {"tests/bridges", "mirrors core/bridges: tests/README.md"},

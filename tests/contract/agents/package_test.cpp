@@ -41,7 +41,7 @@ std::vector<std::string> commands_of(const std::string& readme) {
 // `run` and `report` end with 1: the example breaks the safety distance.
 TEST_F(Package, BuildsAndTriesAgentsOutsideTheSourcesAsItsReadmeSays) {
   const auto commands = commands_of(read(test::source("core/sdk/package/README.md")));
-  ASSERT_EQ(commands.size(), 6U);
+  ASSERT_EQ(commands.size(), 7U);
   std::string script = "set -e\nexport CMAKE_PREFIX_PATH=" + path("root/usr") + "\n";
   for (std::string command : commands) {
     if (const auto at = command.find("/usr/share"); at != std::string::npos) command.insert(at, path("root"));
@@ -55,6 +55,42 @@ TEST_F(Package, BuildsAndTriesAgentsOutsideTheSourcesAsItsReadmeSays) {
   EXPECT_NE(read(path("said")).find("demonstrated | depot broke"), std::string::npos);
   for (const char* page : {"agents/report.html", "agents/run.html"})
     EXPECT_NE(read(path(page)).find("</html>"), std::string::npos) << page;
+}
+
+// Each start in each language, from an empty folder. The commands that `new agent` prints are typed for one of each way
+// to build; one project builds all others, because CMake takes its time to look at a compiler.
+TEST_F(Package, AStartInEachLanguageRunsAtOnce) {
+  const std::vector<std::string> typed = {"c callbacks", "python callbacks", "python straight", "python master"};
+  const std::vector<std::string> together = {"c master", "cpp callbacks", "cpp straight", "cpp master"};
+  std::string script =
+      "set -e\nshort() { sed -i \"s/^replicates = .*/replicates = 2/\" $1/$1.toml; }\n"
+      "tried() { fleetproof check $1.toml; fleetproof run $1.toml || case $? in 1|4) ;; *) exit 9;; esac; }\n"
+      "start() { fleetproof new agent $1-$2 --language $1 --style $2; short $1-$2; }\n";
+  for (const std::string& words : typed) {
+    const std::string name = std::regex_replace(words, std::regex(" "), "-");
+    script += "start " + words + " | sed -n \"s/^  //p\" > next.sh\nsed -i \"/replay/d; s/fleetproof check.*/tried " +
+              name + "/\" next.sh\n(. ./next.sh)\n";
+  }
+  std::string project = "cmake_minimum_required(VERSION 3.25)\nproject(all C CXX)\n";
+  std::string tries;
+  for (const std::string& words : together) {
+    const std::string name = std::regex_replace(words, std::regex(" "), "-");
+    script += "start " + words + "\n";
+    project += "add_subdirectory(" + name + ")\nset_target_properties(" + name +
+               " PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_SOURCE_DIR}/" + name + "/build)\n";
+    tries += "(cd " + name + "; tried " + name + ")\n";
+  }
+  write("CMakeLists.txt", project);
+  write("walk.sh", script + "cmake -B build && cmake --build build\n" + tries);
+  ASSERT_EQ(shell("sh walk.sh"), 0) << read(path("said"));
+  const std::string said = read(path("said"));
+  for (const auto* list : {&typed, &together}) {
+    for (const std::string& words : *list) {
+      const std::string name = std::regex_replace(words, std::regex(" "), "-");
+      EXPECT_NE(said.find(name + " broke the safety distance"), std::string::npos) << name << said;
+    }
+  }
+  EXPECT_EQ(said.find("crash"), std::string::npos) << said;
 }
 
 TEST_F(Package, NamesNoFolderOfTheBuild) {

@@ -59,5 +59,47 @@ TEST_F(NewCampaign, OverwritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("long-haul.json"))) << "its layout has this name";
 }
 
+using NewAgent = test::ProgramTest;
+
+// What it writes is built and run in ../agents/package_test.cpp.
+TEST_F(NewAgent, RefusesWhatDoesNotExist) {
+  const auto refused = [&](const std::string& words, const std::string& sentence) {
+    const auto finished = run("new " + words);
+    EXPECT_EQ(finished.exit_code, 2) << words;
+    EXPECT_THAT(finished.err, HasSubstr(sentence)) << words;
+  };
+  refused("agent", "NAME: is missing");
+  refused("agent 3x", "\"3x\" is no name for an agent");
+  refused("agent a/b", "\"a/b\" is no name for an agent");
+  refused("agent hull-lock", "hull-lock is an agent of fleetproof list agents");
+  refused("agent mine --language pyhton", "did you mean \"python\"?");
+  refused("agent mine --language rust", "known: cpp, c, python; every other language: core/sdk/lockstep.md");
+  refused("agent mine --language c --style straight", "there is no start \"straight\" in c; known: callbacks, master");
+  refused("agent mine --central", "fleetproof new agent NAME --style master");
+  refused("campaign c.toml --language c", "--language: is for an agent");
+  EXPECT_FALSE(std::filesystem::exists(path("mine")));
+  std::filesystem::create_directory(path("mine"));
+  write("mine/mine.toml", "seed = 1\n");
+  refused("agent mine", "mine/mine.toml: is there already, with another content");
+  EXPECT_FALSE(std::filesystem::exists(path("mine/agent.cpp"))) << "all or none";
+  write("full", "");
+  refused("agent full", "full");
+}
+
+// The names of the starts are replaced everywhere.
+TEST_F(NewAgent, BearsItsNameOnly) {
+  for (const char* words : {"cpp --style master", "python --style master", "c", "cpp --style straight"}) {
+    std::filesystem::remove_all(path("mine"));
+    ASSERT_EQ(run(std::string("new agent mine --language ") + words).exit_code, 0) << words;
+    ASSERT_EQ(run(std::string("new agent mine --language ") + words).exit_code, 0) << "twice the same";
+    for (const auto& file : std::filesystem::directory_iterator(path("mine"))) {
+      const std::string text = read(file.path());
+      EXPECT_THAT(text, HasSubstr("mine")) << file.path();
+      for (const char* left : {"my-agent", "my-master", "depot", "@PROGRAM@"})
+        EXPECT_THAT(text, Not(HasSubstr(left))) << file.path();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fleetproof::new_campaign_test

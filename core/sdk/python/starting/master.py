@@ -1,7 +1,7 @@
-"""my-master: a server that gives each open order to one vehicle, and the vehicle that carries it out. Nobody asks
+"""my-agent: a server that gives each open order to one vehicle, and the vehicle that carries it out. Nobody asks
 before it drives.
 
-Try it: name it in a campaign as { run = "python3 master.py", way = "lockstep" }, once as vehicle and once as computer.
+Try it: name it in a campaign as { run = "python3 agent.py", way = "lockstep" }, once as vehicle and once as computer.
 """
 
 import json
@@ -69,4 +69,4 @@ async def drive(agv: StraightAgv, station: int, goal: int) -> int:
 
 
 if __name__ == "__main__":
-    fleetproof.serve("my-master", vehicle=my_vehicle, computer=MyMaster)
+    fleetproof.serve("my-agent", vehicle=my_vehicle, computer=MyMaster)

@@ -1,6 +1,6 @@
 """my-agent: the software on board of an AGV, as straight-line code. It carries out its transports, and asks nobody.
 
-Try it: name it in a campaign as { name = "my-agent", run = "python3 straight.py", way = "lockstep" }.
+Try it: name it in a campaign as { name = "my-agent", run = "python3 agent.py", way = "lockstep" }.
 """
 
 import fleetproof
