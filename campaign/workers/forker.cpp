@@ -39,7 +39,8 @@ namespace {
 
 constexpr int kGrace_ms = 200;  // for a worker that has closed its channel to be dead
 constexpr int kLookEvery_ms = 100;
-constexpr int kMostLooks = 600;  // at a forker that does not answer; then it is killed
+constexpr int kMostLooks = 600;            // at a forker that does not answer; then it is killed
+constexpr int kMostLooksAtSession = 1000;  // at what is left of a forker that was killed
 constexpr int kPatienceAtEnd_ms = 10'000;
 constexpr unsigned long kAskPersonality = 0xffffffff;
 // What an agent may write to one file, its log included: an agent that prints without end must not fill the disk.
@@ -231,6 +232,17 @@ class ForkerProcess {
 
 // ---- the process that made it
 
+// The workers die with the forker that was killed, each when the system gets to it; what one starts until then is of
+// the session, too.
+void end_session(pid_t forker) {
+  for (int looks = 0; looks < kMostLooksAtSession; ++looks) {
+    const std::vector<pid_t> left = processes_of_session(forker);
+    if (left.empty()) return;
+    for (const pid_t process : left) ::kill(process, SIGKILL);
+    ::poll(nullptr, 0, 1);
+  }
+}
+
 [[noreturn]] void throw_not_started(int error) {
   throw MachineError(fmt::format("no worker process can be started: {}", std::strerror(error)));
 }
@@ -250,7 +262,9 @@ void Forker::start_process() {
   const std::vector<char*> arguments = pointers_to(words);
   const pid_t forker = ::fork();
   if (forker == 0) {
-    ::setpgid(0, 0);  // Ctrl-C in the terminal is for the main process, which ends the others in order
+    // Ctrl-C in the terminal is for the main process, which ends the others in order. If this process is killed, its
+    // session still names what its workers have started, in whichever groups.
+    ::setsid();
     ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);  // whatever the main process has open
     set_close_on_exec(ends[1], false);
     for (const auto* list : {&program_.logs, &program_.descriptors}) {
@@ -283,10 +297,7 @@ void Forker::end_process() {
     ::kill(forker_, waited_ms < kPatienceAtEnd_ms ? SIGCONT : SIGKILL);
     ::poll(nullptr, 0, 1);
   }
-  if (WIFSIGNALED(status)) {  // then it has not ended what its workers have started
-    for (const pid_t worker : alive_) ::kill(-worker, SIGKILL);
-  }
-  alive_.clear();
+  if (WIFSIGNALED(status)) end_session(forker_);  // then it has not ended what its workers have started
 }
 
 // False: it is dead.
@@ -313,17 +324,13 @@ Forker::Worker Forker::start(int slot) {
       throw MachineError(fmt::format("the process that starts the workers cannot be started: {}", program_.file));
   }
   if (reply.pid < 0) throw_not_started(-reply.pid);
-  alive_.insert(reply.pid);
   return {reply.pid, std::move(ends.here), number_};
 }
 
 WorkerDeath Forker::collect(const Worker& worker) {
   const std::lock_guard lock(mutex_);
   ForkReply reply;
-  if (worker.forker == number_ && ask({ForkRequest::Kind::Collect, 0, worker.pid}, -1, reply)) {
-    alive_.erase(worker.pid);
-    return reply.death;
-  }
+  if (worker.forker == number_ && ask({ForkRequest::Kind::Collect, 0, worker.pid}, -1, reply)) return reply.death;
   ::kill(-worker.pid, SIGKILL);
   reply.death.with_forker = true;
   return reply.death;

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <mutex>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -65,7 +64,6 @@ class Forker {
   int control_ = -1;
   pid_t forker_ = 0;
   std::uint64_t number_ = 0;  // counts the processes that were forker
-  std::set<pid_t> alive_;     // the workers of this one that are not collected yet
 };
 
 // Call this first in main(). If a Forker has started this process as its own, it serves and never returns.

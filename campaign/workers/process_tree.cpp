@@ -44,7 +44,14 @@ std::vector<std::string> fields_of(const std::string& stat_file) {
 }
 
 // Places among these fields; proc(5) counts from the process number, which is its field 1.
-enum : std::size_t { kState = 0, kParent = 1, kUserOfWaited = 13, kSystemOfWaited = 14, kResidentPages = 21 };
+enum : std::size_t {
+  kState = 0,
+  kParent = 1,
+  kSession = 3,
+  kUserOfWaited = 13,
+  kSystemOfWaited = 14,
+  kResidentPages = 21
+};
 
 std::vector<std::string> fields_of_process(pid_t process) { return fields_of(fmt::format("/proc/{}/stat", process)); }
 
@@ -125,6 +132,16 @@ std::vector<pid_t> descendants_of(pid_t process) {
     }
     found.insert(found.end(), children.begin(), children.end());
     parents = std::move(children);
+  }
+  return found;
+}
+
+std::vector<pid_t> processes_of_session(pid_t session) {
+  std::vector<pid_t> found;
+  for (const pid_t process : numbers_in_folder("/proc")) {
+    const auto fields = fields_of_process(process);
+    const bool is_of_it = static_cast<pid_t>(number_at(fields, kSession)) == session;
+    if (is_of_it && fields[kState] != "Z" && fields[kState] != "X") found.push_back(process);
   }
   return found;
 }

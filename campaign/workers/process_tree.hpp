@@ -14,6 +14,8 @@ std::vector<pid_t> children_of(pid_t process);
 // The children of this process, their children, and so on. A process whose parent has ended belongs to the nearest
 // ancestor that takes orphans in (PR_SET_CHILD_SUBREAPER), as workers and forkers do.
 std::vector<pid_t> descendants_of(pid_t process);
+// Of a session, without those that have ended and wait to be waited for.
+std::vector<pid_t> processes_of_session(pid_t session);
 
 // A process and its descendants at one instant.
 struct TreeUse {

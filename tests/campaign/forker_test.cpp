@@ -136,11 +136,14 @@ TEST(Forker, DiesWithTheProcessThatMadeIt) {
 TEST(Forker, StartsAgainAfterItWasKilled) {
   Forker forker(echo());
   auto worker = forker.start(0);
+  const pid_t in_a_group = std::stoi(ask(worker, "child in a group"));
+  EXPECT_TRUE(is_alive(in_a_group));
   worker.channel.send("kill forker");
   while (worker.channel.wait(std::chrono::seconds(20)) == Wait::Arrived) (void)worker.channel.received();
   EXPECT_TRUE(forker.collect(worker).with_forker) << "its workers end with it";
   expect_group_ends(worker.pid);
   auto next = forker.start(1);
+  EXPECT_TRUE(is_dead(in_a_group)) << "what it has started, in whichever group";
   EXPECT_EQ(ask(next, "hello"), "1hello");
   next.channel.send("exit");
   EXPECT_EQ(WEXITSTATUS(forker.collect(next).status), 7);

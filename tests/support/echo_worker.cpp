@@ -26,6 +26,13 @@ void echo(Channel channel, const std::string& slot) {
     if (words == "child" && ::fork() == 0) {
       for (;;) ::pause();
     }
+    if (words == "child in a group") {
+      const pid_t child = ::fork();
+      ::setpgid(child, child);
+      while (child == 0) ::pause();
+      channel.send(std::to_string(child));
+      continue;
+    }
     if (words == "kill forker") ::kill(::getppid(), SIGKILL);
     if (words == "stop forker") ::kill(::getppid(), SIGSTOP);
     channel.send(slot + words);

@@ -1,6 +1,5 @@
 #include "core/bridges/lockstep/process.hpp"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -12,9 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 namespace fleetproof::lockstep {
@@ -42,6 +39,7 @@ void close_both(const Pipe& ends) {
 [[noreturn]] void become(char* const* words, const Pipe& in, const Pipe& out, const Pipe& trouble, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(kNotStarted);
+  ::setpgid(0, 0);  // so that what it starts can be killed with it
   const int error = ::fcntl(trouble[1], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   ::dup2(in[0], STDIN_FILENO);
   ::dup2(out[1], STDOUT_FILENO);
@@ -63,42 +61,13 @@ void close_both(const Pipe& ends) {
   ::_exit(kNotStarted);
 }
 
-// The parent of a process; 0: there is no such process. The name before it may hold anything.
-pid_t parent_of(const char* process) {
-  std::ifstream file(std::string("/proc/") + process + "/stat");
-  std::string line;
-  std::getline(file, line);
-  const auto name_ends = line.rfind(") ");
-  return name_ends == std::string::npos ? 0 : static_cast<pid_t>(std::atol(line.c_str() + name_ends + 4));
-}
-
-// All processes below this one, parents first.
-std::vector<pid_t> descendants_of(pid_t root) {
-  std::vector<std::pair<pid_t, pid_t>> all;  // process, parent
-  DIR* folder = ::opendir("/proc");
-  if (folder == nullptr) return {};
-  while (const dirent* entry = ::readdir(folder)) {
-    const auto process = static_cast<pid_t>(std::atol(entry->d_name));
-    if (process > 0) all.emplace_back(process, parent_of(entry->d_name));
-  }
-  ::closedir(folder);
-  std::vector<pid_t> found{root};
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    for (const auto& [process, parent] : all) {
-      if (parent == found[i]) found.push_back(process);
-    }
-  }
-  found.erase(found.begin());
-  return found;
-}
-
 }  // namespace
 
 std::string cited(std::string_view line) {
   return "\"" + std::string(line.substr(0, kQuoted)) + (line.size() > kQuoted ? "...\"" : "\"");
 }
 
-Process::Process(std::vector<std::string> words) {
+Process::Process(std::vector<std::string> words) : room_(kReadAtOnce) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -134,9 +103,8 @@ Process::~Process() {
 // What a process that is ending has as its exit code stays: a signal that comes later does not change it.
 int Process::end() {
   if (process_ <= 0) return status_;
-  const std::vector<pid_t> others = descendants_of(process_);
   ::kill(process_, SIGKILL);
-  for (const pid_t other : others) ::kill(other, SIGKILL);
+  ::kill(-process_, SIGKILL);  // until it is waited for, no other group can have this number
   while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
   }
   process_ = 0;
@@ -169,13 +137,11 @@ bool Process::read_more() {
     if (errno != EINTR) return false;
   }
   if (ready[0].revents == 0) return false;
-  const std::size_t before = bytes_.size();
-  bytes_.resize(before + kReadAtOnce);
   ssize_t count = 0;
   do {
-    count = ::read(from_, bytes_.data() + before, kReadAtOnce);
+    count = ::read(from_, room_.data(), room_.size());
   } while (count < 0 && errno == EINTR);
-  bytes_.resize(before + static_cast<std::size_t>(count > 0 ? count : 0));
+  if (count > 0) bytes_.append(room_.data(), static_cast<std::size_t>(count));
   return count > 0;
 }
 

@@ -19,8 +19,8 @@ class Broken : public std::runtime_error {
 std::string cited(std::string_view line);
 
 // A process that is spoken to over its standard input and output, in lines. Its standard error is that of this process.
-// It ends with this object, or with the thread that has started it; so do the processes that it has started, as far as
-// they can be found then.
+// It ends with this object, or with the thread that has started it. It leads a process group, which ends with this
+// object: the processes that it has started, but for those that have left the group.
 class Process {
  public:
   // Requires: SIGPIPE is ignored in this process, and `words` is not empty. Throws Broken if it cannot be started.
@@ -44,9 +44,10 @@ class Process {
   pid_t process_ = 0;
   int handle_ = -1;  // becomes readable when the process has ended; -1: the system has no such handles
   int to_ = -1, from_ = -1;
-  int status_ = 0;         // as of waitpid
-  std::string bytes_;      // received
-  std::size_t taken_ = 0;  // of them, in lines that were returned
+  int status_ = 0;          // as of waitpid
+  std::vector<char> room_;  // for what is read; not cleared for each answer, which takes microseconds
+  std::string bytes_;       // received
+  std::size_t taken_ = 0;   // of them, in lines that were returned
 };
 
 }  // namespace fleetproof::lockstep
