@@ -47,7 +47,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"wrong-argument", R"(made a call whose argument 1 is no number from 0 on: "["move",-1]")"},
                     Case{"missing-argument", R"(made a call whose argument 2 is missing: "["set_timer",1]")"},
                     Case{"no-byte", "made a call whose argument 1 has a character above U+00FF"},
-                    Case{"exit", "ended with exit code 3"}, Case{"signal", "ended with a signal: Aborted"},
+                    Case{"calls-no-list", R"(has calls that are no list in the line "{"calls": 3}")"},
+                    Case{"unknown-ask", R"(made an unknown call: "["fly"]" in the line "{"ask": ["fly"]}")"},
+                    Case{"deep", R"(sent lists in lists, more than 64 deep: "{"calls": [[[)"},
+                    Case{"no-utf8", "sent a line that is no JSON object"}, Case{"exit", "ended with exit code 3"},
+                    Case{"signal", "ended with a signal: Aborted"},
                     Case{"close", "closed its standard input or output"},
                     Case{"half-a-line", R"(ended in the middle of a line: "{"calls"")"},
                     Case{"long", "sent more than 16 MB without a line feed"},
@@ -58,9 +62,18 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-TEST(UnrulyLockstep, ALineThatNothingAskedForIsFiledAtTheNextEvent) {
-  const LockstepProgram program(test::python("unruly.py", "two-lines"));
-  EXPECT_THAT(test::run_of(program).outcome.message, HasSubstr("sent a line that nothing had asked for"));
+TEST(UnrulyLockstep, WhatComesAfterAWholeAnswerIsFiledAtTheNextEvent) {
+  for (const Case& after : {Case{"two-lines", "sent a line that nothing had asked for: \"{\"calls\": []}"},
+                            Case{"flood", "sent a line that nothing had asked for: \"{\"calls\": []}"},
+                            Case{"close-input", "closed its standard input or output"}}) {
+    const LockstepProgram program(test::python("unruly.py", after.how));
+    EXPECT_THAT(test::run_of(program).outcome.message, HasSubstr(after.sentence)) << after.how;
+  }
+}
+
+TEST(UnrulyLockstep, HasTheThreeStandardStreamsAndNoOtherFile) {
+  const LockstepProgram program(test::python("unruly.py", "other-descriptors"));
+  EXPECT_THAT(test::logged(test::run_of(program)), ElementsAre("0"));
 }
 
 TEST(UnrulyLockstep, AWrongAnswerToByeIsFiledOnce) {

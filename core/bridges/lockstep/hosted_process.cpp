@@ -10,7 +10,26 @@ namespace {
 
 constexpr int kProtocol = 1;
 
+constexpr int kMostNested = 64;  // lists in lists
+
+// The parser needs no stack for them, but to write them into an error takes one frame for each.
+bool is_too_deep(std::string_view line) {
+  int depth = 0;
+  bool is_text = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (is_text && c == '\\') ++i;
+    if (c == '"') is_text = !is_text;
+    if (is_text) continue;
+    if ((c == '[' || c == '{') && ++depth > kMostNested) return true;
+    if (c == ']' || c == '}') --depth;
+  }
+  return false;
+}
+
 Json parsed(std::string_view line) {
+  if (is_too_deep(line))
+    throw Broken("sent lists in lists, more than " + std::to_string(kMostNested) + " deep: " + cited(line));
   Json json = Json::parse(line, nullptr, false);
   if (!json.is_object()) throw Broken("sent a line that is no JSON object: " + cited(line));
   return json;

@@ -11,6 +11,17 @@ def say(what):
     sys.stdout.flush()
 
 
+def written_elsewhere():
+    """To how many descriptors beside the three standard ones it can write."""
+    count = 0
+    for number in range(3, 1000):
+        try:
+            count += os.write(number, b"x")
+        except OSError:
+            pass
+    return count
+
+
 def misbehave(how, told):
     if how == "no-json":
         print("starting up ...", flush=True)
@@ -26,6 +37,23 @@ def misbehave(how, told):
         say({"calls": [["set_timer", 1]]})
     elif how == "no-byte":
         say({"calls": [["send_broadcast", "\u20ac"]]})
+    elif how == "calls-no-list":
+        say({"calls": 3})
+    elif how == "unknown-ask":
+        say({"ask": ["fly"]})
+    elif how == "deep":
+        os.write(1, b'{"calls": [' + b"[" * 1000000 + b"]" * 1000000 + b"]}\n")
+    elif how == "no-utf8":
+        os.write(1, b'{"calls": [["log", "\xff\xfe"]]}\n')
+    elif how == "flood":
+        while True:
+            os.write(1, b'{"calls": []}\n')
+    elif how == "close-input":
+        os.close(0)
+        say({"calls": []})
+        time.sleep(1000)
+    elif how == "other-descriptors":
+        say({"calls": [["log", str(written_elsewhere())]]})
     elif how == "exit":
         sys.exit(3)
     elif how == "signal":
