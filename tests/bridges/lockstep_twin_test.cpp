@@ -1,6 +1,11 @@
 // A program in a process of its own has the digest of the same program in C.
+#include <unistd.h>
+
 #include <array>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "core/bridges/wrapped/wrapped_program.hpp"
@@ -127,6 +132,25 @@ TEST(Lockstep, HasTheTraceOfItsTwinInsideEachFault) {
     EXPECT_NE(twin.outcome, test::watched(scenario, kTwin, {}).outcome);
     test::expect_same(test::watched(scenario, wrapped::WrappedProgram(program.type(), fault).type(), {}), twin);
   }
+}
+
+// Every kind of line of a run in which no order is withdrawn, no named fault strikes and no call is refused.
+TEST(Lockstep, SpeaksAsItsSchemaSays) {
+  const std::string file = testing::TempDir() + "overheard." + std::to_string(::getpid());
+  const std::string script = FLEETPROOF_SOURCE_DIR "/tests/bridges/programs/overheard.py";
+  {
+    const lockstep::LockstepProgram program("python3 -B '" + script + "' record '" + file + "' " +
+                                            test::python("twin.py"));
+    test::expect_same(test::run_of(program, restless(0.003)), test::watched(restless(0.003), kTwin, {}));
+  }
+  const std::string said = file + ".said";
+  EXPECT_EQ(std::system(("python3 -B '" + script + "' check '" + file + "' > '" + said + "'").c_str()), 0);
+  std::ifstream counted(said);
+  std::string kinds;
+  std::getline(counted, kinds);
+  EXPECT_EQ(kinds,
+            "<action_done <answer <bye <destroy <hello <message <order <run <start <timer >ask >bye >calls >hello");
+  for (const std::string& name : {file, said}) std::filesystem::remove(name);
 }
 
 TEST(Lockstep, KnowsTheFaultsOfItsHello) {
