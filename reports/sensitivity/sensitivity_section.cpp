@@ -47,7 +47,7 @@ std::string measured_text(const SensitivityRecord& record) {
 std::string sensitivity_sentence(const SensitivityRecord& record) {
   std::vector<std::string> missed, untried;
   for (const PlantedFault& fault : record.faults) {
-    if (!record.detects(fault)) (fault.tried ? missed : untried).push_back(printable(fault.agent, 40));
+    if (!record.detects(fault)) (fault.tried ? missed : untried).push_back(printable(fault.agent, 80));
   }
   const std::uint64_t unmeasured = record.known_faults - std::min(record.known_faults, record.faults.size());
   return fmt::format("detects {} of {} within {}{}{}{}", record.detected(),

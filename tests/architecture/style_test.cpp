@@ -79,6 +79,7 @@ const std::map<std::string, std::string> kFoldersWithoutPage = {
     {"core/sdk/fleetproof", "core/sdk/README.md describes the headers in it"},
     {"core/sdk/starting", "core/sdk/README.md says what is in it"},
     {"core/bridges/lockstep", "core/bridges/README.md describes it: one way in"},
+    {"core/bridges/wrapped", "core/bridges/README.md describes it: the faults around a program"},
     {"tests/agents", "mirrors core/agents: tests/README.md"},
     {"tests/bridges", "mirrors core/bridges: tests/README.md"},
     {"tests/contract/agents", "a group of tests/contract: its README.md has a section for each"},

@@ -88,8 +88,10 @@ TEST(WrappedAgents, RunWhereTheirProgramBelongs) {
   AgentPrograms here, elsewhere;
   const std::string name = here.load(FLEETPROOF_RETOUCHED_AGENT), wrapped = name + " with stall 5 s every 20 s";
   elsewhere.know(FLEETPROOF_RETOUCHED_AGENT);
-  CampaignPlan plan = test::small_plan(), bare = plan;
+  CampaignPlan plan = test::small_plan();
+  plan.agent_config = "timeout-grant";
   plan.gates.clear();
+  CampaignPlan bare = plan;
   plan.agents = {wrapped};
   bare.agents = {name};
   EXPECT_TRUE(elsewhere.needs_worker(plan.agents.front()));
@@ -133,8 +135,9 @@ TEST(WrappedAgents, AreWhatSensitivityTriesAroundSoftware) {
   EXPECT_EQ(found.faults[3].sound, "pair");
   AgentPrograms programs;
   plan.agents.front() = programs.know(FLEETPROOF_RETOUCHED_AGENT);
-  const Sensitivity own = measure_sensitivity(plan, programs, {.runs = 1, .agents = {}, .with = options.with});
-  EXPECT_EQ(own.faults.size(), 2U) << "not around those of fleetproof";
+  plan.agent_config = "timeout-grant";
+  const Sensitivity own = measure_sensitivity(plan, programs, {.runs = 1, .agents = {}, .with = {options.with.back()}});
+  EXPECT_EQ(own.faults.size(), 1U) << "not around those of fleetproof";
   EXPECT_EQ(own.sound.front().agent, plan.agents.front().name);
 }
 

@@ -74,7 +74,8 @@ std::vector<fp_event> RestartFacts::orders_now(const fp_perceived& seen) const {
   for (const Order& order : orders_) {
     if (!order.is_done) told.push_back(order.told);
   }
-  std::ranges::stable_partition(told, [&](const fp_event& event) { return event.order_id == seen.order_id; });
+  std::stable_partition(told.begin(), told.end(),
+                        [&](const fp_event& event) { return event.order_id == seen.order_id; });
   return told;
 }
 
