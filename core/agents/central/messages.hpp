@@ -23,7 +23,7 @@ struct Step {
   friend bool operator==(const Step&, const Step&) = default;
   void fields(auto& io) {
     io(kind, what);
-    io.require(kind <= Kind::Charge);
+    io.require(static_cast<std::uint8_t>(kind) <= static_cast<std::uint8_t>(Kind::Charge));
   }
 };
 
