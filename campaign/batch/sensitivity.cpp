@@ -102,20 +102,20 @@ void require_known(const std::vector<std::string>& wanted, const std::vector<std
 }
 
 // A sound agent, and what is compared with it.
-struct Comparison {
+struct FaultyCopies {
   AgentFactor sound;
   std::vector<AgentFactor> copies;
 };
 
-std::vector<Comparison> planted_ones(const CampaignPlan& plan, const SensitivityOptions& options) {
+std::vector<FaultyCopies> planted_ones(const CampaignPlan& plan, const SensitivityOptions& options) {
   const std::vector<AgentFactor> sound_ones = sound_agents(plan);
   require_known(options.agents, faulty_agent_names(plan), sound_ones);
-  std::vector<Comparison> found;
+  std::vector<FaultyCopies> found;
   for (const AgentFactor& sound : sound_ones) {
-    Comparison comparison{sound, {}};
+    FaultyCopies tried{sound, {}};
     for (const std::string& name : wanted_copies(sound, options.agents))
-      comparison.copies.push_back(with_fault(sound, name).value());
-    if (!comparison.copies.empty()) found.push_back(std::move(comparison));
+      tried.copies.push_back(with_fault(sound, name).value());
+    if (!tried.copies.empty()) found.push_back(std::move(tried));
   }
   return found;
 }
@@ -133,23 +133,23 @@ std::optional<AgentFactor> with_fault_around(AgentFactor agent, const std::strin
   return agent;
 }
 
-Comparison around_all_parts(AgentFactor agent, const std::vector<wrapped::Fault>& faults) {
+FaultyCopies around_all_parts(AgentFactor agent, const std::vector<wrapped::Fault>& faults) {
   agent.role = AgentRole::ByOrigin;
-  std::vector<std::string> tried;
-  Comparison comparison{agent, {}};
+  std::vector<std::string> programs;
+  FaultyCopies tried{agent, {}};
   for (const ProgramPart* part : agent.parts()) {
-    if (std::ranges::find(tried, part->program) != tried.end()) continue;
-    tried.push_back(part->program);
+    if (std::ranges::find(programs, part->program) != programs.end()) continue;
+    programs.push_back(part->program);
     for (const wrapped::Fault& fault : faults) {
-      if (auto copy = with_fault_around(agent, part->program, fault)) comparison.copies.push_back(std::move(*copy));
+      if (auto copy = with_fault_around(agent, part->program, fault)) tried.copies.push_back(std::move(*copy));
     }
   }
-  return comparison;
+  return tried;
 }
 
-std::vector<Comparison> comparisons_of(const CampaignPlan& plan, const AgentPrograms& programs,
-                                       const SensitivityOptions& options) {
-  std::vector<Comparison> found;
+std::vector<FaultyCopies> comparisons_of(const CampaignPlan& plan, const AgentPrograms& programs,
+                                         const SensitivityOptions& options) {
+  std::vector<FaultyCopies> found;
   if (!options.agents.empty() || options.with.empty()) found = planted_ones(plan, options);
   if (!options.agents.empty() && options.with.empty()) return found;
   const std::vector<wrapped::Fault> faults = options.with.empty() ? wrapped::usual_faults() : options.with;
@@ -254,11 +254,11 @@ Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& p
                                 const SensitivityOptions& options,
                                 const std::function<void(const FaultDetection&)>& told) {
   Sensitivity result;
-  for (const Comparison& comparison : comparisons_of(plan, programs, options)) {
+  for (const FaultyCopies& tried : comparisons_of(plan, programs, options)) {
     const AgentTally& sound =
-        result.sound.emplace_back(tally_of(with_agent(plan, comparison.sound), programs, options, false));
+        result.sound.emplace_back(tally_of(with_agent(plan, tried.sound), programs, options, false));
     const bool until_violation = sound.all.with(kAccusedOfViolation) == 0;
-    for (const AgentFactor& copy : comparison.copies) {
+    for (const AgentFactor& copy : tried.copies) {
       const CampaignPlan worlds = with_agent(plan, copy);
       AgentTally faulty = tally_of(worlds, programs, options, until_violation);
       if (is_over(options)) return result;  // not all of its runs are there

@@ -9,7 +9,7 @@
 namespace fleetproof::wrapped {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr std::uint32_t kMostMessages = 1'000'000;
 constexpr double kMostSeconds = 86'400.0;
 
@@ -58,8 +58,8 @@ std::string ordinal(std::uint32_t n) {
 
 // Without zeros at the end: "2.5".
 std::string seconds_text(std::int64_t ns) {
-  std::string text = std::to_string(ns / kSecond_ns);
-  std::string rest = std::to_string(ns % kSecond_ns + kSecond_ns).substr(1);
+  std::string text = std::to_string(ns / kNsPerSecond);
+  std::string rest = std::to_string(ns % kNsPerSecond + kNsPerSecond).substr(1);
   rest.erase(rest.find_last_not_of('0') + 1);
   return rest.empty() ? text : text + "." + rest;
 }
