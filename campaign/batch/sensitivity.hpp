@@ -39,17 +39,16 @@ struct Sensitivity {
 struct SensitivityOptions {
   std::uint64_t runs = 10'000;  // of each agent, at most; never more than the plan has
   int workers = 1;
-  std::vector<std::string> agents;   // faulty agents; empty: all, but none if `with` names faults
-  std::vector<wrapped::Fault> with;  // around the software of the plan; empty: the usual ones
+  std::vector<std::string> agents{};   // faulty agents; empty: all, but none if `with` names faults
+  std::vector<wrapped::Fault> with{};  // around the software of the plan; empty: the usual ones
   const TimeLimit* limit = nullptr;  // when it is over, the result has the faults that were measured; null: none
 };
 
 // Runs sound agents and their faulty copies in the worlds of `plan`, and stores nothing. The faulty copies are planted
 // in programs of fleetproof or put around those of others.
 //
-// Planted: the sound agents are those of
-// the plan of which copies exist: hull-lock, and fleet software with computers, whose copies have one faulty program
-// each and else sound ones. If the plan has neither, the sound agent is hull-lock.
+// Planted: the sound agents are those of the plan of which copies exist: hull-lock, and fleet software with computers,
+// whose copies have one faulty program each and else sound ones. If the plan has neither, the sound agent is hull-lock.
 // Around (core/bridges/wrapped): what they are compared with is each agent of the plan with a part that is not built
 // in, without the fault; each of its programs has each fault in turn. If there is no such agent, none is tried unless
 // `with` names faults: then they are put around each agent of the plan.
