@@ -56,7 +56,7 @@ struct SensitivityOptions {
 // A fault is detected by its first violation, if its sound agent has none in all its runs; then its other runs are not
 // simulated. Otherwise a fault is detected if the laws accuse it of something in more runs than the sound agent, over
 // all runs or with one of the radios of the plan: the lower bound of one rate lies above the upper bound of the other,
-// with 5 % risk over all comparisons of this fault. Throws InputError for an agent that is not a faulty one,. `told`
+// with 5 % risk over all comparisons of this fault. Throws InputError for an agent that is not a faulty one. `told`
 // hears each finding.
 Sensitivity measure_sensitivity(const CampaignPlan& plan, const AgentPrograms& programs,
                                 const SensitivityOptions& options,
