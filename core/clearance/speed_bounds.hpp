@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/clearance/clearance_over_time.hpp"
 #include "core/clearance/phase_motion.hpp"
 #include "core/clearance/shared_points.hpp"
 
