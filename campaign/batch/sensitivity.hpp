@@ -41,7 +41,7 @@ struct SensitivityOptions {
   int workers = 1;
   std::vector<std::string> agents{};   // faulty agents; empty: all, but none if `with` names faults
   std::vector<wrapped::Fault> with{};  // around the software of the plan; empty: the usual ones
-  const TimeLimit* limit = nullptr;  // when it is over, the result has the faults that were measured; null: none
+  const TimeLimit* limit = nullptr;    // when it is over, the result has the faults that were measured; null: none
 };
 
 // Runs sound agents and their faulty copies in the worlds of `plan`, and stores nothing. The faulty copies are planted

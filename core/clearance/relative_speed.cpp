@@ -13,6 +13,8 @@
 namespace fleetproof {
 namespace {
 
+using namespace shared_points;
+
 // The relative speed of every pair of nearest points.
 template <class Visit>
 void for_nearest(const Piece& a, const Piece& b, SimTime t, const Visit& visit) {

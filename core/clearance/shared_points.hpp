@@ -12,7 +12,7 @@
 #include "core/geometry/rectangle.hpp"
 #include "core/motion/piece.hpp"
 
-namespace fleetproof {
+namespace fleetproof::shared_points {
 
 // A point of each of two bodies, both on the floor.
 struct PointPair {
@@ -269,4 +269,4 @@ struct Meeting {
   }
 };
 
-}  // namespace fleetproof
+}  // namespace fleetproof::shared_points

@@ -10,7 +10,7 @@
 #include "core/clearance/phase_motion.hpp"
 #include "core/clearance/shared_points.hpp"
 
-namespace fleetproof {
+namespace fleetproof::shared_points {
 
 // What says how fast the points may be that a body shares with another one, in the frame of the body.
 struct Share {
@@ -392,4 +392,4 @@ class Pace {
   double times_speed_ = 0.0;  // metres for a turn, whose speed is an angle's; 0: at rest
 };
 
-}  // namespace fleetproof
+}  // namespace fleetproof::shared_points

@@ -14,6 +14,8 @@
 namespace fleetproof::test::fastest_below_test {
 namespace {
 
+using namespace shared_points;
+
 constexpr double kLongest_s = 6.0;
 
 struct Moving {
