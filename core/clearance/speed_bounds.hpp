@@ -162,6 +162,7 @@ class SharedTracks {
   // The end of the time at which the speed reaches the limit, if there is one. This instant itself may be as fast.
   enum class Peak { None, Begin, End };
 
+  // Requires: both glimpses outlive the object.
   SharedTracks(const Glimpse& from, const Glimpse& to, const Tops& of_a, const Tops& of_b, double lasts_s)
       : lasts_s_(lasts_s),
         strays_(0.125 * lasts_s * lasts_s),

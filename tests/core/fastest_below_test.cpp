@@ -243,7 +243,8 @@ TEST(FastestBelow, TracksOfSharedPointsAreBounds) {
       const Meeting meeting(a, b, t);
       return Glimpse(meeting, Views(meeting.a.body, meeting.b.body));
     };
-    const SharedTracks tracks(glimpse(begin), glimpse(end), Tops(of_a), Tops(of_b), to_seconds(end - begin));
+    const Glimpse from = glimpse(begin), to = glimpse(end);
+    const SharedTracks tracks(from, to, Tops(of_a), Tops(of_b), to_seconds(end - begin));
     ASSERT_FALSE(tracks.all_slower(inside_mps)) << i;
     settled += tracks.all_slower(1.02 * inside_mps) ? 1 : 0;
     for (const bool at_begin : {true, false}) {
