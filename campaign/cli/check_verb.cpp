@@ -12,6 +12,7 @@
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/run/case_file.hpp"
+#include "core/sdk/agent_table.hpp"
 #include "generators/formats/importer.hpp"
 #include "generators/formats/vehicles.hpp"
 #include "generators/map/permitted_types.hpp"

@@ -187,13 +187,6 @@ void write_runs(EvidenceFolder& folder, const ArchiveReader& archive, const Repo
   folder.write("columns.csv", csv_dictionary());
 }
 
-// What is wrong with the source that the session log names; empty: it made the results.
-std::string trouble_with(const ProgramSource& source, const ReportInput& input, const std::string& program) {
-  if (stored_plugins(input.campaign.engine, program) == std::vector{identity_of(source)}) return {};
-  return printable(source.file) + (source.kind == ProgramKind::Lockstep ? " is not the program that made the results"
-                                                                        : " is not the file that made the results");
-}
-
 // With all files that it names, if they are still what made the results.
 KeptProgram keep_program(EvidenceFolder& folder, const ReportInput& input, const std::string& program,
                          std::size_t number) {
@@ -204,18 +197,19 @@ KeptProgram keep_program(EvidenceFolder& folder, const ReportInput& input, const
   if (word.empty()) return lost("no session log beside the results file says where it is");
   try {
     const ProgramSource source = source_of(word, false);
-    if (const std::string trouble = trouble_with(source, input, program); !trouble.empty()) return lost(trouble);
-    KeptProgram kept{program, {}, {}, source.kind == ProgramKind::Lockstep};
+    if (stored_plugins(input.campaign.engine, program) != std::vector{identity_of(source)})
+      return lost(printable(source.file) + " is not what made the results");
+    const bool is_command = source.kind == ProgramKind::Lockstep;
+    KeptProgram kept{program, {}, {}, is_command};
     std::vector<std::string> names;
     for (const std::string& file : files_of(source)) {
-      const bool is_object = source.kind == ProgramKind::Plugin;
-      const std::string name = is_object ? fmt::format("plugin-{}.so", number)
-                                         : fmt::format("program-{}-{}-{}", number, names.size() + 1,
-                                                       printable(fs::path(file).filename().string()));
+      const std::string name = is_command ? fmt::format("program-{}-{}-{}", number, names.size() + 1,
+                                                        printable(fs::path(file).filename().string()))
+                                          : fmt::format("plugin-{}.so", number);
       folder.copy(file, name);
       kept.files.push_back(
-          {(is_object ? "the plug-in of agent " : "a file of the command of agent ") + program, name, {}});
-      names.push_back(is_object ? name : "./" + name);
+          {(is_command ? "a file of the command of agent " : "the plug-in of agent ") + program, name, {}});
+      names.push_back(is_command ? "./" + name : name);
     }
     kept.word = word_with(source, names);
     return kept;

@@ -129,7 +129,7 @@ void take_computers(TomlTable& table, AgentFactor& agent, AgentFiles& files) {
     throw InputError(table.place("computers"), "computers names none; name one as in computers = { server = ... }");
 }
 
-// The faults around its parts, each once: a name that somebody has given does not hide them.
+// The faults around its parts, each once. A name from the campaign file gets them appended, so that it hides none.
 std::string faults_of(const AgentFactor& agent, const AgentFiles& files) {
   std::string all;
   const auto parts = agent.parts();

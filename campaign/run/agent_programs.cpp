@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/bridges/wrapped/wrapped_program.hpp"
+#include "core/sdk/agent_table.hpp"
 
 namespace fleetproof {
 namespace {
@@ -37,7 +38,7 @@ AgentProgram program_of(const fp_agent_type& type) {
   AgentProgram program;
   program.name = type.name;
   program.description = type.description;
-  program.flags = serves_computers(type) ? type.flags : type.flags & ~FP_SERVES_COMPUTERS;
+  program.flags = flags_of(type);
   program.opened.type = &type;
   return program;
 }

@@ -42,9 +42,9 @@ std::string identity_of(const ProgramSource& source);
 OpenedProgram open(const ProgramSource& source, const std::string& word);
 // The same source with its file relative to `folder`; empty: as it is.
 std::string word_of(const ProgramSource& source, const std::string& folder = "");
-// The files that the source names: the shared object, or those of the command. And its word if they have these names
-// instead, in the same order.
+// The files that the source names: the shared object, or those of the command.
 std::vector<std::string> files_of(const ProgramSource& source);
+// The word of the same source with other names for these files, in the same order.
 std::string word_with(const ProgramSource& source, std::span<const std::string> names);
 // The same source for later: without the symbolic links of today.
 std::string lasting_word_of(const ProgramSource& source);

@@ -232,8 +232,8 @@ class ForkerProcess {
 
 // ---- the process that made it
 
-// The workers die with the forker that was killed, each when the system gets to it; what one starts until then is of
-// the session, too.
+// Ends all processes of the session of a forker that was killed. Its workers die with it, but not at once, and may
+// start others until then: so it looks until none is left.
 void end_session(pid_t forker) {
   for (int looks = 0; looks < kMostLooksAtSession; ++looks) {
     const std::vector<pid_t> left = processes_of_session(forker);

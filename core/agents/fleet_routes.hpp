@@ -16,17 +16,16 @@
 
 namespace fleetproof::agents {
 
-// The ways of all AGVs of a fleet, for a program that plans for all of them. AGVs that are alike share rules, routes
-// and prices, so the prices of lanes are taken anew for each AGV that is planned for. Requires: map and parts outlive
-// the object.
+// Searches ways for each AGV of a fleet. AGVs of one model share rules and prices: set the prices anew before the
+// searches for another AGV. Requires: map and parts outlive the object.
 class FleetRoutes {
  public:
   FleetRoutes(const MapView& map, const HullParts& parts);
 
   const DriveRules& rules(std::uint32_t agv) const { return models_[agv]->rules; }
   LanePrices& prices(std::uint32_t agv) { return models_[agv]->prices; }
-  // The lanes of the quickest way at the present prices. Empty: there is none, or the AGV is there. As with the others
-  // below, valid until the next search.
+  // The lanes of the quickest way at the present prices. Empty: there is none, or the AGV is there. This answer and the
+  // next one are valid until the next search.
   std::span<const std::uint32_t> way(std::uint32_t agv, const Path& from, std::uint32_t goal);
   // The way to the first station that is good, of those in the order of their costs.
   std::span<const std::uint32_t> way_to_first(std::uint32_t agv, const Path& from,

@@ -7,6 +7,7 @@
 #include "core/engine/controller_table.hpp"
 #include "core/engine/fleet_software.hpp"
 #include "core/engine/foreign_table.hpp"
+#include "core/sdk/agent_table.hpp"
 
 namespace fleetproof {
 
@@ -120,12 +121,7 @@ const AgentFailure* AgentCaller::reach(const AgentCall& call, fp_controller* han
 const AgentFailure* AgentCaller::create_and_start(const AgentCall& call, fp_controller* handle, void*& agent) {
   std::string why_not;
   call.controller->why_not = &why_not;
-  const fp_bridge* bridge = bridge_of(call.type);
-  const bool is_in = bridge != nullptr && bridge->create_in != nullptr;
-  const AgentFailure* failure = guarded([&] {
-    agent = is_in ? bridge->create_in(bridge->own, host_, handle, call.briefing)
-                  : call.type.create(host_, handle, call.briefing);
-  });
+  const AgentFailure* failure = guarded([&] { agent = create_agent(call.type, host_, handle, call.briefing); });
   call.controller->why_not = nullptr;
   if (failure != nullptr) return failure;
   if (call.controller->failure != nullptr) {

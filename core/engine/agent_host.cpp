@@ -5,6 +5,7 @@
 
 #include "core/base/outside_text.hpp"
 #include "core/engine/agv_controller.hpp"
+#include "core/sdk/agent_table.hpp"
 
 namespace fleetproof {
 namespace {

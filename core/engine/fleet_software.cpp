@@ -1,30 +1,10 @@
 #include "core/engine/fleet_software.hpp"
 
-#include <cstddef>
-
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/sdk/agent_table.hpp"
 
 namespace fleetproof {
-
-// Before minor 5 the flag meant nothing.
-bool serves_computers(const fp_agent_type& type) {
-  return type.abi_minor >= 5 && (type.flags & FP_SERVES_COMPUTERS) != 0;
-}
-
-// Before minor 6 the table ended earlier.
-const fp_bridge* bridge_of(const fp_agent_type& type) {
-  constexpr std::size_t kSize = offsetof(fp_agent_type, bridge) + sizeof(fp_agent_type::bridge);
-  return type.abi_minor >= 6 && type.struct_size >= kSize ? type.bridge : nullptr;
-}
-
-bool knows_fault(const fp_agent_type& type, const char* word) {
-  const fp_bridge* bridge = bridge_of(type);
-  if (bridge != nullptr && bridge->knows_fault_in != nullptr) return bridge->knows_fault_in(bridge->own, word) != 0;
-  constexpr std::size_t kSize = offsetof(fp_agent_type, knows_fault) + sizeof(fp_agent_type::knows_fault);
-  const bool is_there = type.abi_minor >= 5 && type.struct_size >= kSize;
-  return is_there && type.knows_fault != nullptr && type.knows_fault(word) != 0;
-}
 
 std::string why_not_on_computer(std::string_view program, std::string_view computer) {
   return in_quotes(program) + " does not serve computers, so it cannot be the program of " + in_quotes(computer) +

@@ -32,12 +32,6 @@ struct FleetSoftware {
   }
 };
 
-// Whether the program may run on computers.
-bool serves_computers(const fp_agent_type& type);
-// Null: the type has no data of its own.
-const fp_bridge* bridge_of(const fp_agent_type& type);
-// Whether the program takes named faults with this word. Code of the program runs.
-bool knows_fault(const fp_agent_type& type, const char* word);
 // Why a program does not run on this computer, of one that serves AGVs only.
 std::string why_not_on_computer(std::string_view program, std::string_view computer);
 // Throws InputError if a computer has no program, or one that cannot serve it.

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/engine/engine.hpp"
+#include "core/sdk/agent_table.hpp"
 
 namespace fleetproof {
 namespace {

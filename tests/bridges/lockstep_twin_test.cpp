@@ -10,6 +10,7 @@
 
 #include "core/bridges/wrapped/wrapped_program.hpp"
 #include "core/engine/simulation.hpp"
+#include "core/sdk/agent_table.hpp"
 #include "tests/bridges/lockstep_bench.hpp"
 
 namespace fleetproof::lockstep_twin_test {

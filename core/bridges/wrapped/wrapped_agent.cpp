@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "core/sdk/agent_table.hpp"
+
 namespace fleetproof::wrapped {
 
 // While it lives, the agent inside is called on this thread.
@@ -40,11 +42,7 @@ void WrappedAgent::pass_on(fp_event event) {
 }
 
 bool WrappedAgent::create_inside(const fp_briefing& briefing) {
-  const fp_agent_type& type = around_.inside;
-  const bool has_bridge = type.abi_minor >= 6 && type.bridge != nullptr && type.bridge->create_in != nullptr;
-  auto* self = reinterpret_cast<fp_controller*>(this);
-  agent_ = has_bridge ? type.bridge->create_in(type.bridge->own, &kHostInside, self, &briefing)
-                      : type.create(&kHostInside, self, &briefing);
+  agent_ = create_agent(around_.inside, &kHostInside, reinterpret_cast<fp_controller*>(this), &briefing);
   return agent_ != nullptr;
 }
 

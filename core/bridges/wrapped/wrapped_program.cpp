@@ -1,12 +1,12 @@
 #include "core/bridges/wrapped/wrapped_program.hpp"
 
-#include <cstddef>
 #include <deque>
 #include <mutex>
 #include <string>
 #include <utility>
 
 #include "core/bridges/wrapped/fault_agents.hpp"
+#include "core/sdk/agent_table.hpp"
 
 namespace fleetproof::wrapped {
 namespace {
@@ -25,24 +25,6 @@ class Resting {
   std::mutex mutex_;
   std::deque<std::unique_ptr<WrappedAgent>> agents_;
 };
-
-// Null: the type has no data of its own. Before minor 6 the table ended earlier.
-const fp_bridge* bridge_inside(const fp_agent_type& type) {
-  constexpr std::size_t kSize = offsetof(fp_agent_type, bridge) + sizeof(fp_agent_type::bridge);
-  return type.abi_minor >= 6 && type.struct_size >= kSize ? type.bridge : nullptr;
-}
-
-bool knows_fault_inside(const fp_agent_type& type, const char* word) {
-  const fp_bridge* bridge = bridge_inside(type);
-  if (bridge != nullptr && bridge->knows_fault_in != nullptr) return bridge->knows_fault_in(bridge->own, word) != 0;
-  constexpr std::size_t kSize = offsetof(fp_agent_type, knows_fault) + sizeof(fp_agent_type::knows_fault);
-  const bool is_there = type.abi_minor >= 5 && type.struct_size >= kSize;
-  return is_there && type.knows_fault != nullptr && type.knows_fault(word) != 0;
-}
-
-std::uint32_t flags_inside(const fp_agent_type& type) {
-  return type.abi_minor >= 5 ? type.flags : type.flags & ~FP_SERVES_COMPUTERS;
-}
 
 std::unique_ptr<WrappedAgent> make_agent(const Fault& fault, const Surroundings& around) {
   static constexpr AgentMaker kMakers[] = {make_dropping,   make_repeating,    make_stalling,
@@ -85,16 +67,16 @@ WrappedProgram::WrappedProgram(const fp_agent_type& inside, const Fault& fault)
     return static_cast<State*>(own)->create(host, handle, briefing);
   };
   state.bridge.run_ends = [](void* own) {
-    const fp_bridge* bridge = bridge_inside(static_cast<State*>(own)->inside);
+    const fp_bridge* bridge = bridge_of(static_cast<State*>(own)->inside);
     if (bridge != nullptr && bridge->run_ends != nullptr) bridge->run_ends(bridge->own);
   };
   state.bridge.knows_fault_in = [](void* own, const char* word) -> std::uint32_t {
-    return knows_fault_inside(static_cast<State*>(own)->inside, word) ? 1 : 0;
+    return knows_fault(static_cast<State*>(own)->inside, word) ? 1 : 0;
   };
   state.type.struct_size = sizeof(fp_agent_type);
   state.type.abi_major = FP_ABI_MAJOR;
   state.type.abi_minor = FP_ABI_MINOR;
-  state.type.flags = flags_inside(inside);
+  state.type.flags = flags_of(inside);
   state.type.name = state.name.c_str();
   state.type.description = state.description.c_str();
   state.type.on_event = hear;

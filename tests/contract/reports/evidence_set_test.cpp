@@ -233,7 +233,7 @@ TEST_F(EvidenceSet, SaysWhatIsNotAtHandAnyMore) {
   EXPECT_FALSE(std::filesystem::exists(path("set/campaign.toml")));
   write("mine.so", "another build");
   run("report e.db --evidence other");
-  EXPECT_THAT(read(path("other/REPEAT.md")), HasSubstr("mine.so is not the file that made the results"));
+  EXPECT_THAT(read(path("other/REPEAT.md")), HasSubstr("mine.so is not what made the results"));
   EXPECT_FALSE(std::filesystem::exists(path("other/plugin-1.so")));
 }
 

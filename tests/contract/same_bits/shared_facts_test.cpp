@@ -7,6 +7,7 @@
 #include "core/agents/agents.h"
 #include "core/engine/fleet_software.hpp"
 #include "core/engine/simulation.hpp"
+#include "core/sdk/agent_table.hpp"
 #include "laws/laws.hpp"
 #include "tests/support/hard_world.hpp"
 
