@@ -80,6 +80,7 @@ void fail(Failing& agent) {
   if (kind == "abort") std::abort();
   if (kind == "stack") std::printf("%d\n", overflow(zero));
   if (kind == "heap") corrupt_heap();
+  if (kind == "say") agent.host->fail(agent.controller, 0, "planted");
   if (kind == "throw") throw std::runtime_error("planted");
   if (kind == "thread") std::thread([] { throw std::runtime_error("planted"); }).join();
   if (kind == "exit") std::exit(0);

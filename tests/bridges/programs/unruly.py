@@ -46,8 +46,8 @@ def misbehave(how, told):
     elif how == "no-utf8":
         os.write(1, b'{"calls": [["log", "\xff\xfe"]]}\n')
     elif how == "flood":
-        while True:
-            os.write(1, b'{"calls": []}\n')
+        while True:  # small enough for a pipe to take it whole
+            os.write(1, b'{"calls": []}\n' * 200)
     elif how == "close-input":
         os.close(0)
         say({"calls": []})
