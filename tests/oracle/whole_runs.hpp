@@ -152,7 +152,8 @@ inline void expect_measured(const std::string& which, const Scenario& scenario, 
   EXPECT_NEAR(clock.apart_m(v.a, v.b, v.closest_at), 1e-6 * static_cast<double>(v.min_clearance_um), kTolerance_m)
       << which << " at " << to_seconds(v.closest_at) << " s";
   for (const SimTime edge : {v.first, v.last}) {
-    EXPECT_LE(clock.apart_m(v.a, v.b, edge), clock.safety_distance_m() + kTolerance_m) << which << " at " << to_seconds(edge) << " s";
+    EXPECT_LE(clock.apart_m(v.a, v.b, edge), clock.safety_distance_m() + kTolerance_m)
+        << which << " at " << to_seconds(edge) << " s";
   }
   if (v.first > kStart) expect_kept_at(which, clock, v.a, v.b, v.first - kBeside);
   if (v.last < kStart + scenario.horizon) expect_kept_at(which, clock, v.a, v.b, v.last + kBeside);
