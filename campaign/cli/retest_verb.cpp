@@ -227,8 +227,10 @@ Action prepare_retest(Options& options) {
   add_computer_option(options, words->computers);
   add_symbols_option(options, words->global_symbols);
   options.option("--finding", words->ids, "only this finding, as F-1c2d3e4f; may be repeated");
-  options.option("--neighbours", words->neighbours,
-                 "scenarios beside each case (default: as when it was found, at least 1000)");
+  options.option(
+      "--neighbours", words->neighbours,
+      "scenarios beside each case, and whole runs if need be, of these 1000 at most (default: as when it was "
+      "found, at least 1000)");
   options.flag("--bisect", words->bisect, "exit as git bisect run wants it: 0 fixed, 1 not, 125 cannot be tested");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.flag("--json", words->json, "print JSON");

@@ -198,9 +198,9 @@ void compare_signs(const NeighbourCounts& before, Retest& result, const Neighbou
 }
 
 // Neighbours that pass, or fail as often as before, may have nothing left with which other faults or half a mend show.
-void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourCounts& before, const KnownRuns& known,
-                      Retest& result) {
-  const NeighbourCounts& now = result.whole_runs = try_whole_runs(host, found);
+void judge_whole_runs(CaseHost& host, const KeptFailure& found, const NeighbourCounts& before, std::uint32_t runs,
+                      const KnownRuns& known, Retest& result) {
+  const NeighbourCounts& now = result.whole_runs = try_whole_runs(host, found, runs);
   if (now.of == 0) return;
   if (result.verdict == RetestVerdict::Dodged) {
     const auto worlds = [](const NeighbourCounts& all) { return std::pair(all.alike_of_world, all.of_world); };
@@ -277,7 +277,7 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
   if (result.verdict != RetestVerdict::NewKind && now.alike > 0) compare_signs(before, result, now);
   const bool is_sure = result.verdict == RetestVerdict::NewKind ||
                        (result.verdict == RetestVerdict::StillThere && (result.case_fails || now.alike >= kFewestNew));
-  if (!is_sure) judge_whole_runs(host, found, before, known, result);
+  if (!is_sure) judge_whole_runs(host, found, before, neighbours, known, result);
   return result;
 }
 

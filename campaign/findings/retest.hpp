@@ -43,6 +43,7 @@ struct Retest {
   std::string standing;        // how little the fleets drive there, if less than half as far as before
 };
 
+// As many whole runs as neighbours are tried, if they decide, and kWholeRuns at most.
 // `before`: how the software in which the failure was found fared; `known`: how it fared in its whole runs.
 Retest retest(CaseHost& host, const KeptFailure& kept, const NeighbourCounts& before,
               std::uint32_t neighbours = kNeighbours, const KnownRuns& known = {});

@@ -7,9 +7,9 @@
 
 namespace fleetproof {
 
-NeighbourCounts try_whole_runs(CaseHost& host, const KeptFailure& kept) {
+NeighbourCounts try_whole_runs(CaseHost& host, const KeptFailure& kept, std::uint32_t count) {
   if (kept.runs.empty()) return {};
-  return try_neighbours(host, kept, Neighbourhood::of_runs(kept), kWholeRuns);
+  return try_neighbours(host, kept, Neighbourhood::of_runs(kept), std::min(count, kWholeRuns));
 }
 
 bool may_be(const KeptFailure& kept, const FailureNeeds& found) {

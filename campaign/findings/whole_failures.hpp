@@ -11,8 +11,8 @@ namespace fleetproof {
 // The runs of a kept failure, played with other draws. A world has only what its failure needs: often no third AGV,
 // no restart, a perfect radio. Software in which another thing is broken may pass there, and fails in these.
 inline constexpr std::uint32_t kWholeRuns = 1000;
-// None if the failure has no runs.
-NeighbourCounts try_whole_runs(CaseHost& host, const KeptFailure& kept);
+// So many at most. None if the failure has no runs.
+NeighbourCounts try_whole_runs(CaseHost& host, const KeptFailure& kept, std::uint32_t count = kWholeRuns);
 
 // Whether a failure of a whole run may be a kept one. More than that one needs may be missing in other draws, and which
 // kinds of messages are lost is chance; what the bodies did is not looked at.

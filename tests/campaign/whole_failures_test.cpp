@@ -42,7 +42,7 @@ TEST(WholeRuns, ShowWhatIsBrokenInstead) {
   Bench sound("hull-lock");
   const Retest fixed = retest(sound.host, known.kept, known.before, kSome);
   EXPECT_EQ(fixed.verdict, RetestVerdict::Fixed);
-  EXPECT_EQ(fixed.whole_runs.of, kWholeRuns);
+  EXPECT_EQ(fixed.whole_runs.of, kSome);
 
   Bench other("reckless");
   const Retest broken = retest(other.host, known.kept, known.before, kSome);
@@ -53,7 +53,7 @@ TEST(WholeRuns, ShowWhatIsBrokenInstead) {
   EXPECT_EQ(retest(other.host, known.kept, known.before, kSome, of_two_faults).verdict, RetestVerdict::Fixed)
       << "the software failed so before, too";
   KnownRuns of_rare_ones = of_two_faults;
-  of_rare_ones.counts.of = kWholeRuns;
+  of_rare_ones.counts.of = kSome;
   of_rare_ones.counts.alike = 5;
   EXPECT_EQ(retest(other.host, known.kept, known.before, kSome, of_rare_ones).verdict, RetestVerdict::NewKind)
       << "that explains only so many";
@@ -78,7 +78,7 @@ TEST(WholeRuns, AreAskedWhereHardlyAnyNeighbourFails) {
   EXPECT_EQ(lose(share).verdict, RetestVerdict::StillThere);
   known.kept.ways = {{"obstacles"}};
   const Retest other = lose(share);
-  EXPECT_EQ(other.whole_runs.of, kWholeRuns);
+  EXPECT_EQ(other.whole_runs.of, kSome);
   EXPECT_EQ(other.verdict, RetestVerdict::NewKind);
 }
 
@@ -90,7 +90,7 @@ TEST(WholeRuns, ThatFailMoreSeldomAreNoDodge) {
   AgentPrograms programs;
   const std::string name = programs.know(FLEETPROOF_RETOUCHED_AGENT);
   CaseHost retouched({name, "timeout-grant"}, programs, 2);
-  KnownRuns runs{try_whole_runs(bench.host, known.kept), {}};
+  KnownRuns runs{try_whole_runs(bench.host, known.kept, kSome), {}};
   const Retest dodged = retest(retouched, known.kept, known.before, kSome, runs);
   EXPECT_EQ(dodged.verdict, RetestVerdict::Dodged);
   NeighbourCounts more = runs.counts;

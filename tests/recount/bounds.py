@@ -1,4 +1,5 @@
 """Bounds and intervals, written from the formulas of the method notes and from no code of the product."""
+from functools import cache
 from math import exp, expm1, inf, lgamma, log, log1p
 
 
@@ -40,6 +41,7 @@ def beta_cdf(x, a, b):
     return 1.0 - front * beta_fraction(b, a, 1.0 - x) / b
 
 
+@cache
 def fixed_share(k, n, risk):
     """Clopper and Pearson, both one-sided bounds at `risk`."""
     lower = 0.0 if k == 0 or n == 0 else bisected(lambda p: beta_cdf(p, k, n - k + 1) >= risk, 0.0, 1.0)
@@ -68,6 +70,7 @@ def log_refutation(k, n, limit):
     return log_mean([k * log(c) - n * log1p((c - 1.0) * limit) for c in (2.0, 5.0, 20.0)])
 
 
+@cache
 def any_time_share(k, n, risk):
     goal = -log(risk)
     lower, upper = 0.0, 1.0

@@ -1,5 +1,6 @@
 """The numbers that may stand in the reason of a verdict."""
 import re
+from functools import cache
 from math import log
 
 import wording as w
@@ -21,16 +22,18 @@ def smallest(is_enough):
     return high
 
 
-def needed(gate, failing, units, risk, share):
-    if gate["method"] == "any-time":
+@cache
+def needed(method, failing, units, risk, share):
+    if method == "any-time":
         return smallest(lambda n: n >= failing and log_gate(failing, n, share) >= -log(risk))
     return max(smallest(lambda n: n > failing and fixed_share(failing, n, risk)[1] <= share), units + 1)
 
 
-def needed_at_this_rate(gate, failing, units, risk, share):
+@cache
+def needed_at_this_rate(method, failing, units, risk, share):
     """Units at which the gate passes although units go on to fail as they did."""
     for count in range(failing, 1000):
-        wanted = needed(gate, count, units, risk, share)
+        wanted = needed(method, count, units, risk, share)
         if wanted is None:
             return None
         if failing * (wanted / units) <= count:
@@ -58,11 +61,11 @@ def numbers_of_gate(archive, gate, counts):
     texts.add(w.per_hour(tally["done"], tally["agv_us"]))
     texts.add(str(sum(archive.tally([cell])["done"] == 0 for cell in due)))
     largest = largest_share(gate, run_hours)
-    want = needed(gate, failing, units, risk, largest) if cells else None
+    want = needed(gate["method"], failing, units, risk, largest) if cells else None
     if want is not None:
         texts |= {str(want), str(want - units)}
         if failing and units and gate["method"] == "any-time":
-            at_this_rate = needed_at_this_rate(gate, failing, units, risk, largest)
+            at_this_rate = needed_at_this_rate(gate["method"], failing, units, risk, largest)
             texts |= {str(at_this_rate)} if at_this_rate else set()
     return texts
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Counts an archive again and compares every figure of its text and HTML page:
 recount.py ARCHIVE TEXT HTML [BASELINE]
+recount.py ARCHIVE --each FOLDER...   (page.txt and page.html in each)
 
-Prints each difference; exit code 1 if there is one. A sentence or a table with digits that nothing here computes is a
+Prints each difference; exit code 1 if there is one; of several folders, a line with their number for each. A sentence or a table with digits that nothing here computes is a
 difference, too.
 """
 import re
@@ -212,9 +213,10 @@ def check_rest(archive, page, sections):
                 differ(f"{page}, {title}", "no such sentence, or other numbers", plain(text))
 
 
-def main():
-    archive = Archive(sys.argv[1])
-    for page, path, read in (("text", sys.argv[2], read_text), ("html", sys.argv[3], read_html)):
+def recount(archive, text, html, baseline=None):
+    DIFFERENCES.clear()
+    for page, path, read in (("text", text, read_text), ("html", html, read_html)):
+        REASONS[page] = set()
         sections = read(open(path, encoding="utf-8").read())
         check_head(archive, page, sections)
         check_tables(archive, page, sections)
@@ -222,12 +224,23 @@ def main():
         check_provenance(archive, page, sections["Provenance"])
         if page == "html":
             check_html(archive, sections)
-        if len(sys.argv) > 4:
-            check_comparison(Archive(sys.argv[4]), archive, page, sections["Compared with the baseline"])
+        if baseline:
+            check_comparison(baseline, archive, page, sections["Compared with the baseline"])
         check_rest(archive, page, sections)
+    return f"{len(DIFFERENCES)} differences" if DIFFERENCES else "no difference"
+
+
+def main():
+    path, *pages = sys.argv[1:]
+    if pages[0] == "--each":
+        said = [recount(Archive(path), f"{folder}/page.txt", f"{folder}/page.html") for folder in pages[1:]]
+        for folder, each in zip(pages[1:], said):
+            print(f"{folder}: {each}")
+        return int(any(each != "no difference" for each in said))
+    said = recount(Archive(path), *pages[:2], *map(Archive, pages[2:]))
     print("\n".join(DIFFERENCES[:40]))
-    print(f"{len(DIFFERENCES)} differences" if DIFFERENCES else "no difference")
-    return 1 if DIFFERENCES else 0
+    print(said)
+    return int(bool(DIFFERENCES))
 
 
 if __name__ == "__main__":
