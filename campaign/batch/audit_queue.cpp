@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -19,6 +20,9 @@ namespace {
 constexpr std::size_t kBatch = 16;
 constexpr std::size_t kFirstBatch = 4;  // the first findings are wanted soon: they may end the recording of runs
 constexpr std::uint64_t kMostOpen = 65'536;
+constexpr int kLooksAtAnAgent = 3;
+// State that grows or fills shows after a few runs, or after more of them.
+constexpr std::array<std::uint64_t, 2> kEarlierRuns = {3, 16};
 constexpr int kMostHangs = 3;  // of runs that did not hang before; then nothing more is audited
 
 // So many threads that the audits keep up with the campaign.
@@ -29,7 +33,8 @@ int threads_for(double share, int workers) {
 }  // namespace
 
 AuditQueue::AuditQueue(const CampaignPlan& plan, const AgentPrograms& programs, bool audits, int workers)
-    : share_(plan.seed, plan.audit.share, plan.cells(), plugin_agents(plan, programs)),
+    : plan_(plan),
+      share_(plan.seed, plan.audit.share, plan.cells(), plugin_agents(plan, programs)),
       run_one_(plan, programs),
       threads_wanted_(threads_for(plan.audit.share, workers)),
       wanted_(kFirstBatch),
@@ -91,7 +96,7 @@ void AuditQueue::abandon() {
 
 bool AuditQueue::idle() const {
   const std::lock_guard lock(mutex_);
-  return waiting_.empty() && under_way_ == 0;
+  return waiting_.empty() && under_way_ == 0 && threads_looking_ == 0;
 }
 
 bool AuditQueue::is_far_behind() const { return open_count() >= kMostOpen; }
@@ -111,6 +116,11 @@ std::vector<AuditedRun> AuditQueue::take_findings() {
   return std::exchange(findings_, {});
 }
 
+std::map<std::string, CloserLooks> AuditQueue::closer_looks() const {
+  const std::lock_guard lock(mutex_);
+  return looks_;
+}
+
 // In another order than that of the campaign, so that what one run leaves behind for the next shows.
 AuditQueue::Batch AuditQueue::next_batch() {
   std::unique_lock lock(mutex_);
@@ -128,8 +138,9 @@ void AuditQueue::work() {
   for (;;) {
     const Batch batch = next_batch();
     if (batch.empty()) return;
+    std::vector<std::uint64_t> differing;
     try {
-      audit(batch);
+      differing = audit(batch);
     } catch (const RunAbandoned&) {
     } catch (const std::exception& error) {
       const std::lock_guard lock(mutex_);
@@ -138,8 +149,19 @@ void AuditQueue::work() {
       waiting_.clear();
       more_.notify_all();
     }
+    {
+      const std::lock_guard lock(mutex_);
+      under_way_ -= batch.size();
+      if (abandoned_) return;
+      ++threads_looking_;
+    }
+    // No audit is open while a run is looked at: a stop loses no finding.
+    try {
+      for (const std::uint64_t run_index : differing) look_closer(run_index);
+    } catch (const std::exception&) {  // the audits themselves say what is wrong with the machine
+    }
     const std::lock_guard lock(mutex_);
-    under_way_ -= batch.size();
+    --threads_looking_;
     if (abandoned_) return;
   }
 }
@@ -151,13 +173,45 @@ HostProcess AuditQueue::process_for(std::uint64_t run_index) {
   return is_early ? HostProcess::Own : HostProcess::Shared;
 }
 
-void AuditQueue::audit(const Batch& batch) {
+void AuditQueue::look_closer(std::uint64_t run_index) {
+  const std::string& agent = plan_.agent_of_cell(run_index).name;
+  {
+    const std::lock_guard lock(mutex_);
+    if (looks_begun_[agent] == kLooksAtAnAgent) return;
+    ++looks_begun_[agent];
+  }
+  const bool depends = depends_on_earlier_runs(run_index);
+  runs_->take_losses();
+  const std::lock_guard lock(mutex_);
+  ++(depends ? looks_[agent].dependent : looks_[agent].other);
+}
+
+// The run comes out the same in two new processes, whose memory is disturbed differently: it takes nothing from
+// addresses, from memory that it never wrote, or from a clock. And it comes out otherwise, the same twice, in processes
+// that have served the same other runs of its cell.
+bool AuditQueue::depends_on_earlier_runs(std::uint64_t run_index) {
+  const std::uint64_t alone = runs_->checksum_after({}, run_index);
+  if (row_checksum((*runs_)(run_index, false, HostProcess::Own)) != alone) return false;
+  const std::uint64_t cells = plan_.cells().size();
+  for (const std::uint64_t count : kEarlierRuns) {
+    std::vector<std::uint64_t> before;
+    for (std::uint64_t i = 1; i <= count; ++i) before.push_back((run_index + i * cells) % (plan_.replicates * cells));
+    const std::uint64_t after = runs_->checksum_after(before, run_index);
+    if (after != alone) return runs_->checksum_after(before, run_index) == after;
+  }
+  return false;
+}
+
+std::vector<std::uint64_t> AuditQueue::audit(const Batch& batch) {
+  std::vector<std::uint64_t> differing;
   for (const auto& [run_index, checksum] : batch) {
-    const bool record_calls = is_plugin_[agent_of_run(run_index, is_plugin_.size())];
-    const RunRecord record = (*runs_)(run_index, record_calls, process_for(run_index));
+    const bool is_plugin = is_plugin_[agent_of_run(run_index, is_plugin_.size())];
+    const RunRecord record = (*runs_)(run_index, is_plugin, process_for(run_index));
     runs_->take_losses();  // what ended a worker here stands in the record, and so in the finding
     AuditedRun finding = record.otherwise ? AuditedRun{*record.otherwise, false}
                                           : audit_finding(run_one_, record, checksum, &stop_playing_);
+    // Software that ends its process, or hangs, is not looked at: each such run costs several times its limit.
+    if (!finding.same && !record.otherwise && !record.outcome.hang && is_plugin) differing.push_back(run_index);
     const std::lock_guard lock(mutex_);
     findings_.push_back(std::move(finding));
     if (++found_ >= kAuditsToPass) wanted_ = kBatch;
@@ -165,6 +219,7 @@ void AuditQueue::audit(const Batch& batch) {
     if (record.outcome.hang && ++hung_ >= kMostHangs)
       throw MachineError(fmt::format("{} runs hang in an audit and did not before", hung_));
   }
+  return differing;
 }
 
 }  // namespace fleetproof

@@ -16,6 +16,12 @@
 
 namespace fleetproof {
 
+// Runs of an agent that came out differently and were looked at closer: they depend on the runs that their process has
+// served before, or this could not be shown.
+struct CloserLooks {
+  std::uint64_t dependent = 0, other = 0;
+};
+
 // Simulates a share of the finished runs once more: in processes that are started afresh, with other addresses, other
 // bytes in fresh memory, and in another order; audit_finding.hpp says what counts. Works beside the campaign, on
 // threads of its own. Threads: the caller's one.
@@ -37,7 +43,7 @@ class AuditQueue {
   void no_more_runs();  // what waits is audited, in batches of any size
   void hurry();         // the same once, for what waits now
   void abandon();       // nothing more is audited; the audits under way end within a second
-  bool idle() const;    // nothing waits and nothing is under way
+  bool idle() const;    // nothing waits, and neither an audit nor a closer look is under way
   std::uint64_t open_count() const;
   bool is_far_behind() const;  // of the campaign, which waits then
   // Why no more is audited, for example because the file of a plug-in was changed; empty: nothing went wrong. The
@@ -45,15 +51,20 @@ class AuditQueue {
   std::string failure() const;
   // The findings since the last call.
   std::vector<AuditedRun> take_findings();
+  // By agent; only of those that were looked at.
+  std::map<std::string, CloserLooks> closer_looks() const;
 
  private:
   using Batch = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  // run index, checksum of its row
 
   void work();
   Batch next_batch();
-  void audit(const Batch& batch);
+  std::vector<std::uint64_t> audit(const Batch& batch);  // returns the runs that came out differently
+  void look_closer(std::uint64_t run_index);
+  bool depends_on_earlier_runs(std::uint64_t run_index);
   HostProcess process_for(std::uint64_t run_index);
 
+  const CampaignPlan& plan_;
   AuditShare share_;
   RunOne run_one_;               // plays tapes
   std::vector<bool> is_plugin_;  // by position of the agent in the plan
@@ -67,7 +78,9 @@ class AuditQueue {
   std::uint64_t found_ = 0;
   std::vector<std::uint64_t> begun_;  // audits, by position of the agent in the plan
   int hung_ = 0;
-  std::size_t under_way_ = 0;
+  std::size_t under_way_ = 0, threads_looking_ = 0;
+  std::map<std::string, CloserLooks> looks_;
+  std::map<std::string, int> looks_begun_;
   bool closing_ = false, abandoned_ = false;
   std::atomic<bool> stop_playing_ = false;
   std::vector<AuditedRun> findings_;

@@ -91,6 +91,7 @@ void Session::finish_audits(SessionPolicy& policy) {
   result_.progress.audits_open = audits_.open_count();
   audits_.abandon();
   keep_findings(policy);
+  result_.closer_looks = audits_.closer_looks();
   result_.audit_failure = audits_.failure();
 }
 

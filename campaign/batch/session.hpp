@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,9 +49,10 @@ struct CampaignResult {
   Progress progress;
   std::vector<WorkerLoss> losses;  // the first of them
   std::uint64_t loss_count = 0;
-  std::uint64_t audits_differing = 0;  // of the audits of this session
-  std::string audit_failure;           // why audits ended before their time; empty: they did not
-  std::uint64_t stored = 0;            // the number of runs in the gap-free prefix that the results file contains
+  std::uint64_t audits_differing = 0;               // of the audits of this session
+  std::map<std::string, CloserLooks> closer_looks;  // of this session, by agent
+  std::string audit_failure;                        // why audits ended before their time; empty: they did not
+  std::uint64_t stored = 0;  // the number of runs in the gap-free prefix that the results file contains
   int threads = 0;
   bool complete() const { return stored == progress.planned; }
   // Counts them, and keeps the first of them.

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
@@ -25,6 +26,8 @@ namespace fleetproof {
 namespace {
 
 constexpr const char *kFresh = "fresh", *kFixed = "fixed";
+// Looks at runs that came out differently, by agent.
+constexpr const char *kCloserLooks = "looked_at_earlier_runs", *kDependent = "dependent", *kOther = "other";
 constexpr std::string_view kLogBeginning = "{\"started_utc\":";
 
 // What could make this machine compute differently from another one, for session logs.
@@ -148,6 +151,8 @@ void SessionLog::end(const CampaignResult& result, int signal_number, const std:
                {"runs_audited", result.progress.audited},
                {"audits_differing", result.audits_differing},
                {"signal", signal_number}};
+  for (const auto& [agent, looks] : result.closer_looks)
+    line[kCloserLooks][agent] = {{kDependent, looks.dependent}, {kOther, looks.other}};
   if (chunks) {
     line["chunks"] = chunks->owned;
     line["chunks_published"] = chunks->published;
@@ -244,6 +249,36 @@ std::uint64_t remembered_disturbed(const std::string& archive_path) {
     if (found != json.end() && found->is_number_unsigned()) sum += found->get<std::uint64_t>();
   });
   return sum;
+}
+
+// One look may be a chance: memory that was never written holds the same byte now and then. Software that was
+// exchanged has its looks of its own. A merge names no software.
+std::set<std::string> remembered_dependent_agents(const std::string& archive_path) {
+  std::map<std::string, CloserLooks> sums;
+  std::string software;
+  for_each_log_line(session_log_path(archive_path), [&](std::string_view line) {
+    const Json json = read_json(line);
+    if (!json.is_object()) return;
+    const auto plugins = json.find("plugins"), looks = json.find(kCloserLooks);
+    if (plugins != json.end() && !plugins->empty() && json_text(*plugins) != software) {
+      software = json_text(*plugins);
+      sums.clear();
+    }
+    if (looks == json.end() || !looks->is_object()) return;
+    for (const auto& [agent, counts] : looks->items()) {
+      const auto number = [&counts = counts](const char* key) {
+        const auto found = counts.find(key);
+        return found != counts.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+      };
+      sums[agent].dependent += number(kDependent);
+      sums[agent].other += number(kOther);
+    }
+  });
+  std::set<std::string> agents;
+  for (const auto& [agent, looks] : sums) {
+    if (looks.dependent > 1 && looks.other == 0) agents.insert(agent);
+  }
+  return agents;
 }
 
 std::string remembered_plugin(const std::string& archive_path, const std::string& agent) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -77,5 +78,8 @@ struct RememberedSeal {
 RememberedSeal remembered_seal(const std::string& archive_path);
 // How many runs lost a worker that another program may have killed, and then passed in a second worker. All sessions.
 std::uint64_t remembered_disturbed(const std::string& archive_path);
+// The agents of which each run that was looked at, of at least two, depends on earlier runs of the same process. All
+// sessions with the software of the last one.
+std::set<std::string> remembered_dependent_agents(const std::string& archive_path);
 
 }  // namespace fleetproof

@@ -144,6 +144,7 @@ void add_history(ReportInput& input, const std::string& ledger) {
   input.attempts.looks = looks_at(archive);
   input.attempts.overrides = remembered_overrides(archive);
   input.attempts.disturbed_runs = remembered_disturbed(archive);
+  input.attempts.dependent_agents = remembered_dependent_agents(archive);
 }
 
 }  // namespace fleetproof::cli

@@ -129,6 +129,16 @@ RunRecord IsolatedRuns::operator()(std::uint64_t run_index, bool record_calls, H
   return record;
 }
 
+std::uint64_t IsolatedRuns::checksum_after(const std::vector<std::uint64_t>& before, std::uint64_t run_index) {
+  RunRecord record = run_one_.empty_record(run_index);
+  RunOrder order;
+  order.run_index = run_index;
+  RunAnswer answer = answer_of(order, HostProcess::Own, before);
+  record.scenario_digest = answer.scenario_digest;
+  record.outcome = std::move(answer.run.outcome);
+  return row_checksum(record);
+}
+
 bool IsolatedRuns::may_be_from_outside(std::uint64_t ends) const {
   return ends <= kEndsPerWorker * static_cast<std::uint64_t>(hosting_.workers) + hosted_ / kRunsPerEnd;
 }
@@ -156,10 +166,15 @@ std::optional<std::vector<KnownEnd>> IsolatedRuns::ends_in(const Scenario& scena
   return std::move(order.known_ends);
 }
 
-RunAnswer IsolatedRuns::answer_of(RunOrder& order, HostProcess process) {
+RunAnswer IsolatedRuns::answer_of(RunOrder& order, HostProcess process, const std::vector<std::uint64_t>& before) {
   Member member = take_member();
   try {
     if (process == HostProcess::Own && !member.fresh) retire(member);
+    for (const std::uint64_t run_index : before) {
+      RunOrder earlier;
+      earlier.run_index = run_index;
+      answer_of(member, earlier);
+    }
     RunAnswer answer = answer_of(member, order);
     if (process == HostProcess::Own) retire(member);
     give_back(std::move(member));

@@ -72,7 +72,9 @@ class IsolatedRuns {
   // Throws RunAbandoned after abandon(), MachineError if no worker can be started, EngineError if a plug-in's file has
   // changed. `record`: the record of a failed run, and that of every audit, has a recording of what its agents did.
   RunRecord operator()(std::uint64_t run_index, bool record = false, HostProcess process = HostProcess::Shared);
-  // The same for one scenario and the first agent of the plan.
+  // The checksum of the row of a run, as the campaign simulates it in a new process that has served `before` first.
+  std::uint64_t checksum_after(const std::vector<std::uint64_t>& before, std::uint64_t run_index);
+  // As the operator, for one scenario and the first agent of the plan.
   CaseRun of_case(const Scenario& scenario, const CaseWishes& wishes);
   // The calls at which the agents' software crashes or hangs in it, in their order: where these are known, the scenario
   // can be simulated in this process. Nothing if the software does not end at the same call twice.
@@ -116,8 +118,9 @@ class IsolatedRuns {
   Attempt lost(Member& member, std::uint64_t run_index, WorkerState state);
   RunAnswer repeat(Member& member, RunOrder& order, const CauseOfDeath& first);
   RunAnswer answer_of(Member& member, RunOrder& order);
-  // Leaves in it the ends that were found.
-  RunAnswer answer_of(RunOrder& order, HostProcess process = HostProcess::Shared);
+  // Leaves in it the ends that were found. The runs `before` are simulated first, by the same worker.
+  RunAnswer answer_of(RunOrder& order, HostProcess process = HostProcess::Shared,
+                      const std::vector<std::uint64_t>& before = {});
   RunAnswer unexplained(const RunOrder& order, const CauseOfDeath& cause) const;
   double cpu_limit_s(std::uint64_t run_index) const;
 

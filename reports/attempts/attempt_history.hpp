@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,8 @@ struct AttemptHistory {
   bool log_has_no_end = false;     // of the last session, although the file is published
   std::optional<TakenOver> taken_over{};  // by the last session that went on
   std::uint64_t disturbed_runs = 0;       // whose first worker was killed or waited too long, and whose second was not
-  std::string overrides{};                // options of a session that changed the plan, as typed
+  std::set<std::string> dependent_agents{};  // whose audits differ because their runs depend on earlier runs
+  std::string overrides{};                   // options of a session that changed the plan, as typed
 };
 
 AttemptHistory attempt_history(const AttemptLedger& ledger, const CampaignRecord& campaign);

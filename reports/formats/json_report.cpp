@@ -7,6 +7,7 @@
 #include "core/base/json_text.hpp"
 #include "reports/evidence/exposure.hpp"
 #include "reports/page/wording.hpp"
+#include "reports/sections/audit_section.hpp"
 #include "reports/sections/condition_table.hpp"
 #include "reports/sections/coverage_section.hpp"
 #include "reports/sections/sample_sentence.hpp"
@@ -331,12 +332,13 @@ Json exemptions_json(const CampaignRecord& campaign) {
   return list;
 }
 
-Json audit_json(const AgentAudit& audit) {
+Json audit_json(const ReportInput& input, const AgentAudit& audit) {
   return {{"agent", audit.agent},
           {"plugin", audit.is_plugin},
           {"audited", audit.audited},
           {"differing", audit.differing},
           {"first_differing", maybe(audit.first_differing)},
+          {"depends_on_earlier_runs", depends_on_earlier_runs(input, audit)},
           {"judged_otherwise", audit.judged_otherwise},
           {"first_judged_otherwise", maybe(audit.first_judged_otherwise)},
           {"open", audit.open},
@@ -441,7 +443,7 @@ std::string render_json(const ReportInput& input) {
   const auto& found = input.findings.record;
   json["findings"] = found ? read_json(findings_text(*found)) : Json(nullptr);
   const auto& audits = input.evidence.audits().agents();
-  json["audits"] = list_of(audits.size(), [&](std::size_t i) { return audit_json(audits[i]); });
+  json["audits"] = list_of(audits.size(), [&](std::size_t i) { return audit_json(input, audits[i]); });
   json["weak_points"] = weak_points(input);
   for (const bool in_contract : {true, false}) {
     const auto& worst = evidence.worst_runs(in_contract);

@@ -34,8 +34,15 @@ Headline headline_of(const ReportInput& input, const AgentAudit& audit) {
                                 replay_line(input, *audit.first_differing)});
     return headline;
   }
-  std::string text = fmt::format("agent {}: this software is not deterministic in {}, first in run {}. ", agent,
+  const bool is_dependent = depends_on_earlier_runs(input, audit);
+  std::string text = fmt::format("agent {}: this software {} in {}, first in run {}. ", agent,
+                                 is_dependent ? "depends on earlier runs of the same process" : "is not deterministic",
                                  share_text(audit), *audit.first_differing);
+  if (is_dependent)
+    text +=
+        "In new processes a run came out the same, and otherwise in those that had served other runs. What the "
+        "software keeps has to be set back when a run begins. A lockstep program has a new process for each run if "
+        "its hello says \"runs\": \"one\". ";
   text += audit.judged_otherwise == 0
               ? "All of them were judged alike, so its rates stand; what an AGV does at an instant may differ. "
               : fmt::format(
@@ -44,10 +51,10 @@ Headline headline_of(const ReportInput& input, const AgentAudit& audit) {
                     audit.judged_otherwise, audit.judged_otherwise == 1 ? "was" : "were");
   if (audit.judged_otherwise == 0 && audit.promises_to_repeat)
     text += "It declares that it always does the same, so nothing is demonstrated for it. ";
-  return {"not deterministic", text + recordings_text(audit), {}};
+  return {is_dependent ? "depends on earlier runs" : "not deterministic", text + recordings_text(audit), {}};
 }
 
-std::string remark_of(const AgentAudit& audit) {
+std::string remark_of(const ReportInput& input, const AgentAudit& audit) {
   const std::string agent = printable(audit.agent, 40);
   const std::string open = audit.open == 0 ? "" : fmt::format(" {} due and not done.", count_text(audit.open, "audit"));
   if (audit.audited == 0) return fmt::format("Agent {}: no run was audited.{}", agent, open);
@@ -56,10 +63,16 @@ std::string remark_of(const AgentAudit& audit) {
                               : fmt::format("Agent {}: {} runs were audited, and every one came out the same.{}", agent,
                                             audit.audited, open);
   if (audit.engine_at_fault()) return fmt::format("Agent {}: an error of the engine in {}.", agent, share_text(audit));
-  return fmt::format("Agent {}: not deterministic in {}. {}{}", agent, share_text(audit), recordings_text(audit), open);
+  const char* what =
+      depends_on_earlier_runs(input, audit) ? "depends on earlier runs of the same process" : "not deterministic";
+  return fmt::format("Agent {}: {} in {}. {}{}", agent, what, share_text(audit), recordings_text(audit), open);
 }
 
 }  // namespace
+
+bool depends_on_earlier_runs(const ReportInput& input, const AgentAudit& audit) {
+  return audit.differing > 0 && !input.attempts.log_is_foreign && input.attempts.dependent_agents.contains(audit.agent);
+}
 
 std::vector<Headline> audit_headlines(const ReportInput& input) {
   std::vector<Headline> list;
@@ -88,7 +101,8 @@ Section audit_section(const ReportInput& input) {
       "An audit simulates a run once more: in another process, with other addresses, other bytes in fresh memory, and "
       "in another order of runs.";
   section.remarks.emplace_back().text = std::move(what);
-  for (const AgentAudit& audit : input.evidence.audits().agents()) section.remarks.push_back({remark_of(audit), ""});
+  for (const AgentAudit& audit : input.evidence.audits().agents())
+    section.remarks.push_back({remark_of(input, audit), ""});
   return section;
 }
 

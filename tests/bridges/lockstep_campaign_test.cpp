@@ -16,8 +16,9 @@ class LockstepCampaign : public test::ProgramTest {
     for (const std::string script : {"twin.py", "unruly.py"})
       std::filesystem::copy_file(test::source("tests/bridges/programs/" + script), path(script));
   }
-  test::Finished campaign(const std::string& agents) {
-    write("c.toml", "name = \"c\"\nkind = \"search\"\nreplicates = 2\nhorizon_s = 8\n[factors]\nagents = [" + agents +
+  test::Finished campaign(const std::string& agents, int replicates = 2) {
+    write("c.toml", "name = \"c\"\nkind = \"search\"\nreplicates = " + std::to_string(replicates) +
+                        "\nhorizon_s = 8\n[factors]\nagents = [" + agents +
                         "]\nlayouts = [\"corridor-sidings\"]\nfleet_sizes = [2]\nloss = [0.4]\ndelay_s = [2]\n");
     return run("run c.toml --db c.db --overwrite --jobs 1");
   }
@@ -66,6 +67,20 @@ restarts_per_agv_hour = 60
   });
   EXPECT_GT(done, 0U);
   EXPECT_GT(faults, 10U);
+}
+
+// Audits have new processes, and look closer at runs that differ in them.
+TEST_F(LockstepCampaign, DependenceOnEarlierRunsIsCalledThat) {
+  const auto tried = [&](const std::string& how) {
+    ASSERT_TRUE(test::has_verdict(campaign(R"({ run = "python3 -B unruly.py )" + how + R"(", way = "lockstep" })", 3)));
+  };
+  tried("keep-state");
+  EXPECT_THAT(run("report c.db").out,
+              HasSubstr("depends on earlier runs | agent unruly: this software depends on earlier runs of the same"));
+  EXPECT_THAT(run("report c.db --format json").out, HasSubstr("\"depends_on_earlier_runs\": true"));
+  EXPECT_THAT(read(path("c.sessions.jsonl")), HasSubstr(R"({"unruly":{"dependent":2,"other":0}})"));
+  tried("draw");
+  EXPECT_THAT(run("report c.db").out, HasSubstr("not deterministic | agent unruly: this software is not determ"));
 }
 
 TEST_F(LockstepCampaign, WhatIsWrongIsNamed) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,30 @@ TEST(SessionLog, NothingIsAppendedToAForeignFile) {
   EXPECT_EQ(samples::bytes_of(folder / "a.sessions.jsonl"), "my notes\n");
   samples::write_bytes(folder / "a.sessions.jsonl", "{\"started_utc\":\"2026-11-21T22:04:05Z\"}\n");
   EXPECT_NO_THROW(SessionLog(folder / "a.db"));
+}
+
+// All looks count, of all sessions with the same software; a merge names no software.
+TEST(SessionLog, RemembersWhichAgentsDependOnEarlierRuns) {
+  const samples::TemporaryFolder folder;
+  const auto dependent = [&](const std::string& lines) {
+    samples::write_bytes(folder / "a.sessions.jsonl", lines);
+    return remembered_dependent_agents(folder / "a.db");
+  };
+  const auto begin = [](const std::string& software) {
+    return R"({"started_utc":"x","plugins":{)" + software + "}}\n";
+  };
+  const auto end = [](const std::string& shown, const std::string& other) {
+    return R"({"ended_utc":"x","looked_at_earlier_runs":{"a":{"dependent":)" + shown + R"(,"other":)" + other + "}}}\n";
+  };
+  const std::string first = begin(R"("a":{"sha256":"1"})"), second = begin(R"("a":{"sha256":"2"})");
+  const std::set<std::string> none, a = {"a"};
+  EXPECT_EQ(dependent(first + end("2", "0")), a);
+  EXPECT_EQ(dependent(first + end("1", "0")), none) << "one look may be a chance";
+  EXPECT_EQ(dependent(first + end("1", "0") + first + end("1", "0") + begin("")), a);
+  EXPECT_EQ(dependent(first + end("2", "0") + first + end("0", "1")), none);
+  EXPECT_EQ(dependent(first + end("2", "0") + second), none) << "other software";
+  EXPECT_EQ(dependent("no JSON\n[1]\n" + first + end("\"2\"", "0") + R"({"looked_at_earlier_runs":{"a":3,"b":[2]}})"),
+            none);
 }
 
 // Of damaged lines and of another ledger, none; a line of any kind stops no report.

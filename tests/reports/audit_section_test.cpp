@@ -61,6 +61,21 @@ TEST(AuditSection, CountsTheAuditsOfEachAgent) {
   EXPECT_THAT(audit_section(input).remarks[1].text, HasSubstr("hull-lock: 1 run was audited, and it came out"));
 }
 
+TEST(AuditSection, SoftwareThatDependsOnEarlierRunsIsCalledThat) {
+  ReportInput input = report_with({{1, true}, {3, false}});
+  input.attempts.dependent_agents = {"candidate"};
+  const auto headlines = audit_headlines(input);
+  ASSERT_THAT(headlines, SizeIs(1));
+  EXPECT_EQ(headlines[0].word, "depends on earlier runs");
+  EXPECT_THAT(headlines[0].text, HasSubstr("agent candidate: this software depends on earlier runs of the same process "
+                                           "in 50.0 % of the audited runs (1 of 2), first in run 3."));
+  EXPECT_THAT(headlines[0].text, HasSubstr("its hello says \"runs\": \"one\""));
+  EXPECT_THAT(audit_section(input).remarks[2].text,
+              HasSubstr("candidate: depends on earlier runs of the same process"));
+  input.attempts.log_is_foreign = true;
+  EXPECT_EQ(audit_headlines(input)[0].word, "not deterministic");
+}
+
 TEST(AuditSection, AReferenceAgentThatComesOutDifferentlyIsAnErrorOfTheEngine) {
   const ReportInput input = report_with({{0, true}, {2, false}});
   EXPECT_TRUE(input.evidence.audits().engine_at_fault());

@@ -89,7 +89,7 @@ def misbehave(how, told):
 
 
 def main():
-    how, events = sys.argv[1], 0
+    how, events, runs_served = sys.argv[1], 0, 0
     for text in sys.stdin:
         told = json.loads(text)
         if "hello" in told:
@@ -102,6 +102,8 @@ def main():
             else:
                 runs = "one" if how == "one-run" else "many"
                 say({"hello": {"protocol": 1, "name": "unruly", "runs": runs}})
+        elif "run" in told:
+            runs_served += 1
         elif "bye" in told:
             if how == "no-bye":
                 say({"calls": []})
@@ -116,6 +118,10 @@ def main():
                 say({"calls": [["log", json.dumps(told["refused"])]]})
             elif told["event"] == "start" and how == "refused":
                 say({"calls": [["move", 99], ["get_position"], ["send_unicast", "x", 77], ["move", 0]]})
+            elif how == "keep-state":
+                say({"calls": [["send_broadcast", "served %d" % runs_served]]})
+            elif how == "draw":
+                say({"calls": [["send_broadcast", os.urandom(8).hex()]]})
             elif how == "pid":
                 say({"calls": [["log", str(os.getpid())], ["log", " ".join(sys.argv[2:])]]})
             elif events == 3:

@@ -36,6 +36,9 @@ TEST_F(Audits, SoftwareThatIsNotDeterministicIsNoticedAndMeasured) {
     EXPECT_GT(found.at(agent).at("failed_runs"), 0) << agent;
     EXPECT_EQ(found.at(agent).at("recordings"), found.at(agent).at("failed_runs")) << agent;
   }
+  EXPECT_EQ(found.at("static").at("depends_on_earlier_runs"), true);
+  EXPECT_EQ(found.at("addresses").at("depends_on_earlier_runs"), false);
+  EXPECT_EQ(found.at("steady").at("depends_on_earlier_runs"), false);
   EXPECT_EQ(found.at("steady").at("differing"), 0);
   EXPECT_EQ(found.at("steady").at("recordings"), 0) << "its runs are replayed from their seeds";
   const std::string page = run("report c.db").out;
@@ -51,6 +54,7 @@ TEST_F(Audits, HappenInAnotherOrderOfRuns) {
   const auto found = audits("c.db");
   EXPECT_EQ(found.at("before").at("audited"), 60);
   EXPECT_GT(found.at("before").at("differing"), 30);
+  EXPECT_EQ(found.at("before").at("depends_on_earlier_runs"), true);
 }
 
 TEST_F(Audits, HaveOtherAddressesEvenIfThoseOfTheCampaignAreFixed) {
