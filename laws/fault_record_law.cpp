@@ -8,13 +8,14 @@
 #include <utility>
 
 #include "core/outcome/trace_records.hpp"
+#include "core/scenario/scripted_agent.hpp"
 
 namespace fleetproof {
 namespace {
 
 // Only the agent `scripted` plays a script.
-bool plays_scripts(const Scenario& scenario) {
-  return (scenario.agent.empty() || scenario.agent == "scripted") &&
+bool plays_a_script(const Scenario& scenario) {
+  return (scenario.agent.empty() || plays_scripts(scenario.agent)) &&
          std::ranges::any_of(scenario.agvs, [](const AgvSetup& agv) { return !agv.script.empty(); });
 }
 
@@ -24,7 +25,7 @@ class FaultRecordLaw final : public Law {
       : scenario_(scenario),
         first_obstacle_(scenario.first_obstacle()),
         first_load_(scenario.first_fallen_load()),
-        plays_scripts_(plays_scripts(scenario)) {}
+        plays_scripts_(plays_a_script(scenario)) {}
 
   Pieces hears_pieces() const override { return Pieces::None; }
   TraceKinds reads() const override {

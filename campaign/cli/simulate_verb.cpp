@@ -24,6 +24,7 @@
 #include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/engine/simulation.hpp"
+#include "core/scenario/scripted_agent.hpp"
 #include "generators/formats/purpose_words.hpp"
 #include "laws/comparison.hpp"
 #include "laws/exact_law.hpp"
@@ -198,7 +199,8 @@ void print_json(const Scenario& scenario, const Outcome& outcome, const Simulate
 std::string agent_of(const SimulateWords& words, const Scenario& scenario, const AgentPrograms& programs) {
   if (!words.agent.empty()) return words.agent;
   if (!scenario.agent.empty()) return scenario.agent;
-  if (std::ranges::any_of(scenario.agvs, [](const AgvSetup& agv) { return !agv.script.empty(); })) return "scripted";
+  if (std::ranges::any_of(scenario.agvs, [](const AgvSetup& agv) { return !agv.script.empty(); }))
+    return std::string(kScriptedAgent);
   if (words.plugins.size() == 1) return words.plugins.front();
   std::vector<std::string> names;
   for (const AgentProgram& program : programs.all()) names.push_back(program.name);
@@ -343,7 +345,7 @@ int simulate_scenario(SimulateWords words) {
       put_text(differences_text(scenario, observers.differences(scenario), find_law(words.law)->name));
   }
   if (!words.json && is_saved_case) put_text(expectation_text(scenario.expected, found));
-  if (words.agent == "scripted" && outcome.counters.refused_calls > 0)
+  if (plays_scripts(words.agent) && outcome.counters.refused_calls > 0)
     talk("note: the controller refused {} of the script; see --trace --trace-kind refused\n",
          count_text(outcome.counters.refused_calls, "call"));
   if (outcome.engine_error) return kEngineFault;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/base/outside_text.hpp"
+#include "core/scenario/scripted_agent.hpp"
 
 namespace fleetproof {
 namespace {
@@ -20,7 +21,7 @@ class Requests {
     for (std::size_t i = 0; i < scenario_.faults.size(); ++i) fault(i);
     for (std::size_t i = 0; i < scenario_.obstacles.size(); ++i) obstacle(i);
     late_things("/fates", "messages with a given delivery", scenario_.deliveries, &GivenDelivery::sent);
-    if (!scenario_.deliveries.empty() && scenario_.agent == "scripted")
+    if (!scenario_.deliveries.empty() && plays_scripts(scenario_.agent))
       add("/fates", "the agent \"scripted\" sends no messages, so no delivery is used; leave them out");
     adverse_scope();
     idle_radio();
@@ -57,7 +58,7 @@ class Requests {
     const AgvSetup& agv = scenario_.agvs[i];
     const std::string place = fmt::format("/agvs/{}", i), name = in_quotes(agv.name);
     late_things(place + "/transports", "orders of " + name, agv.transports, &TransportOrder::release);
-    if (!agv.script.empty() && !scenario_.agent.empty() && scenario_.agent != "scripted")
+    if (!agv.script.empty() && !scenario_.agent.empty() && !plays_scripts(scenario_.agent))
       add(place + "/script",
           fmt::format("only the agent \"scripted\" plays a script, and the agent is {}; leave one out",
                       in_quotes(scenario_.agent)));

@@ -199,6 +199,9 @@ TEST_F(AskedFor, ACallOfAScriptThatIsRefusedIsAnIncident) {
   for (const double at_s : {2.0, 3.0})  // the first of them is the next action, for the second there is no room
     json["agvs"][0]["script"].push_back({{"at_s", at_s}, {"action", "move"}, {"segment", "ab"}});
   EXPECT_THAT(incidents(json), ElementsAre("call-not-made: V0 from 3.0 to 3.0 (2)"));
+  json["agent"] = "scripted with drop every 5th message";
+  EXPECT_THAT(warnings(json), IsEmpty());
+  EXPECT_THAT(incidents(json), ElementsAre("call-not-made: V0 from 3.0 to 3.0 (2)")) << "with a fault around it, too";
   json["agent"] = "hull-lock";
   EXPECT_THAT(warnings(json), HasSubstr("/agvs/0/script: only the agent \"scripted\" plays a script"));
   EXPECT_THAT(incidents(json), ElementsAre("not-reached: V0 from 60.0 to 60.0 (3)")) << "nobody plays it";
