@@ -1,6 +1,8 @@
 // A program that speaks lockstep, from the campaign file to the trace of a run.
 #include <gmock/gmock.h>
 
+#include <optional>
+
 #include "storage/archive_reader.hpp"
 #include "tests/support/program.hpp"
 
@@ -81,6 +83,50 @@ TEST_F(LockstepCampaign, DependenceOnEarlierRunsIsCalledThat) {
   EXPECT_THAT(read(path("c.sessions.jsonl")), HasSubstr(R"({"unruly":{"dependent":2,"other":0}})"));
   tried("draw");
   EXPECT_THAT(run("report c.db").out, HasSubstr("not deterministic | agent unruly: this software is not determ"));
+}
+
+// The main process plays what a worker hands on in pieces.
+TEST_F(LockstepCampaign, ATapeOfManyPiecesIsPlayed) {
+  ASSERT_TRUE(test::has_verdict(campaign(R"({ run = "python3 -B unruly.py talk", way = "lockstep" })")));
+  const auto traced = run("replay c.db 1 --trace --trace-output t.txt --html p.html");
+  EXPECT_THAT(traced.out, HasSubstr("REPRODUCED"));
+  EXPECT_THAT(read(path("t.txt")), HasSubstr("word 99 of event 9"));
+  EXPECT_GT(std::filesystem::file_size(path("t.txt")), 500'000U);
+}
+
+// A Python program on the computer and on board, from the campaign to the smallest case of a failure.
+TEST_F(LockstepCampaign, AFleetWithAComputerIsReplayedAndShrunk) {
+  std::filesystem::copy_file(test::source("core/sdk/python/starting/master.py"), path("master.py"));
+  const std::string python =
+      "{ run = \"env 'PYTHONPATH=" + test::source("core/sdk/python") + "' python3 -B master.py\", way = \"lockstep\" }";
+  write("c.toml", "name = \"c\"\nkind = \"search\"\nreplicates = 2\nhorizon_s = 60\n[factors]\nagents = [{ vehicle = " +
+                      python + ", computer = " + python + R"(, name = "mine" }]
+layouts = ["aisle-grid"]
+fleet_sizes = [4]
+loss = [0.2]
+delay_s = [1]
+[world]
+transports = "open"
+transports_per_agv_hour = 120
+[[computers]]
+name = "server"
+[computers.faults]
+restarts_per_hour = 60
+)");
+  ASSERT_TRUE(test::has_verdict(run("run c.toml --db c.db --jobs 2")));
+  std::optional<std::uint64_t> failed;
+  std::uint64_t restarts = 0;
+  ArchiveReader(path("c.db")).for_each_run([&](const RunRecord& run) {
+    EXPECT_FALSE(run.outcome.crash) << run.outcome.message;
+    if (run.outcome.violation && !failed) failed = run.run_index;
+    restarts += run.outcome.counters.faults;
+  });
+  ASSERT_TRUE(failed) << "nobody asks before it drives";
+  EXPECT_GT(restarts, 0U);
+  EXPECT_THAT(run("report c.db").out, HasSubstr("Agent mine: 2 runs were audited, and every one came out the same."));
+  EXPECT_THAT(run("replay c.db " + std::to_string(*failed) + " --trace").out, HasSubstr("REPRODUCED"));
+  const auto shrunk = run("shrink c.db " + std::to_string(*failed) + " --output s.json --max-trials 10");
+  EXPECT_EQ(shrunk.exit_code, 0) << shrunk.out << shrunk.err;
 }
 
 TEST_F(LockstepCampaign, WhatIsWrongIsNamed) {

@@ -120,6 +120,9 @@ def main():
                 say({"calls": [["move", 99], ["get_position"], ["send_unicast", "x", 77], ["move", 0]]})
             elif how == "keep-state":
                 say({"calls": [["send_broadcast", "served %d" % runs_served]]})
+            elif how == "talk":
+                words = [["log", "word %d of event %d %s" % (word, events, "x" * 100)] for word in range(100)]
+                say({"calls": words + [["set_timer", 1, told["now_ns"] + 200000000]]})
             elif how == "draw":
                 say({"calls": [["send_broadcast", os.urandom(8).hex()]]})
             elif how == "pid":
