@@ -95,21 +95,19 @@ void meet_agent_of(const ReplayVerbWords& words, const ArchiveReader& archive, c
 // By the software itself. A run that is watched is played here, as a worker process has recorded it.
 ReplayResult replay_software(const ReplayVerbWords& words, const ArchiveReader& archive, const CampaignPlan& plan,
                              AgentPrograms& programs, TraceSink* sink) {
-  SimulatedElsewhere elsewhere;
+  RunWatch watch;
+  std::string recording;
   if (sink != nullptr && !words.in_process) {
     AgentPrograms known;
     meet_agent_of(words, archive, plan, known, &AgentPrograms::know);
     const AgentFactor& agent = plan.agent_of_cell(words.run);
-    elsewhere = simulated_elsewhere(ScenarioSource(plan).scenario(words.run), case_agent(plan, agent), known);
+    recording = recorded_elsewhere(ScenarioSource(plan).scenario(words.run), case_agent(plan, agent), known);
   }
-  const bool is_played = !elsewhere.recording.empty();
-  const bool in_process = words.in_process || (sink != nullptr && !is_played);
-  meet_agent_of(words, archive, plan, programs, in_process ? &AgentPrograms::load : &AgentPrograms::know);
+  watch.play = recording;
+  meet_agent_of(words, archive, plan, programs, words.in_process ? &AgentPrograms::load : &AgentPrograms::know);
   tell_rebuilt_plugins(archive.campaign(), {&plan.agent_of_cell(words.run), 1}, programs);
-  if (!in_process && !is_played) return replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
-  RunWatch watch;
-  watch.known_ends = elsewhere.ends;
-  watch.play = elsewhere.recording;
+  if (sink == nullptr && !words.in_process)
+    return replay(archive, plan, words.run, programs, isolated_simulation(plan, programs));
   return replay(archive, words.run, programs, sink, watch);
 }
 

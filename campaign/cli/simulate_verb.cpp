@@ -246,7 +246,7 @@ std::vector<Violation> violations_before(const SimulateWords& words, const Scena
 }
 
 // What is not built in runs in a worker process. What it did there is played here.
-SimulatedElsewhere simulated_in_worker(SimulateWords words, const Scenario& scenario) {
+std::string recorded_in_worker(SimulateWords words, const Scenario& scenario) {
   if (words.in_process) return {};
   AgentPrograms known;
   words.agent = meet_agent(words.agent, words.plugins, known, &AgentPrograms::know, words.global_symbols);
@@ -254,7 +254,7 @@ SimulatedElsewhere simulated_in_worker(SimulateWords words, const Scenario& scen
   agent.computers = computer_parts(scenario, words.plugins, known, &AgentPrograms::know, words.global_symbols);
   (void)known.parts_of(factor_of(agent), words.agent_place);
   known.require_computers(factor_of(agent), scenario, words.scenario + ": ");
-  return simulated_elsewhere(scenario, agent, known);
+  return recorded_elsewhere(scenario, agent, known);
 }
 
 // The agent with a program for each computer of the scenario. Throws InputError if it cannot play the scenario.
@@ -313,16 +313,15 @@ int simulate_scenario(SimulateWords words) {
   std::optional<WorkProgress> progress;
   progress.emplace("simulate", nullptr);
   progress->begin("simulating the run");
-  const SimulatedElsewhere elsewhere = simulated_in_worker(words, scenario);
-  const bool is_played = !elsewhere.recording.empty();
+  const std::string recording = recorded_in_worker(words, scenario);
+  const bool is_played = !recording.empty();
   const AgentFactor agent =
       met_parts(words, scenario, programs, is_played ? &AgentPrograms::know : &AgentPrograms::load);
   // The published laws work on after the last event, where only the signal itself can end them.
   if (measures_clearance(words)) listen_to_interrupts();
   const TimeLimit limit({}, is_interrupted);
   RunWatch watch;
-  watch.known_ends = elsewhere.ends;
-  watch.play = elsewhere.recording;
+  watch.play = recording;
   watch.abandon = &limit.over();
   const FleetSoftware software =
       is_played ? programs.software_to_play(scenario) : programs.software(agent, words.config, scenario);

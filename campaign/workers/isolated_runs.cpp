@@ -290,6 +290,7 @@ std::optional<WorkerState> IsolatedRuns::take_answer(Member& member, WorkerWatch
   Channel& channel = member.worker.channel;
   if (plan_.limits.memory_mb > 0) limits.bytes_below = plan_.limits.memory_mb << 20U;
   WorkerWatch watch(member.worker.pid, limits, slots_[member.slot].call.number);
+  std::string pieces;
   for (;;) {
     switch (channel.wait(kLookEvery)) {
       case Channel::Wait::Arrived:
@@ -298,6 +299,11 @@ std::optional<WorkerState> IsolatedRuns::take_answer(Member& member, WorkerWatch
         } catch (const EngineError&) {
           return WorkerState::Garbled;
         }
+        if (answer.is_piece) {
+          pieces += answer.recording;
+          break;
+        }
+        if (!answer.recording.empty()) answer.recording.insert(0, pieces);
         if (answer.failed && answer.machine) throw MachineError(answer.message);
         if (answer.failed) throw EngineError(answer.message);
         return std::nullopt;

@@ -86,6 +86,7 @@ std::string encode(const RunAnswer& answer) {
   sink.u8(answer.failed ? 1 : 0);
   sink.u8(answer.machine ? 1 : 0);
   sink.u8(answer.declined ? 1 : 0);
+  sink.u8(answer.is_piece ? 1 : 0);
   sink.text(answer.message);
   sink.u64(answer.cpu_ns);
   sink.u64(answer.scenario_digest);
@@ -109,6 +110,7 @@ RunAnswer decode_answer(std::string_view bytes) {
   answer.failed = source.flag();
   answer.machine = source.flag();
   answer.declined = source.flag();
+  answer.is_piece = source.flag();
   answer.message = source.text();
   answer.cpu_ns = source.u64();
   answer.scenario_digest = source.u64();

@@ -34,6 +34,7 @@ RunOrder decode_order(std::string_view bytes);  // throws EngineError on bytes t
 struct RunAnswer {
   bool failed = false, machine = false;
   bool declined = false;  // this worker hosts no more runs; another one has to take the order
+  bool is_piece = false;  // of a recording; the answer comes later, and has the last piece
   bool explained = true;  // not sent: false if no worker brought the run to its end, and nobody knows why
   // Not sent: how the run ended in a worker before, if that did not come again.
   std::optional<CauseOfDeath> ended_otherwise{};

@@ -35,6 +35,8 @@ namespace {
 
 constexpr std::string_view kWorkerWord = "take-orders";  // then slots, number of slots, channel, slot
 constexpr int kWorkerWords = 6;
+// Of one scenario, which is recorded to be watched. The main process holds it.
+constexpr std::size_t kLongestWatchedTape = std::size_t{4} << 30U;
 constexpr std::size_t kShortestSource = 1 + 4 + 4 + 1;
 
 // A worker hosts runs for so many times the CPU time of its start, its first run included. What software takes from its
@@ -185,7 +187,12 @@ class Worker {
     RunWatch watch;
     watch.note = &log_.slot().call;
     watch.known_ends = order.known_ends;
-    CallTape tape;
+    CallTape tape = order.scenario.is_empty() ? CallTape() : CallTape(kLongestWatchedTape, [&](std::string piece) {
+      RunAnswer part;
+      part.is_piece = true;
+      part.recording = std::move(piece);
+      send_answer(channel_, part);
+    });
     if (order.record) watch.record = &tape;
     if (log_.is_kept()) {
       watch.call_ended = [&] {

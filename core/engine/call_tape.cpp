@@ -6,7 +6,8 @@
 
 namespace fleetproof {
 
-CallTape::CallTape(std::size_t longest_bytes) : longest_bytes_(longest_bytes) {
+CallTape::CallTape(std::size_t longest_bytes, HandOn hand_on)
+    : longest_bytes_(longest_bytes), hand_on_(std::move(hand_on)) {
   const char version = kTapeVersion;
   append({&version, 1});
 }
@@ -80,9 +81,14 @@ void CallTape::put_number(std::uint64_t number) {
 }
 
 void CallTape::append(std::string_view bytes) {
-  if (!is_complete()) return;
-  complete_ = bytes.size() <= longest_bytes_ - bytes_.size();
+  if (!is_complete() || bytes.empty()) return;
+  complete_ = bytes.size() <= longest_bytes_ - handed_on_ - bytes_.size();
   try {
+    // Before the bytes come: so the last piece is never empty.
+    if (complete_ && hand_on_ && bytes_.size() >= kTapePiece) {
+      handed_on_ += bytes_.size();
+      hand_on_(std::exchange(bytes_, {}));
+    }
     if (complete_) bytes_.append(bytes);
   } catch (const std::bad_alloc&) {
     complete_ = false;  // no reason to end the run

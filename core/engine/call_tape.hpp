@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,7 @@
 namespace fleetproof {
 
 inline constexpr std::size_t kLongestTape = std::size_t{64} << 20U;  // bytes
+inline constexpr std::size_t kTapePiece = std::size_t{64} << 10U;    // the least of a piece that is handed on
 
 // The items of a tape. Their numbers stand in recordings: append, or raise kTapeVersion.
 enum class TapeItem : std::uint8_t {
@@ -72,8 +74,10 @@ inline constexpr std::uint8_t kTapeVersion = 1;
 // Calls into agents do not nest: what an agent does reaches other agents through the event queue.
 class CallTape {
  public:
-  // If a tape becomes longer than `longest_bytes`, it is dropped.
-  explicit CallTape(std::size_t longest_bytes = kLongestTape);
+  using HandOn = std::function<void(std::string piece)>;
+  // If a tape becomes longer than `longest_bytes`, it is dropped. `hand_on`: takes the bytes in pieces while the run
+  // lasts, so that the tape needs no memory; take() returns the last piece. Null: take() returns all.
+  explicit CallTape(std::size_t longest_bytes = kLongestTape, HandOn hand_on = nullptr);
 
   // ---- by the engine
   // `event`: as CallNote has it.
@@ -102,7 +106,7 @@ class CallTape {
   // ---- for the caller of simulate()
   // False: the tape was dropped, because it became too long or there was not enough memory.
   bool is_complete() const { return complete_; }
-  // The bytes. Empty if the tape is not complete. Call it once.
+  // The bytes. Empty if the tape is not complete: pieces that were handed on are worth nothing then. Call it once.
   std::string take();
 
  private:
@@ -116,7 +120,8 @@ class CallTape {
   void put(std::string_view text);
   void append(std::string_view bytes);
 
-  std::size_t longest_bytes_;
+  std::size_t longest_bytes_, handed_on_ = 0;
+  HandOn hand_on_;
   bool complete_ = true;
   std::uint64_t calls_ = 0, services_ = 0, notes_ = 0;  // of this call into an agent; services not yet on the tape
   std::string bytes_;

@@ -246,6 +246,36 @@ TEST(CallTape, IsDroppedIfItBecomesTooLong) {
   current_handler = nullptr;
 }
 
+// Handed on in pieces, it is the same tape, and needs no more memory than a piece.
+TEST(CallTape, IsHandedOnInPieces) {
+  const Scenario scenario = two_agvs();
+  const Handler handler = [](const fp_host& host, fp_controller* c, const fp_briefing&, const fp_event& e) {
+    for (int i = 0; i < 60; ++i) host.log(c, std::string(500, 'x').c_str());
+    if (e.now_ns < 5'000'000'000) host.set_timer(c, 0, e.now_ns + 1'000'000'000);
+  };
+  const ToldRun run = recorded_handler(scenario, handler);
+  current_handler = &handler;
+  for (const std::size_t longest : {run.tape.size(), run.tape.size() - 1}) {
+    std::vector<std::string> pieces;
+    CallTape tape(longest, [&](std::string piece) { pieces.push_back(std::move(piece)); });
+    RunWatch watch;
+    watch.record = &tape;
+    expect_same(run, test::watched(scenario, handler_agent(), watch));
+    EXPECT_EQ(tape.is_complete(), longest == run.tape.size());
+    EXPECT_GT(pieces.size(), 2U);
+    std::string all;
+    for (const std::string& piece : pieces) {
+      EXPECT_GE(piece.size(), kTapePiece);
+      EXPECT_LT(piece.size(), kTapePiece + 1000);
+      all += piece;
+    }
+    const std::string last = tape.take();
+    EXPECT_EQ(last.empty(), !tape.is_complete());
+    EXPECT_EQ(all + last == run.tape, tape.is_complete());
+  }
+  current_handler = nullptr;
+}
+
 // ---- calls from outside an activation
 
 TEST(CallTape, DoesNotHoldCallsFromOutsideAnActivation) {
