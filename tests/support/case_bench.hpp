@@ -37,7 +37,7 @@ inline Scenario bad_night(std::uint64_t seed) {
 
 // An agent and its cases.
 struct CaseBench {
-  explicit CaseBench(const std::string& agent, int workers = 2) : host({agent, ""}, programs, workers) {}
+  explicit CaseBench(const std::string& name, int workers = 2) : agent(name), host({name, ""}, programs, workers) {}
   // The first from this seed on that fails.
   Scenario failing(std::uint64_t seed) {
     for (;; ++seed) {
@@ -54,6 +54,7 @@ struct CaseBench {
     }
   }
 
+  std::string agent;
   AgentPrograms programs;
   CaseHost host;
 };

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "campaign/findings/failure_analysis.hpp"
 #include "tests/support/case_bench.hpp"
 
@@ -11,12 +14,20 @@ struct Known {
   NeighbourCounts before;
 };
 
-inline Known known_failure(CaseBench& bench) {
+inline Known found_failure(CaseBench& bench) {
   const auto needs = needs_of(bench.host, bench.failing(125));
   Finding finding;
   finding.mechanism = {needs->end, needs->needs, {}, {}};
   const FailureAnalysis record = analysis_of(bench.host, finding, *needs, 4000);
   return {record.kept, record.neighbours};
+}
+
+// Of each agent once for all tests of a process.
+inline Known known_failure(CaseBench& bench) {
+  static std::map<std::string, Known> known;
+  auto found = known.find(bench.agent);
+  if (found == known.end()) found = known.emplace(bench.agent, found_failure(bench)).first;
+  return found->second;
 }
 
 }  // namespace fleetproof::test
