@@ -5,8 +5,8 @@
 
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/failure_words.hpp"
-#include "campaign/cli/known_ends.hpp"
 #include "campaign/cli/output_file.hpp"
+#include "campaign/cli/recorded_elsewhere.hpp"
 #include "campaign/cli/run_observers.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"

@@ -9,8 +9,8 @@
 
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/interrupts.hpp"
-#include "campaign/cli/known_ends.hpp"
 #include "campaign/cli/progress.hpp"
+#include "campaign/cli/recorded_elsewhere.hpp"
 #include "campaign/cli/run_observers.hpp"
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"

@@ -1,4 +1,4 @@
-#include "campaign/cli/known_ends.hpp"
+#include "campaign/cli/recorded_elsewhere.hpp"
 
 #include "campaign/shrink/case_host.hpp"
 #include "core/base/error.hpp"
