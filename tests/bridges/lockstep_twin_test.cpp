@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "core/bridges/lockstep/line_writer.hpp"
 #include "core/bridges/wrapped/wrapped_program.hpp"
 #include "core/engine/simulation.hpp"
 #include "core/sdk/agent_table.hpp"
@@ -152,6 +154,15 @@ TEST(Lockstep, SpeaksAsItsSchemaSays) {
   EXPECT_EQ(kinds,
             "<action_done <answer <bye <destroy <hello <message <order <run <start <timer >ask >bye >calls >hello");
   for (const std::string& name : {file, said}) std::filesystem::remove(name);
+}
+
+// Also -0, which many readers take for an integer when it has no point.
+TEST(Lockstep, WritesNumbersThatReadBackAsTheSameBits) {
+  for (const double number : {0.0, -0.0, 0.1, -1.5, 3.0, 5e-324, 1.7976931348623157e308}) {
+    std::string line;
+    lockstep::LineWriter(line).value(number);
+    EXPECT_EQ(bits_of(nlohmann::json::parse(line).get<double>()), bits_of(number)) << line;
+  }
 }
 
 TEST(Lockstep, KnowsTheFaultsOfItsHello) {

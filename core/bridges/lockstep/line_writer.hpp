@@ -43,9 +43,10 @@ class LineWriter {
     char digits[24];
     line_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
   }
-  // JSON has no infinity.
+  // JSON has no infinity, and many readers take -0 for the integer.
   void value(double number) {
     if (!std::isfinite(number)) return none();
+    if (number == 0.0 && std::signbit(number)) return raw("-0.0");
     comma();
     char digits[32];
     line_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
