@@ -44,6 +44,9 @@ class Callbacks(Generic[Self]):
     def on_refused(self, call: str, result: Result) -> None:
         """A call of the function before, whose result nobody asked for, was refused."""
 
+    def on_activation_end(self) -> None:
+        """After each of these functions, and once after all messages: what the program does whatever has come."""
+
     def on_end(self) -> None:
         """The participant restarts, or the run is over. Calls do nothing any more."""
 
@@ -120,6 +123,7 @@ class Runner:
     def hear(self, told: Dict[str, Any]) -> None:
         self.participant._begin_activation(told)
         self._object._hear(told)
+        self._object.on_activation_end()
 
     def close(self) -> None:
         self.participant._is_over = True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 BACKWARD = 0x80000000
@@ -53,12 +54,36 @@ class Station(NamedTuple):
     """That an AGV must have to pick, drop, park or charge here; None: any."""
 
 
+def _turned(heading: Tuple[float, float], angle_rad: float) -> Tuple[float, float]:
+    """The heading turned left. By polynomials: sines of ``math`` differ between processors."""
+    steps = math.ceil(abs(angle_rad) / 0.25)
+    if steps < 1:
+        return heading
+    a = angle_rad / steps
+    q = a * a
+    sine = a * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0 * (1.0 - q / 110.0)))))
+    cosine = 1.0 - q / 2.0 * (
+        1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0 * (1.0 - q / 132.0))))
+    )
+    x, y = heading
+    for _ in range(steps):
+        x, y = cosine * x - sine * y, sine * x + cosine * y
+    return x, y
+
+
 class Arc(NamedTuple):
     """A straight line (curvature 0) or a circular arc (a positive curvature turns left) from ``start`` on."""
 
     start: Pose
     length_m: float
     curvature_per_m: float
+
+    @property
+    def end_heading(self) -> Tuple[float, float]:
+        """Of the way, at the end."""
+        heading = (self.start.heading_x, self.start.heading_y)
+        angle_rad = self.curvature_per_m * self.length_m
+        return heading if abs(angle_rad) < 1e-9 else _turned(heading, angle_rad)
 
 
 class Lane(NamedTuple):
@@ -84,6 +109,20 @@ class Lane(NamedTuple):
     def drive(self) -> int:
         """The segment as an action takes it."""
         return self.segment + BACKWARD if self.backward else self.segment
+
+    @property
+    def start_heading(self) -> Tuple[float, float]:
+        """Where the nose of an AGV points when it begins to drive the lane."""
+        return self._of_nose((self.arcs[0].start.heading_x, self.arcs[0].start.heading_y))
+
+    @property
+    def end_heading(self) -> Tuple[float, float]:
+        """Where the nose points at the end of the lane."""
+        return self._of_nose(self.arcs[-1].end_heading)
+
+    def _of_nose(self, heading: Tuple[float, float]) -> Tuple[float, float]:
+        nose = -1.0 if self.backward else 1.0
+        return nose * heading[0], nose * heading[1]
 
 
 class Block(NamedTuple):
