@@ -15,6 +15,11 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
+struct TimedRun {
+  double took_s = 0.0;
+  std::optional<std::string> failure;  // the control software crashed or hung
+};
+
 // A step that visits all cells, each far from the one before: near the golden section, without a common divisor.
 std::uint64_t spread_step(std::uint64_t cells) {
   std::uint64_t step = std::max<std::uint64_t>(1, cells * 618 / 1000);
@@ -87,16 +92,20 @@ Pilot run_pilot(const CampaignPlan& plan, const AgentPrograms& programs, int wor
   const auto cell_at = [&](std::uint64_t place) { return place % cells * step % cells; };
   const auto timed_run = [&](std::uint64_t place) {
     const auto begin = Clock::now();
-    (void)runs(place - place % cells + cell_at(place));
-    return std::optional(seconds_since(begin));
+    TimedRun run;
+    const std::optional<RunRecord> record = runs(place - place % cells + cell_at(place));
+    if (record && (record->outcome.crash || record->outcome.hang)) run.failure = record->outcome.message;
+    run.took_s = seconds_since(begin);
+    return std::optional(run);
   };
   Pilot pilot;
   const auto begin = Clock::now();
   {
-    TaskPool<double> pool({.workers = workers, .end = std::min(plan.run_count(), length.runs)}, timed_run);
+    TaskPool<TimedRun> pool({.workers = workers, .end = std::min(plan.run_count(), length.runs)}, timed_run);
     pool.take_all(
-        [&](std::uint64_t place, double run_s) {
-          costs.add(cell_at(place), run_s);
+        [&](std::uint64_t place, const TimedRun& run) {
+          costs.add(cell_at(place), run.took_s);
+          if (run.failure) pilot.failures.push_back({cell_at(place), *run.failure});
           ++pilot.runs;
         },
         [&] {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "campaign/plan/plan.hpp"
@@ -16,11 +17,18 @@ struct CellCost {
   double mean_s = 0.0;  // of one run, on one worker; without runs in the pilot: the mean of all cells
 };
 
+// A run of a pilot in which control software crashed or hung.
+struct PilotFailure {
+  std::uint64_t cell = 0;
+  std::string message;
+};
+
 struct Pilot {
   std::vector<CellCost> cells;  // by cell
   int workers = 1;
   std::uint64_t runs = 0;
   double elapsed_s = 0.0;
+  std::vector<PilotFailure> failures;
   // Audits simulate this share of the runs once more, and before that the first runs of each agent: so long, on one
   // worker.
   double audit_share = 0.0, first_audits_s = 0.0;

@@ -20,6 +20,16 @@ std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentProg
   return names;
 }
 
+std::vector<std::string> object_agents(const CampaignPlan& plan, const AgentPrograms& programs) {
+  std::vector<std::string> names;
+  for (const AgentFactor& agent : plan.agents) {
+    const auto parts = programs.parts_of(agent, "agents");
+    const auto is_object = [](const AgentProgram* part) { return part->source.kind == ProgramKind::Plugin; };
+    if (std::ranges::any_of(parts, is_object)) names.push_back(agent.name);
+  }
+  return names;
+}
+
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs) {
   CampaignRecord record;
   record.name = plan.name;

@@ -16,7 +16,9 @@ StoredPlan stored_plan(const CampaignPlan& plan, const AgentPrograms& programs);
 // The first part of it.
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);
 
-// The agents of the plan that come from shared objects.
+// The agents of the plan of which a part is not built in.
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
+// Of these, the ones of which a part is a shared object: it runs in a process of this program.
+std::vector<std::string> object_agents(const CampaignPlan& plan, const AgentPrograms& programs);
 
 }  // namespace fleetproof

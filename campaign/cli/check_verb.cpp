@@ -12,6 +12,7 @@
 #include "campaign/plan/scenario_source.hpp"
 #include "campaign/run/agent_programs.hpp"
 #include "campaign/run/case_file.hpp"
+#include "core/base/outside_text.hpp"
 #include "core/sdk/agent_table.hpp"
 #include "generators/formats/importer.hpp"
 #include "generators/formats/vehicles.hpp"
@@ -96,6 +97,19 @@ void warn_of_unknown_faults(const Scenario& scenario, const std::string& path) {
   }
 }
 
+// The file is right all the same, so this is no error.
+void warn_of_failures(const Pilot& pilot, const CampaignPlan& plan, const std::string& path) {
+  const std::vector<CellRecord> cells = plan.cells();
+  for (const AgentFactor& agent : plan.agents) {
+    const auto is_of_agent = [&](const PilotFailure& failure) { return cells[failure.cell].agent == agent.name; };
+    const auto first = std::ranges::find_if(pilot.failures, is_of_agent);
+    if (first == pilot.failures.end()) continue;
+    talk("warning: {}: {} crashed or hung in {} of {}: {}\n", path, in_quotes(agent.name),
+         std::ranges::count_if(pilot.failures, is_of_agent), count_text(pilot.runs, "trial run"),
+         printable(first->message));
+  }
+}
+
 void check_campaign(const std::string& path) {
   AgentPrograms programs;
   const CampaignFile file = load_campaign(path, programs);
@@ -103,6 +117,7 @@ void check_campaign(const std::string& path) {
   warn_of_unknown_faults(plan, programs, path);
   try_first_worlds(plan, file.places);
   const Pilot pilot = run_pilot(plan, programs, 1, {.time = kPilotTime, .runs = plan.cell_count()});
+  warn_of_failures(pilot, plan, path);
   put("{}: ok, {} cells x {} replicates = {} runs of {:g} s; about {} of one core, as {} took {:.1f} s\n", path,
       plan.cell_count(), plan.replicates, plan.run_count(), plan.horizon_s,
       duration_text(pilot.forecast_s(plan.replicates)), count_text(pilot.runs, "run"), pilot.elapsed_s);

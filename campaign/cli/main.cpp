@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
            "fleetproof generate fishbone --seed 7 -o layout.json --svg layout.svg", prepare_generate},
       Verb{"import", "turn a layout of another program into a layout file, and back into LIF or CSV",
            "fleetproof import opentcs tests/layouts/crossdock.xml -o crossdock.json", prepare_import},
-      Verb{"check", "check a campaign or scenario file without running it",
+      Verb{"check", "check a campaign or scenario file, with a second of trial runs of a campaign",
            "fleetproof check tests/campaigns/demo.toml", prepare_check},
       Verb{"evidence", "compute one figure of evidence from counts: bounds, plans, gates, comparisons",
            "fleetproof evidence clopper-pearson --failing 3 --units 1000 --confidence 0.95", prepare_evidence},

@@ -123,7 +123,7 @@ const AgentStart& start_for(const std::string& language, const std::string& styl
     if (start.language == language && start.style == style) return start;
   }
   if (styles.empty())
-    throw InputError("--language", fmt::format("{} has no start{}; every other language: core/sdk/lockstep.md",
+    throw InputError("--language", fmt::format("{} has no start{}; every other language: the page lockstep.md",
                                                in_quotes(language), name_hint(language, languages)));
   throw InputError("--style", fmt::format("there is no start {} in {}; known: {}", in_quotes(style), language,
                                           fmt::join(styles, ", ")));

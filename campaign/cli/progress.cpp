@@ -35,12 +35,12 @@ bool is_terminal() {
 
 }  // namespace
 
-ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::vector<std::string> plugins, std::string archive_path,
+ProgressTalk::ProgressTalk(const CampaignPlan& plan, std::vector<std::string> objects, std::string archive_path,
                            int workers)
     : opening_(fmt::format("campaign {}: {} cells x {} replicates = {} runs, seed {}, {} workers", plan.name,
                            plan.cell_count(), plan.replicates, plan.run_count(), plan.seed, workers)),
       cells_(plan.cells()),
-      plugins_(std::move(plugins)),
+      objects_(std::move(objects)),
       archive_path_(std::move(archive_path)),
       terminal_(is_terminal()) {}
 
@@ -75,8 +75,8 @@ void ProgressTalk::run_finished(const RunRecord& record) {
   if (archive_path_.empty()) return;
   const std::string replay = replay_command(archive_path_, record.run_index);
   talk("  replay: {}\n", replay);
-  const bool plugin = std::ranges::find(plugins_, cell.agent) != plugins_.end();
-  if (plugin && (outcome.crash || outcome.hang)) talk("  debug: gdb --args {} --in-process\n", replay);
+  const bool is_object = std::ranges::find(objects_, cell.agent) != objects_.end();
+  if (is_object && (outcome.crash || outcome.hang)) talk("  debug: gdb --args {} --in-process\n", replay);
 }
 
 std::string ProgressTalk::counter_line(const Progress& progress) const {

@@ -21,8 +21,8 @@ namespace fleetproof::cli {
 // line, and so is each run that is beyond its limit of CPU time and is repeated.
 class ProgressTalk {
  public:
-  // `plugins`: the agents that come from shared objects. `archive_path` empty: there is none, and no replay line.
-  ProgressTalk(const CampaignPlan& plan, std::vector<std::string> plugins, std::string archive_path, int workers);
+  // `objects`: the agents that come from shared objects. `archive_path` empty: there is none, and no replay line.
+  ProgressTalk(const CampaignPlan& plan, std::vector<std::string> objects, std::string archive_path, int workers);
   ~ProgressTalk();
   ProgressTalk(const ProgressTalk&) = delete;
   ProgressTalk& operator=(const ProgressTalk&) = delete;
@@ -40,7 +40,7 @@ class ProgressTalk {
 
   const std::string opening_;
   const std::vector<CellRecord> cells_;
-  const std::vector<std::string> plugins_;
+  const std::vector<std::string> objects_;
   const std::string archive_path_;
   const bool terminal_;
   std::vector<std::string> told_agents_;

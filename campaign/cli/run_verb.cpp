@@ -203,7 +203,7 @@ int run(RunWords words) {
                                     .overwrite = words.overwrite});
   CampaignResult result;
   {
-    ProgressTalk talk(file.plan, plugin_agents(file.plan, programs), words.archive, options.workers);
+    ProgressTalk talk(file.plan, object_agents(file.plan, programs), words.archive, options.workers);
     const SessionLog session(words.archive);
     CampaignListener listener = talk.listener();
     listener.started = [&, tell = listener.started] {

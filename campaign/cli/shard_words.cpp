@@ -72,7 +72,7 @@ int simulate_shard(const ShardWords& words, const ShardCall& call) {
   options.worker_logs = beside(session_name, "");
   ShardResult result;
   {
-    ProgressTalk progress(plan, plugin_agents(plan, call.programs), "", options.workers);
+    ProgressTalk progress(plan, object_agents(plan, call.programs), "", options.workers);
     const SessionLog session(session_name);
     ShardListener listener;
     listener.campaign = progress.listener();

@@ -41,7 +41,8 @@ void take_command(TomlTable& table, std::string& file) {
   if (command.empty() && way.empty()) return;
   if (command.empty()) throw InputError(table.place("way"), "way says how the command in run is spoken to; name it");
   if (!file.empty()) throw InputError(table.place("run"), "an agent has either run = \"...\" or file = \"...\"");
-  const std::string ways = "run needs a way: way = \"lockstep\" for a program that speaks the protocol of core/sdk";
+  const std::string ways =
+      "run needs a way: way = \"lockstep\" for a program that speaks the protocol of the page lockstep.md";
   const auto given = table.given("way");
   if (!given) throw InputError(table.place("run"), ways);
   if (way != "lockstep") given->refuse(expected_word(given->value, std::array<std::string_view, 1>{"lockstep"}));

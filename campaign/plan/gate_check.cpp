@@ -115,8 +115,11 @@ class GateCheck {
 
   void check_region() const {
     if (std::ranges::none_of(cells_, [&](const CellRecord& cell) { return covers(gate_, cell); }))
-      refuse("region", fmt::format("no cell of this campaign lies in region \"{}\"; add the loss and delay it needs",
-                                   name_of(gate_.region)));
+      refuse("region", fmt::format("no cell of this campaign lies in region \"{}\" ({}); add such a cell, or give the "
+                                   "gate region = \"all\"",
+                                   name_of(gate_.region),
+                                   gate_.region == Region::WorstCase ? "loss 0.4 and delay_s 2"
+                                                                     : "loss up to 0.4 and delay_s up to 2"));
   }
 
   const CampaignPlan& plan_;

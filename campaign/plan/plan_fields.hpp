@@ -46,7 +46,8 @@ void visit_fields(Gate& gate, Visit&& visit) {
         kind);
   visit(Field{.key = "end_point", .text = "what counts as a failure", .lenient = kToldOfGate}, end_point);
   visit(Field{.key = "region",
-              .text = "the cells that count: those of the contract, its worst case, or all",
+              .text = "the cells that count: those of the contract (loss at most 0.4, delay at most 2 s), its worst "
+                      "case (both), or all",
               .lenient = kToldOfGate},
         region);
   visit(Field{.key = "layout", .text = "only cells of this layout; left out: of all", .lenient = kToldOfGate},

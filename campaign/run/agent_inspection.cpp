@@ -16,6 +16,7 @@
 #include <cstring>
 #include <new>
 
+#include "campaign/plan/campaign_agents.hpp"
 #include "campaign/run/memory_limit.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
@@ -24,6 +25,7 @@ namespace fleetproof {
 namespace {
 
 constexpr int kInspectionPatience_ms = 60'000;  // of waiting without using CPU time
+constexpr std::size_t kSaidKept = 8192;         // bytes of standard error
 constexpr int kKillsOfInspection = 3;           // more, and the object is the reason
 
 // The fields of a program, each with a null byte behind it. The first byte tells whether they are there or an error is.
@@ -45,12 +47,13 @@ void write_all(int fd, std::string_view bytes) {
   }
 }
 
-[[noreturn]] void load_and_tell(const std::string& path, bool global_symbols, const LimitSetup& limits, int answer) {
+[[noreturn]] void load_and_tell(const std::string& path, bool global_symbols, const LimitSetup& limits, int answer,
+                                int said) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_DFL);
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-  for (const int stream : {0, 1, 2})
-    ::dup2(nothing, stream);  // what the object prints while it is inspected is dropped
+  for (const int stream : {0, 1}) ::dup2(nothing, stream);  // what the program prints while it is inspected is dropped
+  ::dup2(said, 2);
   const auto cpu_s = static_cast<rlim_t>(std::ceil(limits.loading_s()));
   const rlimit cpu{cpu_s, cpu_s + 1}, core{0, 0};
   ::setrlimit(RLIMIT_CPU, &cpu);
@@ -72,30 +75,49 @@ void write_all(int fd, std::string_view bytes) {
 
 struct Inspection {
   std::string text;
+  std::string said;       // the end of its standard error
   bool came_back = true;  // within the patience
   int status = 0;         // as of waitpid
 };
 
-Inspection read_until_end(int fd) {
-  Inspection inspection;
+// Appends what can be read at once. False: no more comes.
+bool read_some(int fd, std::string& text) {
   std::array<char, 4096> buffer;
-  pollfd ready{fd, POLLIN, 0};
+  const auto count = ::read(fd, buffer.data(), buffer.size());
+  if (count > 0) text.append(buffer.data(), static_cast<std::size_t>(count));
+  return count > 0 || (count < 0 && errno == EINTR);
+}
+
+// Until the answer is complete. A process that the program has started may keep its standard error open.
+Inspection read_until_end(int answer, int said) {
+  Inspection inspection;
+  std::array<pollfd, 2> ready{{{answer, POLLIN, 0}, {said, POLLIN, 0}}};
   for (;;) {
-    const int events = ::poll(&ready, 1, kInspectionPatience_ms);
+    const int events = ::poll(ready.data(), ready.size(), kInspectionPatience_ms);
     if (events < 0 && errno == EINTR) continue;
     inspection.came_back = events != 0;
     if (events <= 0) break;
-    const auto count = ::read(fd, buffer.data(), buffer.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;
-    inspection.text.append(buffer.data(), static_cast<std::size_t>(count));
+    if (ready[1].revents != 0 && !read_some(said, inspection.said)) ready[1].fd = -1;  // poll leaves it out
+    if (inspection.said.size() > 2 * kSaidKept) inspection.said.erase(0, inspection.said.size() - kSaidKept);
+    if (ready[0].revents != 0 && !read_some(answer, inspection.text)) break;
   }
   return inspection;
 }
 
-std::string end_of(const Inspection& inspection) {
+// The last line that it wrote to its standard error: of most languages, the reason why it ended.
+std::string last_words(std::string_view said) {
+  const auto end = said.find_last_not_of(" \t\r\n");
+  if (end == std::string_view::npos) return {};
+  said = said.substr(0, end + 1);
+  return printable(said.substr(said.find_last_of('\n') + 1), 200);
+}
+
+std::string end_of(const Inspection& inspection, bool is_lockstep) {
   const int status = inspection.status;
-  if (!inspection.came_back || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) return "it does not come back";
+  if (!inspection.came_back || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)) {
+    return is_lockstep ? "it does not answer \"hello\"; end each line with a line feed, and flush standard output"
+                       : "it does not come back";
+  }
   if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemoryExit) return "it needs more memory than limits.memory_mb";
   if (!WIFSIGNALED(status)) return "it ends the process that loads it";
   return fmt::format("the process that loads it ends with signal {} ({})", WTERMSIG(status),
@@ -121,18 +143,23 @@ AgentProgram program_of(std::string_view fields) {
 }
 
 Inspection inspect_once(const std::string& path, bool global_symbols, const LimitSetup& limits) {
-  std::array<int, 2> answer{};
-  if (::pipe2(answer.data(), O_CLOEXEC) != 0)
-    throw MachineError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
+  std::array<int, 2> answer{}, said{};
+  for (auto* ends : {&answer, &said}) {
+    if (::pipe2(ends->data(), O_CLOEXEC) != 0)
+      throw MachineError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
+  }
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(answer[0]);
-    load_and_tell(path, global_symbols, limits, answer[1]);
+    ::close(said[0]);
+    load_and_tell(path, global_symbols, limits, answer[1], said[1]);
   }
   const int error = errno;
   ::close(answer[1]);
-  Inspection inspection = child < 0 ? Inspection() : read_until_end(answer[0]);
+  ::close(said[1]);
+  Inspection inspection = child < 0 ? Inspection() : read_until_end(answer[0], said[0]);
   ::close(answer[0]);
+  ::close(said[0]);
   if (child < 0) throw MachineError(fmt::format("no process can be started: {}", std::strerror(error)));
   if (!inspection.came_back) ::kill(child, SIGKILL);
   while (::waitpid(child, &inspection.status, 0) < 0 && errno == EINTR) {
@@ -156,11 +183,13 @@ AgentProgram inspect_agent(const std::string& path, bool global_symbols, const L
     program.source.global_symbols = global_symbols;
     return program;
   }
-  if (!text.starts_with('n')) throw InputError(path, "cannot be loaded: " + end_of(inspection));
+  const bool is_lockstep = path.starts_with(kLockstepWord);
+  if (!text.starts_with('n')) throw InputError(path, "cannot be loaded: " + end_of(inspection, is_lockstep));
   std::string_view told = text.substr(1);
   const std::string place = printable(path) + ": ";
   if (told.starts_with(place)) told.remove_prefix(place.size());
-  throw InputError(path, told);
+  const std::string words = is_lockstep ? last_words(inspection.said) : std::string();
+  throw InputError(path, words.empty() ? std::string(told) : fmt::format("{}: {}", told, words));
 }
 
 }  // namespace fleetproof

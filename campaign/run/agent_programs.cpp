@@ -107,8 +107,18 @@ AgentPrograms::AgentPrograms() {
   }
 }
 
+const AgentProgram* AgentPrograms::from_source(const ProgramSource& source) const {
+  const auto found = std::ranges::find_if(programs_, [&](const AgentProgram& program) {
+    return !program.is_built_in() && program.source.file == source.file &&
+           program.source.global_symbols == source.global_symbols;
+  });
+  return found == programs_.end() ? nullptr : &*found;
+}
+
 std::string AgentPrograms::load(const std::string& word, bool global_symbols) {
   ProgramSource source = source_of(word, global_symbols);
+  const AgentProgram* known = from_source(source);
+  if (known != nullptr && known->opened.type != nullptr) return known->name;
   OpenedProgram opened = open(source, word);
   AgentProgram program = program_of(*opened.type);
   source.sha256 = identity_of(source);
@@ -118,6 +128,7 @@ std::string AgentPrograms::load(const std::string& word, bool global_symbols) {
 }
 
 std::string AgentPrograms::know(const std::string& word, bool global_symbols) {
+  if (const AgentProgram* known = from_source(source_of(word, global_symbols))) return known->name;
   return add(inspect_agent(word, global_symbols, limits_), word).name;
 }
 
@@ -132,7 +143,7 @@ void AgentPrograms::load_unchanged(const ProgramSource& known) {
 
 const AgentProgram& AgentPrograms::add(AgentProgram program, const std::string& word) {
   if (std::ranges::find(programs_, program.name, &AgentProgram::name) != programs_.end()) {
-    throw InputError(word, fmt::format("calls itself {}, a name that is taken; give the agent another name",
+    throw InputError(word, fmt::format("calls itself {}, as another program does; let one of them say another name",
                                        in_quotes(program.name)));
   }
   return programs_.emplace_back(std::move(program));

@@ -57,7 +57,8 @@ class AgentPrograms {
   AgentPrograms& operator=(const AgentPrograms&) = delete;
 
   // Opens in this process the program that `word` names (program_door.hpp), and returns the name that it gives itself.
-  // Throws InputError if it cannot be opened or if the name is taken. Its code runs in this process from now on.
+  // Throws InputError if it cannot be opened, or if another program has that name. Its code runs in this process from
+  // now on.
   std::string load(const std::string& word, bool global_symbols = false);
   // The same, but a process of its own opens the program and tells what it is (agent_inspection.hpp). None of its code
   // runs in this process.
@@ -104,6 +105,8 @@ class AgentPrograms {
   std::vector<std::string> plugin_identities() const;
 
  private:
+  // Null: none of it is known.
+  const AgentProgram* from_source(const ProgramSource& source) const;
   const AgentProgram& add(AgentProgram program, const std::string& word);
   const AgentProgram& with_fault(const AgentProgram& inside, const wrapped::Fault& fault) const;
 

@@ -42,6 +42,10 @@ TEST_F(LockstepCampaign, AProgramThatBreaksItsProtocolCostsItsRuns) {
   const auto finished = campaign(R"({ run = "python3 -B unruly.py no-json", way = "lockstep" }, "reckless")");
   ASSERT_TRUE(test::has_verdict(finished));
   EXPECT_THAT(run("report c.db").out, HasSubstr("the lockstep program sent a line that is no JSON object"));
+  const auto checked = run("check c.toml");
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_THAT(checked.err, HasSubstr("warning: c.toml: \"unruly\" crashed or hung in "));
+  EXPECT_THAT(checked.err, HasSubstr("the lockstep program sent a line that is no JSON object"));
 }
 
 // The simplest relative of hull-lock, among lost and late messages and restarts.
@@ -127,6 +131,9 @@ restarts_per_hour = 60
   EXPECT_THAT(run("replay c.db " + std::to_string(*failed) + " --trace").out, HasSubstr("REPRODUCED"));
   const auto shrunk = run("shrink c.db " + std::to_string(*failed) + " --output s.json --max-trials 10");
   EXPECT_EQ(shrunk.exit_code, 0) << shrunk.out << shrunk.err;
+  ASSERT_EQ(run("replay c.db 0 --scenario s.json").exit_code, 0);
+  const std::string both = "\"lockstep:env 'PYTHONPATH=" + test::source("core/sdk/python") + "' python3 -B master.py\"";
+  EXPECT_TRUE(test::has_verdict(run("simulate s.json --agent " + both + " --computer server=" + both)));
 }
 
 TEST_F(LockstepCampaign, WhatIsWrongIsNamed) {
@@ -143,6 +150,9 @@ TEST_F(LockstepCampaign, WhatIsWrongIsNamed) {
   refused(R"({ run = "./twin {avg}", way = "lockstep" })", "has {avg}, which means nothing");
   refused(R"({ run = "no-such-program-anywhere", way = "lockstep" })", "cannot be started: no-such-program-anywhere");
   refused(R"({ run = "python3 -B unruly.py ends-at-once", way = "lockstep" })", "ended with exit code 1");
+  write("lost.py", "import no_such_module_anywhere\n");
+  refused(R"({ run = "python3 -B lost.py", way = "lockstep" })",
+          "ended with exit code 1: ModuleNotFoundError: No module named 'no_such_module_anywhere'");
 }
 
 }  // namespace

@@ -69,7 +69,11 @@ HostedProcess& LockstepProgram::State::process_for(const fp_briefing& briefing) 
 void* LockstepProgram::State::create(const fp_host* host, fp_controller* handle, const fp_briefing* briefing) {
   const bool is_served = briefing->role == FP_AGV ? introduction.serves_agvs : introduction.serves_computers;
   if (!is_served) {
-    host->cannot_start(handle, "the lockstep program does not name this role in its hello");
+    host->fail(handle, 0,
+               briefing->role == FP_AGV
+                   ? "the lockstep program serves no AGV: its hello has no role \"agv\" (in Python: serve(vehicle=...))"
+                   : "the lockstep program serves no computer: its hello has no role \"computer\" (in Python: "
+                     "serve(computer=...))");
     return nullptr;
   }
   try {

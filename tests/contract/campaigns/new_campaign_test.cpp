@@ -73,7 +73,7 @@ TEST_F(NewAgent, RefusesWhatDoesNotExist) {
   refused("agent a/b", "\"a/b\" is no name for an agent");
   refused("agent hull-lock", "hull-lock is an agent of fleetproof list agents");
   refused("agent mine --language pyhton", "did you mean \"python\"?");
-  refused("agent mine --language rust", "known: cpp, c, python; every other language: core/sdk/lockstep.md");
+  refused("agent mine --language rust", "known: cpp, c, python; every other language: the page lockstep.md");
   refused("agent mine --language c --style straight", "there is no start \"straight\" in c; known: callbacks, master");
   refused("agent mine --central", "fleetproof new agent NAME --style master");
   refused("campaign c.toml --language c", "--language: is for an agent");

@@ -145,7 +145,7 @@ TEST_F(OddFiles, AnAgentWithAnImpossibleName) {
   refused(set + "$'a\\xc2\\x9b'", "without control characters");
   refused(set + "$(printf '%0101d' 0)", "at most 100 bytes");
   refused(set + "$(printf '%090000d' 0)", "at most 100 bytes");
-  refused(set + "hull-lock", "calls itself \"hull-lock\", a name that is taken");
+  refused(set + "hull-lock", "calls itself \"hull-lock\", as another program does");
 }
 
 }  // namespace
