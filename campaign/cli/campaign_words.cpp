@@ -230,10 +230,10 @@ void meet_plugins(const std::string& archive_path, const CampaignRecord& campaig
       if (programs.known(part->program) != nullptr) continue;
       const std::string name = wrapped::bare_name(part->program), remembered = remembered_plugin(archive_path, name);
       if (remembered.empty()) {
-        throw InputError("--plugin",
-                         fmt::format("the agent {} comes from a shared object, and no session log beside {} says where "
-                                     "it is; name its file",
-                                     in_quotes(name), archive_path));
+        throw InputError(
+            "--plugin", fmt::format("the agent {} is not built in, and no session log beside {} says where it is; name "
+                                    "its shared object, or \"lockstep:COMMAND\"",
+                                    in_quotes(name), archive_path));
       }
       (programs.*meet)(remembered, part->global_symbols);
     }
@@ -312,8 +312,8 @@ std::vector<ComputerPart> computer_parts(const Scenario& scenario, std::vector<s
     if (!is_path_of_object(bare)) {
       if (std::ranges::find(programs.all(), bare, &AgentProgram::name) == programs.all().end())
         throw InputError("--plugin",
-                         fmt::format("the computer {} runs {}, which is not built in; name its shared object, or "
-                                     "another program with --computer",
+                         fmt::format("the computer {} runs {}, which is not built in; name its shared object or "
+                                     "\"lockstep:COMMAND\", or another program with --computer",
                                      in_quotes(computer.name), in_quotes(computer.agent)));
       continue;
     }

@@ -90,8 +90,9 @@ void add_case_options(Options& options, CaseWords& words) {
   options.option("--agent", words.agent, "of a scenario file: the control software (default: the file's)");
   options.option("--agent-config", words.config, "of a scenario file: text handed to the agent (default: the file's)");
   add_failure_option(options, words.failure);
-  options.option("--plugin", words.plugins,
-                 "shared object with the agent (default: the file that the campaign used); may be repeated");
+  options.option(
+      "--plugin", words.plugins,
+      "shared object or \"lockstep:COMMAND\" of an agent (default: what the campaign used); may be repeated");
   add_computer_option(options, words.computers);
   add_symbols_option(options, words.global_symbols);
 }

@@ -299,8 +299,9 @@ Action prepare_findings(Options& options) {
   add_failure_option(options, words->failure);
   options.option("--max-time", words->max_time, "end after this time with what was found, as in 90, 45m or 5h30m");
   options.option("--max-trials", words->trials, "of each smallest case, at most (default: 4000)");
-  options.option("--plugin", words->plugins,
-                 "shared object with an agent (default: the file that the campaign used); may be repeated");
+  options.option(
+      "--plugin", words->plugins,
+      "shared object or \"lockstep:COMMAND\" of an agent (default: what the campaign used); may be repeated");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.flag("--json", words->json, "print JSON");
   return [words] { return unless_given_up([&] { return find_findings(*words); }); };

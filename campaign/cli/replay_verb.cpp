@@ -208,7 +208,7 @@ Action prepare_replay(Options& options) {
   options.positional("DB", words->archive, "results file");
   options.positional("RUN", words->run, "run index");
   options.option("--plugin", words->plugins,
-                 "shared object with the agent of that run (default: the file that the campaign used)");
+                 "shared object or \"lockstep:COMMAND\" of an agent of that run (default: what the campaign used)");
   options.option("--scenario", words->scenario_out,
                  "also write the run's scenario to this file (see: fleetproof simulate)");
   options.flag("--in-process", words->in_process, "run the agent in this process and on one thread, for a debugger");

@@ -223,7 +223,7 @@ Action prepare_retest(Options& options) {
   options.option("--agent", words->agent,
                  "the control software to test: a name, or a shared object; of a central fleet, the program on board");
   options.option("--agent-config", words->config, "text handed to the agent (default: as when the finding was found)");
-  options.option("--plugin", words->plugins, "shared object with the agent; may be repeated");
+  options.option("--plugin", words->plugins, "shared object or \"lockstep:COMMAND\" of an agent; may be repeated");
   add_computer_option(options, words->computers);
   add_symbols_option(options, words->global_symbols);
   options.option("--finding", words->ids, "only this finding, as F-1c2d3e4f; may be repeated");

@@ -372,7 +372,7 @@ Action prepare_simulate(Options& options) {
                  "control software under test (default: the scenario file's agent, or scripted if it has a script)");
   options.option("--agent-config", words->config,
                  "text handed to the agent as its own parameters (default: the scenario file's)");
-  options.option("--plugin", words->plugins, "shared object with an agent; may be given several times");
+  options.option("--plugin", words->plugins, "shared object or \"lockstep:COMMAND\" of an agent; may be repeated");
   add_computer_option(options, words->computers);
   add_symbols_option(options, words->global_symbols);
   options.option("--law", words->law, "law that judges (default: safety-distance, also called exact)");

@@ -105,7 +105,7 @@ Action prepare_verify(Options& options) {
   options.positional("DB", words->archive, "results file");
   options.option("--sample", words->sample, "how many runs to simulate again: 1% (default), 100%, or a number");
   options.option("--plugin", words->plugins,
-                 "shared object with an agent of the campaign (default: the file that the campaign used)");
+                 "shared object or \"lockstep:COMMAND\" of an agent (default: what the campaign used)");
   options.option("-j,--jobs", words->jobs, "worker threads (default: one per core)");
   options.flag("--json", words->json, "print JSON");
   return [words] { return verify(*words); };

@@ -157,8 +157,8 @@ TEST_F(NamedAgents, AStoredCampaignFindsItsPlugins) {
   for (const std::string verb : {"verify c.db --plugin failing.so", "replay c.db 1", "replay c.db 1 --in-process"}) {
     const auto refused = run(verb);
     EXPECT_EQ(refused.exit_code, 2) << verb;
-    EXPECT_THAT(refused.err, HasSubstr("comes from a shared object, and no session log beside c.db says where it is; "
-                                       "name its file"));
+    EXPECT_THAT(refused.err, HasSubstr("is not built in, and no session log beside c.db says where it is; "
+                                       "name its shared object"));
   }
 }
 
