@@ -54,7 +54,11 @@ void require_object(const std::string& path) {
 // An object that is refused stays loaded: an exception of its own may be under way.
 OpenedProgram open_object(const ProgramSource& source, const std::string& path) {
   void* object = dlopen(source.file.c_str(), RTLD_NOW | (source.global_symbols ? RTLD_GLOBAL : RTLD_LOCAL));
-  if (object == nullptr) throw InputError(path, fmt::format("cannot be loaded as a shared object: {}", dlerror()));
+  if (object == nullptr) {
+    const std::string_view why = dlerror();
+    const char* remedy = why.find("fcontext") != why.npos ? "; link it with -lboost_context" : "";
+    throw InputError(path, fmt::format("cannot be loaded as a shared object: {}{}", why, remedy));
+  }
   bool changed_processor = !has_engine_processor_state();  // an object may be built so that it does
   set_engine_processor_state();
   const auto query = reinterpret_cast<fp_agent_query_function>(dlsym(object, FP_AGENT_QUERY_SYMBOL));

@@ -8,7 +8,7 @@ namespace fleetproof {
 
 std::string why_not_on_computer(std::string_view program, std::string_view computer) {
   return in_quotes(program) + " does not serve computers, so it cannot be the program of " + in_quotes(computer) +
-         "; choose another, or set FP_SERVES_COMPUTERS in its fp_agent_type";
+         "; choose another, or set FP_SERVES_COMPUTERS among the flags of its fp_agent_type (of agent_type<...>())";
 }
 
 void check_roles(const Scenario& scenario, const FleetSoftware& software) {

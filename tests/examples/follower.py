@@ -247,7 +247,7 @@ class Follower(Callbacks[Agv]):
             self.begin_way()
 
     def take_steps(self, grant: Grant) -> None:
-        """The first steps of the message may be known already; if others are missing before them, it waits for these."""
+        """The first steps may be known already. If others are missing before them, it waits for these."""
         if grant.first > self.known:
             self.agv.sometimes("grant-lost")
         if grant.first > self.known or grant.first + len(grant.steps) <= self.known:

@@ -44,7 +44,6 @@ class LaneLock(Callbacks[Agv]):
         self.count = 0  # of the numbers of this boot
         self.waits_since_ns: Optional[int] = None
         self.makes_way = False
-        self.known: Dict[Tuple[Occupancy, Occupancy], bool] = {}
         start = agv.briefing
         self.station = start.start_station or 0
         self.held = self.floor_of_station(agv.id, self.station)
@@ -68,12 +67,7 @@ class LaneLock(Callbacks[Agv]):
         return (there, *self.floor_of_station(agv, self.map.lanes[lane].destination))
 
     def conflict(self, a: Floor, b: Floor) -> bool:
-        return any(self.parts_conflict(one, other) for one in a for other in b)
-
-    def parts_conflict(self, one: Occupancy, other: Occupancy) -> bool:
-        if (one, other) not in self.known:
-            self.known[one, other] = self.agv.conflict(one, other, MARGIN_M)
-        return self.known[one, other]
+        return any(self.agv.conflict(one, other, MARGIN_M) for one in a for other in b)
 
     # ---- what happens
 

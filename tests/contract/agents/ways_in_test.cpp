@@ -90,6 +90,19 @@ TEST_F(WaysIn, HaveEqualTraces) {
   is_same(in_python("follower.py"), "\"zone-server\"");
 }
 
+TEST_F(WaysIn, TheExampleOfAFleetHasEqualTraces) {
+  const std::string callbacks = "\"" + beside_tests("depot.so") + "\"";
+  const auto expected = outcomes(callbacks, callbacks);
+  const std::string straight = "\"" + beside_tests("depot_straight.so") + "\"", python = in_python("depot.py");
+  for (const std::string& way : {straight, python}) {
+    SCOPED_TRACE(way);
+    for (const auto& [run, outcome] : outcomes(way, way)) {
+      EXPECT_EQ(outcome.message, "");
+      EXPECT_EQ(outcome.digest, expected.at(run).digest) << "run " << run;
+    }
+  }
+}
+
 TEST_F(WaysIn, ProcessesGiveTheSameBytesWithAnyNumberOfWorkers) {
   campaign("c.toml", kHosted, "\"zone-server\"");
   for (const std::string jobs : {"1", "2", "7"})

@@ -7,7 +7,7 @@ same, so that it counts and costs simulated time as it does for software in C.
 from __future__ import annotations
 
 import enum
-from typing import Any, Dict, List, Optional, Protocol
+from typing import Any, Dict, List, Optional, Protocol, Tuple
 
 from .world import MESSAGE_BYTES_MAX, Briefing, Message, Occupancy, Pose, World
 
@@ -60,6 +60,7 @@ class Participant:
         self._told: Dict[str, Any] = {}
         self._unread: List[Dict[str, Any]] = []
         self._is_over = False
+        self._conflicts: Dict[Tuple[Occupancy, Occupancy, float], bool] = {}
 
     @property
     def id(self) -> int:
@@ -116,11 +117,17 @@ class Participant:
         return answer["bytes"].encode("latin-1") if answer["answer"] == "ok" else None
 
     def conflict(self, a: Occupancy, b: Occupancy, margin_m: float = 0.0) -> bool:
-        """Whether two vehicles may come closer than the safety distance plus the margin. False is certain."""
-        answer = self._ask("conflict", _occupancy(a), _occupancy(b), margin_m)
-        if answer["answer"] != "ok":
-            raise ValueError(f"conflict: {answer['answer']} for {a} and {b}")
-        return bool(answer["conflict"])
+        """Whether two vehicles may come closer than the safety distance plus the margin. False is certain.
+
+        The answer never changes. So only the first question asks the engine.
+        """
+        question = (a, b, margin_m)
+        if question not in self._conflicts:
+            answer = self._ask("conflict", _occupancy(a), _occupancy(b), margin_m)
+            if answer["answer"] != "ok":
+                raise ValueError(f"conflict: {answer['answer']} for {a} and {b}")
+            self._conflicts[question] = bool(answer["conflict"])
+        return self._conflicts[question]
 
     # ---- what is told to people and to results
 
