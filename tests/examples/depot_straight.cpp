@@ -17,6 +17,8 @@ using Lanes = std::vector<uint32_t>;
 constexpr uint32_t kLanesMax = 200;
 constexpr Duration kTick = 1s, kPatience = 3s;
 
+namespace {
+
 // It names the boots of server (from 1) and AGV: what was said to or by a former self has no effect.
 struct Trip {
   uint32_t server = 0, agv_boot = 0, number = 0, at_end = FP_NONE, order = FP_NONE;  // at_end: fp_call
@@ -231,10 +233,12 @@ struct Server : Participant {
   }
 };
 
-static void run_depot(Controller& controller) {
+void run_depot(Controller& controller) {
   if (controller.briefing().role == FP_COMPUTER) Server(controller).run();
   Agv(controller).run();
 }
+
+}  // namespace
 
 extern "C" const fp_agent_type* fp_agent_query(uint32_t) {
   constexpr uint32_t kFlags = FP_DETERMINISTIC | FP_SERVES_COMPUTERS;
