@@ -66,6 +66,20 @@ class Calls(Callbacks[Agv]):
         agv.log(f"{[bool(result) for result in results]} {agv.action()}")
 
 
+class Ends(Callbacks[Agv]):
+    def on_message(self, message: Message) -> None:
+        self.agv.log("message")
+
+    def on_activation_end(self) -> None:
+        self.agv.log("end")
+
+
+class AsksTwice(Callbacks[Agv]):
+    def on_start(self) -> None:
+        stand, drive, turn = Occupancy(0, station=1), Occupancy(0, lane=0), Occupancy(0, station=2)
+        self.agv.log(f"{[self.agv.conflict(stand, other) for other in (turn, drive, turn, drive)]}")
+
+
 class Wrong(Callbacks[Agv]):
     def on_start(self) -> None:
         self.agv.sometimes("before")
@@ -142,6 +156,8 @@ PROGRAMS = {
     "told": dict(vehicle=Told, faults=["dirt"]),
     "calls": dict(vehicle=Calls),
     "wrong": dict(vehicle=Wrong),
+    "ends": dict(vehicle=Ends),
+    "asks twice": dict(vehicle=AsksTwice),
     "master": dict(computer=Depot),
     "waits": dict(vehicle=waits, computer=echo, one_run=True, deterministic=False, description="waits a lot"),
     "restarts": dict(vehicle=restarts),

@@ -1,6 +1,7 @@
 """The Python package speaks lockstep: lines that a program says, for lines that the engine says."""
 
 import json
+import math
 import os
 import sys
 import unittest
@@ -150,6 +151,33 @@ class Package(unittest.TestCase):
         )
         self.assertIn("on_start prints\n", engine.end()[1])
 
+    def test_every_activation_has_one_end(self) -> None:
+        engine = self.serving("ends")
+        self.assertEqual(logged(engine.event("start")), ["end"])
+        messages = [message("a"), message("b")]
+        self.assertEqual(logged(engine.event("message", 1.0, messages=messages)), ["message", "message", "end"])
+
+    def test_a_conflict_is_asked_once(self) -> None:
+        asked: List[Any] = []
+
+        def conflict(call: List[Any]) -> Any:
+            asked.append(call)
+            return {"answer": "ok", "conflict": "lane" in call[2]}
+
+        engine = self.serving("asks twice", conflict=conflict)
+        self.assertEqual(logged(engine.event("start")), ["[False, True, False, True]"])
+        self.assertEqual(len(asked), 2)
+
+    def test_a_lane_says_where_the_nose_points(self) -> None:
+        told = run_line()
+        told["map"]["lanes"][0]["arcs"][0]["curvature_per_m"] = math.pi / 20.0  # a quarter to the left
+        lanes = read_world(told).map.lanes
+        self.assertEqual(lanes[0].start_heading, (1.0, 0.0))
+        x, y = lanes[0].end_heading
+        self.assertAlmostEqual(x, 0.0, 12)
+        self.assertAlmostEqual(y, 1.0, 12)
+        self.assertEqual((lanes[2].start_heading, lanes[2].end_heading), ((-1.0, 0.0), (-1.0, 0.0)), "tail first")
+
     def test_an_exception_ends_its_participant_only(self) -> None:
         engine = self.serving("wrong", move="suspended")
         failed = [["sometimes", "before"], ["fail", False, "ValueError: no map of this floor"]]
@@ -255,6 +283,24 @@ class Package(unittest.TestCase):
         self.assertEqual(engine.event("action_done", 12.0, result="ok")[0][0], "send_broadcast")
         self.assertEqual(engine.bye(), {"bye": {}})
         self.assertEqual(engine.end(), (0, ""))
+
+    def test_the_examples_are_short_and_load_no_foreign_code(self) -> None:
+        """What Python itself maps is in its own folder, or in the folders of the system's libraries."""
+        own = (os.path.realpath(sys.base_prefix), os.path.realpath(sys.prefix), "/lib", "/usr/lib")
+        for name in ("carrier.py", "lane_lock.py", "depot.py", "follower.py"):
+            with self.subTest(name):
+                file = os.path.join(EXAMPLES, name)
+                engine = self.started(file, random={"answer": "ok", "value": "0" * 16})
+                engine.introduce()
+                engine.run()
+                engine.event("start", self_id=0)
+                with open(f"/proc/{engine.process.pid}/maps", encoding="utf-8") as maps:
+                    mapped = {line.split()[5] for line in maps if ".so" in line}
+                self.assertTrue(mapped)
+                for path in mapped:
+                    self.assertTrue(os.path.realpath(path).startswith(own) and "fleetproof" not in path, path)
+                with open(file, encoding="utf-8") as source:
+                    self.assertLess(len(source.read().splitlines()), 400)
 
     def test_who_grants_although_he_asks_asks_anew(self) -> None:
         def conflict(asked: List[Any]) -> Any:
