@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -24,9 +25,9 @@
 namespace fleetproof {
 namespace {
 
-constexpr int kInspectionPatience_ms = 60'000;  // of waiting without using CPU time
-constexpr std::size_t kSaidKept = 8192;         // bytes of standard error
-constexpr int kKillsOfInspection = 3;           // more, and the object is the reason
+constexpr std::chrono::seconds kInspectionPatience{60};  // CPU time is limited apart
+constexpr std::size_t kSaidKept = 8192;                  // bytes of standard error
+constexpr int kKillsOfInspection = 3;                    // more, and the object is the reason
 
 // The fields of a program, each with a null byte behind it. The first byte tells whether they are there or an error is.
 std::string text_of(const AgentProgram& program) {
@@ -88,12 +89,15 @@ bool read_some(int fd, std::string& text) {
   return count > 0 || (count < 0 && errno == EINTR);
 }
 
-// Until the answer is complete. A process that the program has started may keep its standard error open.
+// Until the answer is complete. What comes on standard error does not prolong the patience, and a process that the
+// program has started may keep that open.
 Inspection read_until_end(int answer, int said) {
   Inspection inspection;
   std::array<pollfd, 2> ready{{{answer, POLLIN, 0}, {said, POLLIN, 0}}};
+  const auto end = std::chrono::steady_clock::now() + kInspectionPatience;
   for (;;) {
-    const int events = ::poll(ready.data(), ready.size(), kInspectionPatience_ms);
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+    const int events = left.count() > 0 ? ::poll(ready.data(), ready.size(), static_cast<int>(left.count())) : 0;
     if (events < 0 && errno == EINTR) continue;
     inspection.came_back = events != 0;
     if (events <= 0) break;
