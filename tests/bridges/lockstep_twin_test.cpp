@@ -137,6 +137,24 @@ TEST(Lockstep, HasTheTraceOfItsTwinInsideEachFault) {
   }
 }
 
+// Lines do not grow with what a program leaves unread.
+TEST(Lockstep, TellsEachMessageOnce) {
+  const lockstep::LockstepProgram program(test::python("reader.py"));
+  const auto lines = test::logged(test::run_of(program, test::row_of_tens({0, 3}, 20.0)));
+  for (const std::string agv : {"0", "1"}) {
+    std::vector<std::string> told, read;
+    for (const std::string& line : lines) {
+      if (line.starts_with(agv + " told ")) told.push_back(line.substr(7));
+      if (line.starts_with(agv + " read ")) read.push_back(line.substr(7));
+    }
+    ASSERT_GT(read.size(), 4U);
+    ASSERT_GT(told.size(), 2 * read.size());
+    for (std::size_t i = 0; i < told.size(); ++i) EXPECT_EQ(told[i], std::to_string(i + 1));
+    told.resize(read.size());
+    EXPECT_EQ(read, told) << "oldest first";
+  }
+}
+
 // Every kind of line of a run in which no order is withdrawn, no named fault strikes and no call is refused.
 TEST(Lockstep, SpeaksAsItsSchemaSays) {
   const std::string file = testing::TempDir() + "overheard." + std::to_string(::getpid());

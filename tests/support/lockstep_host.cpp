@@ -81,13 +81,14 @@ void say(const Json& what) { std::cout << what << std::endl; }
 struct Activation {
   Json told;                   // the event
   Json calls = Json::array();  // that were made since the last question
-  std::size_t messages_read = 0;
+  std::deque<Json> unread;     // messages
   bool has_acted = false;
-  std::string bytes;  // of the last message or record
+  std::string bytes;               // of the last message or record
+  std::map<Json, Json> conflicts;  // the answers
 
   void begin(const Json& event) {
     told = event;
-    messages_read = 0;
+    for (Json& message : told.at("messages")) unread.push_back(std::move(message));
     has_acted = false;
   }
   void call(Json made) { calls.push_back(std::move(made)); }
@@ -138,11 +139,10 @@ std::int32_t get_action(fp_controller* c, std::uint32_t* out) {
 
 std::int32_t get_message(fp_controller* c, fp_message* out) {
   of(c).call({"get_message"});
-  const Json& messages = of(c).told.at("messages");
-  if (of(c).messages_read == messages.size()) return FP_EMPTY;
-  const Json& message = messages.at(of(c).messages_read++);
-  of(c).bytes = bytes_of(message.at("bytes"));
-  out->sender = message.at("sender");
+  if (of(c).unread.empty()) return FP_EMPTY;
+  of(c).bytes = bytes_of(of(c).unread.front().at("bytes"));
+  out->sender = of(c).unread.front().at("sender");
+  of(c).unread.pop_front();
   out->size = static_cast<std::uint32_t>(of(c).bytes.size());
   out->bytes = of(c).bytes.data();
   return FP_OK;
@@ -168,9 +168,11 @@ Json occupancy(const fp_occupancy& of) {
 
 std::int32_t conflict(fp_controller* c, const fp_occupancy* a, const fp_occupancy* b, double margin_m,
                       std::uint32_t* out) {
-  const Json answer = of(c).ask({"conflict", occupancy(*a), occupancy(*b), margin_m});
-  const std::int32_t result = result_in(answer);
-  if (result == FP_OK) *out = answer.at("conflict").get<bool>() ? 1 : 0;
+  const Json question{"conflict", occupancy(*a), occupancy(*b), margin_m};
+  const auto [known, is_new] = of(c).conflicts.try_emplace(question);  // the answer never changes
+  if (is_new) known->second = of(c).ask(question);
+  const std::int32_t result = result_in(known->second);
+  if (result == FP_OK) *out = known->second["conflict"].get<bool>() ? 1 : 0;
   return result;
 }
 

@@ -99,20 +99,21 @@ void HostedProcess::begin_run(const fp_briefing& briefing) {
   });
 }
 
-void HostedProcess::tell(const Participant& participant, const fp_event& event) {
+void HostedProcess::tell(Participant& participant, const fp_event& event) {
   guarded([&] { exchange(participant, event); });
   if (!trouble_.empty()) participant.controller.host->fail(participant.controller.handle, 0, trouble_.c_str());
 }
 
 // What was refused unasked comes back as an event of the same activation.
-void HostedProcess::exchange(const Participant& participant, const fp_event& event) {
+void HostedProcess::exchange(Participant& participant, const fp_event& event) {
   std::vector<RefusedCall> refused;
   do {
     fp_perceived seen{};
     seen.struct_size = sizeof seen;
     const auto& [host, handle] = participant.controller;
     if (host->perceive(handle, &seen) != FP_OK) return;  // it has failed, or has made too many calls
-    write_event(*participant.briefing, event, seen, std::exchange(refused, {}), line_);
+    const std::uint32_t told_before = std::exchange(participant.unread, seen.message_count);
+    write_event(*participant.briefing, event, seen, told_before, std::exchange(refused, {}), line_);
     process_->send(line_);
     while (!take_answer(participant, refused)) {
     }
@@ -120,7 +121,7 @@ void HostedProcess::exchange(const Participant& participant, const fp_event& eve
 }
 
 // True: the program is done with this event.
-bool HostedProcess::take_answer(const Participant& participant, std::vector<RefusedCall>& refused) {
+bool HostedProcess::take_answer(Participant& participant, std::vector<RefusedCall>& refused) {
   const std::string_view line = process_->receive();
   const Json json = parsed(line);
   const auto calls = json.find("calls"), ask = json.find("ask");
@@ -128,7 +129,7 @@ bool HostedProcess::take_answer(const Participant& participant, std::vector<Refu
   try {
     if (calls != json.end()) make_calls(participant, *calls, refused);
     if (ask == json.end()) return true;
-    make_call(participant.controller, *ask, line_);
+    make_call_of(participant, *ask);
   } catch (const Broken& broken) {
     throw Broken(broken.what() + (line.size() > 200 ? std::string() : " in the line " + cited(line)));
   }
@@ -137,13 +138,22 @@ bool HostedProcess::take_answer(const Participant& participant, std::vector<Refu
 }
 
 // A participant that is suspended is not told: its program need not learn of it.
-void HostedProcess::make_calls(const Participant& participant, const Json& calls, std::vector<RefusedCall>& refused) {
+void HostedProcess::make_calls(Participant& participant, const Json& calls, std::vector<RefusedCall>& refused) {
   if (!calls.is_array()) throw Broken("has calls that are no list");
   for (std::size_t place = 0; place < calls.size(); ++place) {
-    const auto [result, is_look] = make_call(participant.controller, calls[place], line_);
+    const auto [result, is_look] = make_call_of(participant, calls[place]);
     if (!is_look && (result == FP_REFUSED || result == FP_INVALID))
       refused.push_back({place, name_of_call(calls[place]), result});
   }
+}
+
+// Its answer is the line.
+CallResult HostedProcess::make_call_of(Participant& participant, const Json& call) {
+  const CallResult result = make_call(participant.controller, call, line_);
+  const std::string name = name_of_call(call);
+  if (name == "get_message" && result.result == FP_OK) --participant.unread;
+  if (name == "get_messages") participant.unread = 0;
+  return result;
 }
 
 void HostedProcess::tell_end_of(std::uint32_t participant) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ struct Introduction {
 struct Participant {
   Controller controller;
   const fp_briefing* briefing = nullptr;
+  std::uint32_t unread = 0;  // messages of which the program was told, and which it has not read
 };
 
 // A process that speaks lockstep. If it breaks the protocol, it is ended, and all that it hosts fails in the same words
@@ -42,7 +44,7 @@ class HostedProcess {
   // The first participant of a run tells what is the same for all.
   void begin_run(const fp_briefing& briefing);
   // One activation: the program gets the event and answers until it is done.
-  void tell(const Participant& participant, const fp_event& event);
+  void tell(Participant& participant, const fp_event& event);
   void tell_end_of(std::uint32_t participant);
   // Whether it may serve another run.
   bool end_run();
@@ -50,9 +52,10 @@ class HostedProcess {
  private:
   template <class Exchange>
   void guarded(Exchange exchange);
-  void exchange(const Participant& participant, const fp_event& event);
-  bool take_answer(const Participant& participant, std::vector<RefusedCall>& refused);
-  void make_calls(const Participant& participant, const Json& calls, std::vector<RefusedCall>& refused);
+  void exchange(Participant& participant, const fp_event& event);
+  bool take_answer(Participant& participant, std::vector<RefusedCall>& refused);
+  void make_calls(Participant& participant, const Json& calls, std::vector<RefusedCall>& refused);
+  CallResult make_call_of(Participant& participant, const Json& call);
 
   std::unique_ptr<Process> process_;
   Introduction introduction_;

@@ -127,7 +127,7 @@ LockstepProgram::LockstepProgram(std::string_view command) : state_(std::make_un
   state.type.name = state.introduction.name.c_str();
   state.type.description = state.introduction.description.c_str();
   state.type.on_event = [](void* own, const fp_event* event) {
-    const auto& agent = *static_cast<State::Agent*>(own);
+    auto& agent = *static_cast<State::Agent*>(own);
     agent.process->tell(agent, *event);
   };
   state.type.destroy = [](void* own) {

@@ -225,7 +225,7 @@ void write_run(const fp_briefing& briefing, std::string& line) {
 }
 
 void write_event(const fp_briefing& briefing, const fp_event& event, const fp_perceived& seen,
-                 const std::vector<RefusedCall>& refused, std::string& line) {
+                 std::uint32_t told_before, const std::vector<RefusedCall>& refused, std::string& line) {
   LineWriter out(line);
   out.open('{');
   out.member("event", refused.empty() ? word_in(kEventWords, event.kind) : "refused");
@@ -244,7 +244,7 @@ void write_event(const fp_briefing& briefing, const fp_event& event, const fp_pe
   }
   out.key("messages");
   out.open('[');
-  for (std::uint32_t i = 0; i < seen.message_count; ++i) {
+  for (std::uint32_t i = told_before; i < seen.message_count; ++i) {
     const auto& message = row_of(seen.messages, seen.message_stride, i);
     out.open('{');
     out.member("sender", message.sender);

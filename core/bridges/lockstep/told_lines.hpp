@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,10 @@ struct RefusedCall {
 // Lines to a program. Each takes the place of what `line` holds.
 void write_hello(std::string& line);
 void write_run(const fp_briefing& briefing, std::string& line);
-// An event, with all that it carries. `refused` is not empty: the event is those.
+// An event, with all that it carries. The program knows the first `told_before` unread messages. `refused` is not
+// empty: the event is those.
 void write_event(const fp_briefing& briefing, const fp_event& event, const fp_perceived& seen,
-                 const std::vector<RefusedCall>& refused, std::string& line);
+                 std::uint32_t told_before, const std::vector<RefusedCall>& refused, std::string& line);
 void write_destroy(std::uint32_t participant, std::string& line);
 void write_bye(std::string& line);
 

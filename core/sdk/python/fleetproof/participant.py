@@ -7,7 +7,8 @@ same, so that it counts and costs simulated time as it does for software in C.
 from __future__ import annotations
 
 import enum
-from typing import Any, Dict, List, Optional, Protocol, Tuple
+from collections import deque
+from typing import Any, Deque, Dict, List, Optional, Protocol, Tuple
 
 from .world import MESSAGE_BYTES_MAX, Briefing, Message, Occupancy, Pose, World
 
@@ -58,7 +59,7 @@ class Participant:
         self.now_ns = 0
         """What the participant's own clock shows, in nanoseconds. It stands still during an activation."""
         self._told: Dict[str, Any] = {}
-        self._unread: List[Dict[str, Any]] = []
+        self._unread: Deque[Dict[str, Any]] = deque()
         self._is_over = False
         self._conflicts: Dict[Tuple[Occupancy, Occupancy, float], bool] = {}
 
@@ -86,7 +87,7 @@ class Participant:
         self._call("get_message")
         if not self._unread:
             return None
-        first = self._unread.pop(0)
+        first = self._unread.popleft()
         return Message(first["sender"], first["bytes"].encode("latin-1"))
 
     def describe(self, kind: str) -> None:
@@ -158,7 +159,7 @@ class Participant:
 
     def _begin_activation(self, told: Dict[str, Any]) -> None:
         self._told = told
-        self._unread = list(told["messages"])
+        self._unread.extend(told["messages"])
         self.now_ns = told["now_ns"]
 
     def _call(self, *call: Any) -> None:
