@@ -104,9 +104,11 @@ void warn_of_failures(const Pilot& pilot, const CampaignPlan& plan, const std::s
     const auto is_of_agent = [&](const PilotFailure& failure) { return cells[failure.cell].agent == agent.name; };
     const auto first = std::ranges::find_if(pilot.failures, is_of_agent);
     if (first == pilot.failures.end()) continue;
+    std::uint64_t runs = 0;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+      runs += cells[cell].agent == agent.name ? pilot.cells[cell].runs : 0;
     talk("warning: {}: {} crashed or hung in {} of {}: {}\n", path, in_quotes(agent.name),
-         std::ranges::count_if(pilot.failures, is_of_agent), count_text(pilot.runs, "trial run"),
-         printable(first->message));
+         std::ranges::count_if(pilot.failures, is_of_agent), count_text(runs, "trial run"), printable(first->message));
   }
 }
 

@@ -25,9 +25,9 @@
 namespace fleetproof {
 namespace {
 
-constexpr std::chrono::seconds kInspectionPatience{60};  // CPU time is limited apart
-constexpr std::size_t kSaidKept = 8192;                  // bytes of standard error
-constexpr int kKillsOfInspection = 3;                    // more, and the object is the reason
+constexpr std::chrono::seconds kInspectionPatience{60};      // CPU time is limited apart
+constexpr std::size_t kSaidKept = 8192, kMostSaid = 65'536;  // bytes of standard error
+constexpr int kKillsOfInspection = 3;                        // more, and the object is the reason
 
 // The fields of a program, each with a null byte behind it. The first byte tells whether they are there or an error is.
 std::string text_of(const AgentProgram& program) {
@@ -37,6 +37,10 @@ std::string text_of(const AgentProgram& program) {
         std::to_string(static_cast<int>(program.source.kind))})
     text.append(field).push_back('\0');
   return text;
+}
+
+void close_both(const std::array<int, 2>& ends) {
+  for (const int end : ends) ::close(end);
 }
 
 void write_all(int fd, std::string_view bytes) {
@@ -102,18 +106,28 @@ Inspection read_until_end(int answer, int said) {
     inspection.came_back = events != 0;
     if (events <= 0) break;
     if (ready[1].revents != 0 && !read_some(said, inspection.said)) ready[1].fd = -1;  // poll leaves it out
-    if (inspection.said.size() > 2 * kSaidKept) inspection.said.erase(0, inspection.said.size() - kSaidKept);
+    if (inspection.said.size() > kMostSaid) inspection.said.erase(0, inspection.said.size() - kSaidKept);
     if (ready[0].revents != 0 && !read_some(answer, inspection.text)) break;
+  }
+  while (inspection.said.size() < kMostSaid && read_some(said, inspection.said)) {
   }
   return inspection;
 }
 
-// The last line that it wrote to its standard error: of most languages, the reason why it ended.
+// The last line of its standard error that speaks of an error, and begins at the margin: frames of a stack do not.
+// Otherwise the last line.
 std::string last_words(std::string_view said) {
-  const auto end = said.find_last_not_of(" \t\r\n");
-  if (end == std::string_view::npos) return {};
-  said = said.substr(0, end + 1);
-  return printable(said.substr(said.find_last_of('\n') + 1), 200);
+  std::string_view last;
+  for (bool found = false; !found && !said.empty();) {
+    const std::size_t begin = said.find_last_of('\n') + 1;  // npos is one before 0
+    const std::string_view line = said.substr(begin);
+    said = said.substr(0, begin == 0 ? 0 : begin - 1);
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    const auto speaks_of = [line](std::string_view word) { return line.find(word) != std::string_view::npos; };
+    found = line[0] != ' ' && line[0] != '\t' && (speaks_of("rror") || speaks_of("xception") || speaks_of("panic"));
+    if (found || last.empty()) last = line;
+  }
+  return printable(last.substr(0, last.find_last_not_of(" \t\r") + 1), 200);
 }
 
 std::string end_of(const Inspection& inspection, bool is_lockstep) {
@@ -149,9 +163,12 @@ AgentProgram program_of(std::string_view fields) {
 Inspection inspect_once(const std::string& path, bool global_symbols, const LimitSetup& limits) {
   std::array<int, 2> answer{}, said{};
   for (auto* ends : {&answer, &said}) {
-    if (::pipe2(ends->data(), O_CLOEXEC) != 0)
-      throw MachineError(fmt::format("no pipe can be made: {}", std::strerror(errno)));
+    if (::pipe2(ends->data(), O_CLOEXEC) == 0) continue;
+    const std::string why = std::strerror(errno);
+    if (ends == &said) close_both(answer);
+    throw MachineError("no pipe can be made: " + why);
   }
+  ::fcntl(said[0], F_SETFL, O_NONBLOCK);
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(answer[0]);
@@ -184,7 +201,7 @@ AgentProgram inspect_agent(const std::string& path, bool global_symbols, const L
   const std::string_view text = inspection.text;
   if (text.starts_with('y')) {
     AgentProgram program = program_of(text.substr(1));
-    program.source.global_symbols = global_symbols;
+    program.source.global_symbols = global_symbols && program.source.kind == ProgramKind::Plugin;
     return program;
   }
   const bool is_lockstep = path.starts_with(kLockstepWord);

@@ -1,4 +1,4 @@
-"""Says a number each second, logs what it is told, and reads one message in three seconds."""
+"""Says a number each second, logs what it is told, and reads one message in three seconds; `all`: all of them."""
 import json
 import sys
 
@@ -14,7 +14,11 @@ def activation(told, ticks):
     if told["event"] in ("start", "timer"):
         ticks[me] = ticks.get(me, 0) + 1
         calls += [["set_timer", 1, now_ns + 1000000000], ["send_broadcast", str(ticks[me])]]
-        if ticks[me] % 3 == 0:
+        if ticks[me] % 3 == 0 and sys.argv[1:] == ["all"]:
+            calls += [["get_messages"]]
+        elif ticks[me] % 6 == 0:
+            calls += [["get_message"], ["log", "%d read unasked" % me]]
+        elif ticks[me] % 3 == 0:
             say({"calls": calls, "ask": ["get_message"]})
             answer = json.loads(sys.stdin.readline())
             calls = [["log", "%d read %s" % (me, answer.get("bytes"))]]
