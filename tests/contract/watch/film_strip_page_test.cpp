@@ -94,7 +94,8 @@ TEST_F(FilmStripPage, APlugInThatIsAtHandIsFilmed) {
     EXPECT_THAT(strip, HasSubstr("plugin.so"));
   }
   std::filesystem::remove(path("c.sessions.jsonl"));
-  for (const std::string& strip : strips("c.db")) EXPECT_THAT(strip, HasSubstr("is not built in, and no session log beside c.db"));
+  for (const std::string& strip : strips("c.db"))
+    EXPECT_THAT(strip, HasSubstr("is not built in, and no session log beside c.db"));
 }
 
 TEST_F(FilmStripPage, APlugInThatOnlyStallsHasNoRecordingAndTheNoteSaysSo) {
