@@ -78,8 +78,8 @@ struct RememberedSeal {
 RememberedSeal remembered_seal(const std::string& archive_path);
 // How many runs lost a worker that another program may have killed, and then passed in a second worker. All sessions.
 std::uint64_t remembered_disturbed(const std::string& archive_path);
-// The agents whose runs depend on earlier runs of the same process: at least two runs were looked at, and all showed
-// it. Counts all sessions with the software of the last one.
+// The agents that do otherwise after earlier runs of the same process. It takes at least two runs that were looked at,
+// and each of them has to show it. Counts all sessions with the software of the last one.
 std::set<std::string> remembered_dependent_agents(const std::string& archive_path);
 
 }  // namespace fleetproof

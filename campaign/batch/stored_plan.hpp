@@ -16,9 +16,9 @@ StoredPlan stored_plan(const CampaignPlan& plan, const AgentPrograms& programs);
 // The first part of it.
 CampaignRecord campaign_record(const CampaignPlan& plan, const AgentPrograms& programs);
 
-// The agents of the plan of which a part is not built in.
+// The agents of the plan that are not built in, or not with all their parts.
 std::vector<std::string> plugin_agents(const CampaignPlan& plan, const AgentPrograms& programs);
-// Of these, the ones of which a part is a shared object: it runs in a process of this program.
+// Those that have a shared object among their parts: it runs in a process of this program, so a debugger can follow it.
 std::vector<std::string> object_agents(const CampaignPlan& plan, const AgentPrograms& programs);
 
 }  // namespace fleetproof
