@@ -217,6 +217,7 @@ void FleetPlanner::look_at_battery(std::uint32_t agv) {
   const bool loaded = task.carries_load(), urgent = settings_.is_urgent(level, loaded);
   if (loaded && !urgent) return;
   const auto is_taken = [&](std::uint32_t station) {
+    if (!options_.ways_to_chargers_are_whole) return false;
     return std::ranges::any_of(book_.agvs(), [&](std::uint32_t other) {
       const bool goes_there = tasks_[other].goes_to_charger() && tasks_[other].goals.front().station == station;
       return other != agv && (goes_there || geometry_.turn_conflict(agv, station, other, book_.end_of_way(other)));

@@ -20,7 +20,7 @@ struct ServerOptions {
   std::int64_t writes_every_ns = 0;         // what was granted, to the disk; 0: before each grant is sent
   bool repeats_grants = true;               // until the AGV is known to have them
   bool cancels_name_an_order = true;        // false: they end what the AGV is to do when it answers
-  bool ways_to_chargers_are_whole = true;   // an AGV on its way to a charger never waits in between
+  bool ways_to_chargers_are_whole = true;   // they lead to a charger that is free, without waiting in between
 };
 
 struct FollowerOptions {

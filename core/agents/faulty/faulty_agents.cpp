@@ -154,7 +154,7 @@ constinit const FaultyAgent kTable[] = {
     // FAULT: a GRANT is never sent again.
     server_with<ServerOptions{.repeats_grants = false}>("grants-once",
                                                         "zone-server with a fault: never repeats a grant"),
-    // FAULT: the way to a charger is granted lane by lane, with no right to the charger at its end.
+    // FAULT: the way to a charger is granted lane by lane, though another AGV has the charger at its end.
     server_with<ServerOptions{.ways_to_chargers_are_whole = false}>(
         "charger-comes-later", "zone-server with a fault: grants the way to a charger without the charger"),
 
