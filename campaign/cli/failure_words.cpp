@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/base/shown_time.hpp"
 
 namespace fleetproof::cli {
 namespace {
@@ -34,8 +35,6 @@ EndPoint end_point_of(const std::string& word) {
 // How near two bodies came, the mildest first. A run with one of them has those before it, too: each contact is also a
 // violation.
 constexpr std::array kLevels = {EndPoint::Violation, EndPoint::Contact, EndPoint::HazardousContact};
-
-double shown_s(SimTime t) { return to_seconds(t - kStart); }
 
 // A contact is none the less for being over.
 bool has_passed(const RunFailure& failure) {
@@ -74,7 +73,8 @@ std::string told(const RunFailure& failure) {
   std::string bodies;
   if (failure.a.valid()) bodies = fmt::format("body {}", failure.a.value);
   if (failure.b.valid()) bodies = fmt::format("bodies {} and {}", failure.a.value, failure.b.value);
-  return fmt::format("{} at {:.2f} s{}", failure.what, shown_s(failure.at), bodies.empty() ? "" : " (" + bodies + ")");
+  return fmt::format("{} at {:.3f} s{}", failure.what, shown_seconds(failure.at),
+                     bodies.empty() ? "" : " (" + bodies + ")");
 }
 
 std::string others_line(const Outcome& outcome, const RunFailure& told, OptionNamed option) {
@@ -91,7 +91,7 @@ std::string others_line(const Outcome& outcome, const RunFailure& told, OptionNa
       ++more;
       continue;
     }
-    std::string part = fmt::format("{} from {:.2f} s", failure.what, shown_s(failure.at));
+    std::string part = fmt::format("{} from {:.3f} s", failure.what, shown_seconds(failure.at));
     if (has_passed(failure)) part += ", over before the end";
     if (!failure.is_judged) part += ", not judged";
     if (failure.end_point && option == OptionNamed::Yes && reached.insert(*failure.end_point).second)

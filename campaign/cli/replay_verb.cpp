@@ -19,6 +19,7 @@
 #include "core/base/error.hpp"
 #include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/outcome/run_failures.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "reports/page/wording.hpp"
 #include "storage/beside.hpp"
@@ -142,7 +143,7 @@ void print_text(const ReplayResult& result, const CellRecord& cell, const Scenar
   put_text(outcome_text(scenario, result.recomputed.outcome));
   const bool other_outcome =
       result.verdict == ReplayVerdict::SoftwareDiffers || result.verdict == ReplayVerdict::NotDeterministic;
-  if (other_outcome) put("  stored outcome: {}\n", name_of(result.stored.outcome.outcome_class()));
+  if (other_outcome) put("  stored outcome: {}\n", end_of_run(result.stored.outcome));
 }
 
 // What a replay page says of a run of a campaign.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/shown_time.hpp"
+
 namespace fleetproof {
 
 bool avoids(const CaseRun& run, const FailingCase& failing, const FailurePattern& pattern) {
@@ -26,7 +28,7 @@ std::string message_text(const Scenario& scenario, const MessageDelivery& messag
   const GivenDelivery& delivery = message.delivery;
   return fmt::format("message {} ({}{} to {}, {:.3f} s)", message.number,
                      message.kind.empty() ? "" : words_of(message) + ", ", name_of_body(scenario, delivery.sender),
-                     name_of_body(scenario, delivery.receiver), to_seconds(delivery.sent));
+                     name_of_body(scenario, delivery.receiver), shown_seconds(delivery.sent));
 }
 
 }  // namespace fleetproof

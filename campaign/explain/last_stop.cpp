@@ -4,6 +4,7 @@
 
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/trials.hpp"
+#include "core/base/shown_time.hpp"
 
 namespace fleetproof {
 namespace {
@@ -24,7 +25,7 @@ Scenario stopped_at(const Scenario& scenario, EntityId agv, SimTime at) {
 Claim stop_claim(CaseHost& host, const FailingCase& failing, EntityId agv, SimTime at) {
   Scenario stopped = stopped_at(failing.scenario, agv, at);
   ExpectedOutcome outcome = expectation_of(host(stopped));
-  return {fmt::format("{} brakes at {:.1f} s", name_of_body(failing.scenario, agv), to_seconds(at - kStart)),
+  return {fmt::format("{} brakes at {:.3f} s", name_of_body(failing.scenario, agv), shown_seconds(at)),
           std::move(stopped), std::move(outcome)};
 }
 

@@ -13,6 +13,7 @@
 #include "campaign/shrink/fitness.hpp"
 #include "campaign/shrink/shrink.hpp"
 #include "campaign/shrink/surgery.hpp"
+#include "core/base/shown_time.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 #include "core/scenario/order_table.hpp"
 
@@ -80,7 +81,7 @@ MessageNeed need_of(CaseHost& host, const FailingCase& failing, const FailurePat
   for (const Duration late : {need.latest->in_time, need.latest->too_late}) {
     Scenario later = with_delivery(failing.scenario, arriving_after(delivery, late));
     ExpectedOutcome outcome = expectation_of(host(later));
-    need.claims.push_back({fmt::format("it arrived at {:.3f} s", to_seconds(delivery.sent + late)), std::move(later),
+    need.claims.push_back({fmt::format("it arrived at {:.3f} s", shown_seconds(delivery.sent + late)), std::move(later),
                            std::move(outcome)});
   }
   return need;
@@ -191,8 +192,8 @@ std::vector<Without> things_of(const Scenario& scenario) {
   }
   for (std::size_t i = 0; i < scenario.faults.size(); ++i) {
     const Fault& fault = scenario.faults[i];
-    things.push_back({fmt::format("the {} of {} at {:.2f} s", text_of(fault), name_of_body(scenario, fault.agv),
-                                  to_seconds(fault.at)),
+    things.push_back({fmt::format("the {} of {} at {:.3f} s", text_of(fault), name_of_body(scenario, fault.agv),
+                                  shown_seconds(fault.at)),
                       [=](const Scenario& s) {
                         Scenario less = s;
                         less.faults = kept(s.faults, but(i));

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/shown_time.hpp"
+
 namespace fleetproof {
 namespace {
 
 constexpr std::size_t kEnoughFailing = 12;
 constexpr Duration kNotable = std::chrono::milliseconds(10);  // so late a message is worth a word
-
-double seconds_of(SimTime t) { return to_seconds(t - kStart); }
 
 class Words {
  public:
@@ -62,7 +62,7 @@ class Words {
     if (failure.a.valid()) who = " of " + name_of_body(scenario_, failure.a);
     if (failure.b.valid()) who += " and " + name_of_body(scenario_, failure.b);
     say("The {} fails at {:.3f} s: {}{}.", of_.is_smallest ? "smallest case" : "case found so far",
-        seconds_of(failure.at), failure.kind.what, who);
+        shown_seconds(failure.at), failure.kind.what, who);
     std::vector<std::string> doings;
     for (std::size_t i = 0; i < std::min(involved().size(), of_.doing.size()); ++i)
       doings.push_back(fmt::format("{} {}", name_of_body(scenario_, involved()[i]), past_of(of_.doing[i])));
@@ -88,7 +88,7 @@ class Words {
     if (!need.latest)
       return say("It needs {} of {}: had it arrived at once, no failure {}.", trouble, name, runs(count));
     say("It needs {} of {}. Had it arrived by {:.3f} s, no failure; at {:.3f} s, it fails {}.", trouble, name,
-        to_seconds(delivery.sent + need.latest->in_time), to_seconds(delivery.sent + need.latest->too_late),
+        shown_seconds(delivery.sent + need.latest->in_time), shown_seconds(delivery.sent + need.latest->too_late),
         runs(count));
   }
 
@@ -106,10 +106,10 @@ class Words {
     if (!stop.at)
       return say("No brake of {} in the last 30 s avoids it, not even the first {}.", stop.agv, runs(count));
     if (count == 1)
-      return say("{} avoids it by braking at {:.1f} s, 0.1 s before it {}.", stop.agv, seconds_of(*stop.at),
+      return say("{} avoids it by braking at {:.3f} s, 0.1 s before it {}.", stop.agv, shown_seconds(*stop.at),
                  runs(count));
-    say("{} avoids it by braking at {:.1f} s at the latest; 0.1 s later is too late {}.", stop.agv,
-        seconds_of(*stop.at), runs(count));
+    say("{} avoids it by braking at {:.3f} s at the latest; 0.1 s later is too late {}.", stop.agv,
+        shown_seconds(*stop.at), runs(count));
   }
 
   void set_off(const SetOff& is) {
@@ -118,7 +118,7 @@ class Words {
     const std::string what = is.is_turn()
                                  ? "began to turn at " + station(is.drive.from)
                                  : fmt::format("set off from {} for {}", station(is.drive.from), station(is.drive.to));
-    say("{} {} at {:.3f} s, {:.2f} s before.", name, what, seconds_of(is.drive.at),
+    say("{} {} at {:.3f} s, {:.2f} s before.", name, what, shown_seconds(is.drive.at),
         to_seconds(of_.small.failure.at - is.drive.at));
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
       const bool is_silent = std::ranges::count(is.leaves, EntityId{i}, &Leave::from) == 0;
@@ -134,7 +134,7 @@ class Words {
     const auto& map = *scenario_.map;
     const Duration at = drive.at - kStart;
     say("{} had last set off from {} for {}, at {:.3f} s.", name_of_body(scenario_, drive.agv),
-        map.station(drive.from).name, map.station(drive.to).name, seconds_of(drive.at));
+        map.station(drive.from).name, map.station(drive.to).name, shown_seconds(drive.at));
     faults_between(drive.agv, at, of_.small.failure.at - kStart, "after that");
   }
 
@@ -173,7 +173,7 @@ class Words {
     if (!key.sender_drive || std::ranges::count(involved(), delivery.sender) == 0) return;
     const auto& map = *scenario_.map;
     say("{} had last set off from {} for {} then, at {:.3f} s{}.", from, map.station(key.sender_drive->from).name,
-        map.station(key.sender_drive->to).name, seconds_of(key.sender_drive->at),
+        map.station(key.sender_drive->to).name, shown_seconds(key.sender_drive->at),
         key.is_last_drive ? "; it was on that drive, or behind it, when it failed" : "");
     faults_between(delivery.sender, key.sender_drive->at - kStart, delivery.sent, "between that and the message");
   }
@@ -183,10 +183,10 @@ class Words {
     std::string since;
     if (again > 0)
       since = fmt::format("; {} sent {} more of that kind before that drive or turn, at last message {} ({}, {:.3f} s)",
-                          name, again, last->number, words_of(*last), to_seconds(last->delivery.sent));
+                          name, again, last->number, words_of(*last), shown_seconds(last->delivery.sent));
     say("When {} sent it, the last {}to reach it of {} was message {} ({}, {:.3f} s){}.", from,
         message.kind.empty() ? "" : message.kind + " ", name, message.number, words_of(message),
-        to_seconds(message.delivery.sent), since);
+        shown_seconds(message.delivery.sent), since);
     faults_between(is.agv, message.delivery.sent, is.drive.at - kStart, "after it had sent that");
   }
 
@@ -204,7 +204,7 @@ class Words {
   void faults_between(EntityId agv, Duration from, Duration to, std::string_view when) {
     for (const Fault& fault : scenario_.faults) {
       if (fault.agv == agv && !fault.transport && from <= fault.at && fault.at <= to)
-        say("The {} of {} at {:.2f} s was {}.", text_of(fault), name_of_body(scenario_, agv), to_seconds(fault.at),
+        say("The {} of {} at {:.3f} s was {}.", text_of(fault), name_of_body(scenario_, agv), shown_seconds(fault.at),
             when);
     }
   }
@@ -216,9 +216,9 @@ class Words {
       if (declared.agv != agv) continue;
       if (!of_.undisturbed_words.empty() && !std::ranges::binary_search(of_.undisturbed_words, declared.word)) {
         say("{} said \"{}\" at {:.3f} s; on a perfect radio, nobody says it.", name, declared.word,
-            seconds_of(declared.at));
+            shown_seconds(declared.at));
       } else if (!avoiding_.empty() && !said_when_avoided_.contains(declared.word)) {
-        say("{} said \"{}\" at {:.3f} s; nobody says it in [{}].", name, declared.word, seconds_of(declared.at),
+        say("{} said \"{}\" at {:.3f} s; nobody says it in [{}].", name, declared.word, shown_seconds(declared.at),
             fmt::join(avoiding_, ", "));
       }
     }
@@ -236,13 +236,13 @@ class Words {
     } else {
       say("The last that {} had heard of {} was message {}{}, sent at {:.3f} s: {:.2f} s old at the failure.", name,
           from, last->number, last->kind.empty() ? "" : " (" + words_of(last->kind, last->content) + ")",
-          seconds_of(last->sent), to_seconds(of_.small.failure.at - last->sent));
+          shown_seconds(last->sent), to_seconds(of_.small.failure.at - last->sent));
     }
     const auto belief =
         std::ranges::find_if(of_.notes.believed, [&](const Believed& b) { return b.by == agv && b.about == other; });
     if (belief == of_.notes.believed.end()) return;
-    say("It believed {} at ({:.2f}, {:.2f}), as of {:.2f} s by its clock.", from, 1e-3 * belief->where.x_mm,
-        1e-3 * belief->where.y_mm, seconds_of(belief->as_of));
+    say("It believed {} at ({:.2f}, {:.2f}), as of {:.3f} s by its clock.", from, 1e-3 * belief->where.x_mm,
+        1e-3 * belief->where.y_mm, shown_seconds(belief->as_of));
   }
 
   void shares() {
@@ -268,18 +268,18 @@ class Words {
     const SimTime at = of_.original.failure.at;
     if (curve.certain_from == curve.curve.front().at)
       return say(
-          "The run itself fails at {:.3f} s. That is certain from {:.2f} s on, the first instant looked at: all {} "
+          "The run itself fails at {:.3f} s. That is certain from {:.3f} s on, the first instant looked at: all {} "
           "branches with a new radio fail so.",
-          seconds_of(at), seconds_of(*curve.certain_from), kBranches);
+          shown_seconds(at), shown_seconds(*curve.certain_from), kBranches);
     say("The run itself fails at {:.3f} s. From {:.2f} s before that, {} of {} branches with a new radio fail.",
-        seconds_of(at), to_seconds(at - curve.curve.front().at), curve.curve.front().failing(), kBranches);
+        shown_seconds(at), to_seconds(at - curve.curve.front().at), curve.curve.front().failing(), kBranches);
     if (curve.likely_from)
-      say("It is likely from {:.2f} s on ({:.2f} s before).", seconds_of(*curve.likely_from),
+      say("It is likely from {:.3f} s on ({:.2f} s before).", shown_seconds(*curve.likely_from),
           to_seconds(at - *curve.likely_from));
     if (curve.certain_from) {
-      say("It is certain from {:.2f} s on ({:.2f} s before): what decided it happened between {:.2f} s and then{}.",
-          seconds_of(*curve.certain_from), to_seconds(at - *curve.certain_from), seconds_of(curve.open_until),
-          curve.acted_by ? fmt::format(", and was acted upon by {:.2f} s", seconds_of(*curve.acted_by)) : "");
+      say("It is certain from {:.3f} s on ({:.2f} s before): what decided it happened between {:.3f} s and then{}.",
+          shown_seconds(*curve.certain_from), to_seconds(at - *curve.certain_from), shown_seconds(curve.open_until),
+          curve.acted_by ? fmt::format(", and was acted upon by {:.3f} s", shown_seconds(*curve.acted_by)) : "");
     } else {
       say("Until {:.2f} s before it, a new radio could still avoid it.", to_seconds(at - curve.curve.back().at));
     }

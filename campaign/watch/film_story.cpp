@@ -11,6 +11,8 @@
 #include "campaign/watch/film_shapes.hpp"
 #include "campaign/watch/run_text.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/base/shown_time.hpp"
+#include "core/outcome/run_failures.hpp"
 #include "reports/page/wording.hpp"
 
 namespace fleetproof {
@@ -22,7 +24,7 @@ constexpr std::size_t kMostInvolved = 8;
 // Cut, not rounded: no digit differs from the full number.
 double millimetres(std::int64_t um) { return static_cast<double>(um - um % 1000) / 1e6; }
 double in_milliseconds(std::int64_t us) { return static_cast<double>(us / 1000) / 1e3; }
-double in_milliseconds(SimTime t) { return in_milliseconds(film_us(t)); }
+double in_milliseconds(SimTime t) { return shown_seconds(t); }
 
 // Tells one story, into one film.
 class Storyteller {
@@ -220,7 +222,7 @@ class Storyteller {
     const std::int64_t nearest_us = film_.nearest ? film_.nearest->at_us : 0;
     look_at(at_ns(film_.failed ? static_cast<std::int64_t>(outcome_.simulated_ns) : nearest_us * 1000),
             kBeforeViolation_us);
-    film_.title = fmt::format("{}: {}", printable(scenario_.name), name_of(outcome_.outcome_class()));
+    film_.title = fmt::format("{}: {}", printable(scenario_.name), end_of_run(outcome_));
     add(film_.failed ? fmt::format("The run ended at {:.3f} s: {}.",
                                    in_milliseconds(at_ns(static_cast<std::int64_t>(outcome_.simulated_ns))),
                                    name_of(outcome_.outcome_class()))

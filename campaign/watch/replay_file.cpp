@@ -12,6 +12,7 @@
 #include "campaign/watch/film_story.hpp"
 #include "core/agents/vocabulary.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/outcome/run_failures.hpp"
 #include "reports/page/wording.hpp"
 #include "reports/replay_page/message_numbers.hpp"
 #include "reports/replay_page/replay_page.hpp"
@@ -53,7 +54,7 @@ void add_facts(web::Film& film, const Scenario& scenario, const Outcome& outcome
     add("outages of", fmt::format("{:g} s", scenario.radio.outages.mean_outage_s));
   add("safety distance", distance_text(scenario.law.safety_distance_m));
   add("seed", fmt::format("{}", scenario.seed));
-  add("end point", name_of(outcome.outcome_class()));
+  add("end point", end_of_run(outcome));
   add("trace digest", hex_text(outcome.digest));
 }
 

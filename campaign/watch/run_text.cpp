@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "core/base/outside_text.hpp"
+#include "core/base/shown_time.hpp"
+#include "core/outcome/run_failures.hpp"
 #include "core/outcome/trace_records.hpp"
 #include "core/outcome/work_and_progress.hpp"
 #include "generators/formats/purpose_words.hpp"
@@ -20,7 +22,6 @@ double cut(std::int64_t millionths, std::int64_t step) {
 }
 double to_centimetre(std::int64_t value_um) { return cut(value_um, 10'000); }
 double to_millimetre(std::int64_t value_um) { return cut(value_um, 1'000); }
-double to_millisecond(SimTime t) { return cut((t - kStart).count() / 1'000, 1'000); }
 
 std::string counters_text(const Outcome& outcome) {
   const Counters& c = outcome.counters;
@@ -91,9 +92,9 @@ std::string incident_text(const Scenario& scenario, const Incident& incident) {
   if (incident.a.valid()) whom += " " + shown_name(scenario, incident.a);
   if (incident.b.valid()) whom += std::string(incident.a.valid() ? " ->" : "") + " " + shown_name(scenario, incident.b);
   const std::string until =
-      incident.last > incident.first ? fmt::format(" to {:.3f} s", to_seconds(incident.last)) : "";
-  return fmt::format("{}:{} from {:.3f} s{}; {} ({})", info.name, whom, to_seconds(incident.first), until, info.meaning,
-                     value_text(incident));
+      incident.last > incident.first ? fmt::format(" to {:.3f} s", shown_seconds(incident.last)) : "";
+  return fmt::format("{}:{} from {:.3f} s{}; {} ({})", info.name, whom, shown_seconds(incident.first), until,
+                     info.meaning, value_text(incident));
 }
 
 std::string differences_text(const Scenario& scenario, const std::vector<Difference>& differences,
@@ -107,8 +108,8 @@ std::string differences_text(const Scenario& scenario, const std::vector<Differe
     const Violation& v = d.violation;
     text += fmt::format("    {} ({}): {} and {} from {:.3f} s to {:.3f} s, closest {:.3f} m at {:.3f} s\n",
                         d.missed ? "missed" : "accused wrongly", name_of(d.cause), shown_name(scenario, v.a),
-                        shown_name(scenario, v.b), to_millisecond(v.first), to_millisecond(v.last),
-                        to_millimetre(v.min_clearance_um), to_millisecond(v.closest_at));
+                        shown_name(scenario, v.b), shown_seconds(v.first), shown_seconds(v.last),
+                        to_millimetre(v.min_clearance_um), shown_seconds(v.closest_at));
   }
   return text;
 }
@@ -125,16 +126,16 @@ std::string met_text(const Outcome& outcome) {
 }
 
 std::string outcome_text(const Scenario& scenario, const Outcome& outcome, bool clearance_measured) {
-  std::string text = fmt::format("{}: {}\n", printable(scenario.name), name_of(outcome.outcome_class()));
+  std::string text = fmt::format("{}: {}\n", printable(scenario.name), end_of_run(outcome));
   if (!outcome.message.empty()) text += fmt::format("  {}\n", printable(outcome.message));
   for (const Violation& v : outcome.violations) {
     text += fmt::format(
         "  {} and {} closer than {} from {:.3f} s to {:.3f} s; closest {:.3f} m at {:.3f} s near ({:.2f}, "
         "{:.2f}), {:.2f} m/s apart{}\n",
         shown_name(scenario, v.a), shown_name(scenario, v.b), distance_text(scenario.law.safety_distance_m),
-        to_millisecond(v.first), to_millisecond(v.last), to_millimetre(v.min_clearance_um),
-        to_millisecond(v.closest_at), to_centimetre(v.x_um), to_centimetre(v.y_um),
-        to_centimetre(v.relative_speed_um_s), v.contact ? std::string(", ") + name_of(level_of(v)) : "");
+        shown_seconds(v.first), shown_seconds(v.last), to_millimetre(v.min_clearance_um), shown_seconds(v.closest_at),
+        to_centimetre(v.x_um), to_centimetre(v.y_um), to_centimetre(v.relative_speed_um_s),
+        v.contact ? std::string(", ") + name_of(level_of(v)) : "");
   }
   if (scenario.law.exempt_purposes.bits() != 0) {
     text += fmt::format("  exempt from the safety distance (contact is not): within {:g} m of stations for {}\n",

@@ -117,6 +117,15 @@ std::optional<RunFailure> chosen_failure(const Outcome& outcome, FailureChoice c
   return std::nullopt;
 }
 
+std::string end_of_run(const Outcome& outcome) {
+  const OutcomeClass end = outcome.outcome_class();
+  const auto leading = end == OutcomeClass::Clean ? chosen_failure(outcome, {}) : std::nullopt;
+  if (!leading) return name_of(end);
+  std::string word = leading->end_point ? name_of(*leading->end_point) : leading->what;
+  if (!leading->is_judged) word += ", not judged";
+  return word;
+}
+
 bool is_same_failure(const RunFailure& a, const RunFailure& b) { return a.what == b.what && a.a == b.a && a.b == b.b; }
 
 }  // namespace fleetproof

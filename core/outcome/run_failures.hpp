@@ -38,6 +38,10 @@ struct FailureChoice {
 // Absent: the run has none.
 std::optional<RunFailure> chosen_failure(const Outcome& outcome, FailureChoice choice);
 
+// How the run ended, in words: its class, and if that is clean, the failure that leads it: "deadlock", or "starvation,
+// not judged".
+std::string end_of_run(const Outcome& outcome);
+
 // Whether both are what went wrong between the same bodies.
 bool is_same_failure(const RunFailure& a, const RunFailure& b);
 

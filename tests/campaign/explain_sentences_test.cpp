@@ -92,7 +92,7 @@ TEST(Explain, TheSentencesTellWhereWhoStandsHadDriven) {
       sentences_of(made.is),
       testing::IsSupersetOf({made.name(made.a) + " had last set off from " + map.station(drive.from).name + " for " +
                                  map.station(drive.to).name + ", at 4.000 s.",
-                             "The restart of " + made.name(made.a) + " at 4.50 s was after that.",
+                             "The restart of " + made.name(made.a) + " at 4.500 s was after that.",
                              "The last that " + made.name(made.b) + " had heard of " + made.name(made.a) +
                                  " was message 7 (STATE: holds R1), sent at 8.000 s: 1.00 s old at the failure."}));
 }

@@ -155,7 +155,7 @@ TEST(Explain, TheSentencesTellWhatLetItSetOff) {
   EXPECT_TRUE(says("the last REQUEST to reach it of " + name(agv) + " was message 5 (REQUEST, 1.000 s); " + name(agv) +
                    " sent 2 more of that kind before that drive or turn, at last message 6 (REQUEST: asks with 8, " +
                    "3.000 s)."));
-  EXPECT_TRUE(says("The restart of " + name(agv) + " at 1.50 s was after it had sent that."));
+  EXPECT_TRUE(says("The restart of " + name(agv) + " at 1.500 s was after it had sent that."));
   EXPECT_EQ(claims_of(is).size(), 3U);
   is.set_offs.front().drive.to = drive.from;
   EXPECT_THAT(sentences_of(is), testing::Contains(testing::HasSubstr(" began to turn at ")));

@@ -45,6 +45,17 @@ using Words = std::vector<std::string>;
 
 TEST(RunFailures, ACleanRunHasNone) { EXPECT_TRUE(failures_of(run_with({})).empty()); }
 
+// A stall that no gate judges leaves the class of a run clean. What people read names it.
+TEST(RunFailures, ARunThatStallsIsNotCalledClean) {
+  const Outcome deadlock = run_with({}, {incident(IncidentKind::Deadlock, 10.0, kEnd_s)});
+  ASSERT_EQ(deadlock.outcome_class(), OutcomeClass::Clean);
+  EXPECT_EQ(end_of_run(deadlock), "deadlock");
+  EXPECT_EQ(end_of_run(run_with({}, {incident(IncidentKind::Livelock, 10.0, 50.0)})), "livelock");
+  EXPECT_EQ(end_of_run(run_with({}, {incident(IncidentKind::Starvation, 10.0, kEnd_s)})), "starvation");
+  EXPECT_EQ(end_of_run(run_with({violation(0, 1, 300.0, Level::Near)})), name_of(OutcomeClass::Violation));
+  EXPECT_EQ(end_of_run(run_with({})), "clean");
+}
+
 // What lasts to the end comes before what has passed; of equal ones, the earliest leads.
 TEST(RunFailures, TheHeaviestLeadsWheneverItHappened) {
   const Outcome outcome =

@@ -416,7 +416,8 @@ void FleetPlanner::wait(std::uint32_t agv) {
       task.obstruction = {other, way.change, now_ns_, lasts};
       passes = passes || makes_way(other, agv);
     }
-    if (passes && book_.way(agv).is_waiting() && now_ns_ >= task.passes_ns) pass(agv);
+    const bool only_waits = !options_.ways_to_chargers_are_whole && task.goes_to_charger();
+    if (passes && !only_waits && book_.way(agv).is_waiting() && now_ns_ >= task.passes_ns) pass(agv);
   }
   if (!task.obstruction.lasts && waits_s(agv) > kKeepsFreeAfter_s) reserved_.push_back(need);
 }
