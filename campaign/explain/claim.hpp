@@ -24,6 +24,7 @@ struct Share {
   Scenario run;      // with its own draws
   std::vector<std::uint32_t> failing_draws;
   std::size_t of = 0;
+  bool smallest_case_fails = false;  // with the change, too: then the failure does not need what it takes away
 
   std::size_t failing() const { return failing_draws.size(); }
 };

@@ -86,7 +86,8 @@ Explanation explain(CaseHost& host, const FailingCase& original, const ShrinkRes
              [&] { found.things = without_each_thing(host, found.small, pattern); });
   asking.ask("until when braking avoids it", [&] { add_last_stops(host, found.small, pattern, found.stops); });
   asking.ask("what let the AGVs set off", [&] { add_set_offs(host, found.small, pattern, found.set_offs); });
-  asking.ask("how often the run fails with other draws", [&] { add_shares(host, original, pattern, found.shares); });
+  asking.ask("how often the run fails with other draws",
+             [&] { add_shares(host, original, found.small, pattern, found.shares); });
   asking.ask("from when on it was certain", [&] { found.no_return = curve_of_no_return(host, original, pattern); });
   return found;
 }

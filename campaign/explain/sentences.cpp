@@ -258,7 +258,10 @@ class Words {
   // Only said where the run as it is fails often enough to compare.
   static const char* verdict(const Share& share, const Share& base) {
     if (base.failing() < kEnoughFailing) return "";
-    if (share.failing() == 0) return " (below 5 %, 95 % sure): the failure needs this to be otherwise";
+    if (share.failing() == 0)
+      return share.smallest_case_fails
+                 ? " (below 5 %, 95 % sure): the run needs this to be otherwise, the smallest case does not"
+                 : " (below 5 %, 95 % sure): the failure needs this to be otherwise";
     return 2 * share.failing() >= base.failing() ? ": that does not decide it" : ": that makes it rarer";
   }
 

@@ -18,6 +18,8 @@ namespace {
 struct WorldChange {
   std::string what;
   std::function<void(Scenario&)> edit;
+  // Which deliveries that a case gives would be other ones; none: the change is not about the radio.
+  std::function<bool(const GivenDelivery&)> spares{};
 };
 
 void scale_speeds(Scenario& scenario, double factor) {
@@ -28,11 +30,17 @@ void scale_speeds(Scenario& scenario, double factor) {
 }
 
 void add_radio(std::vector<WorldChange>& changes, const RadioSetup& radio) {
-  if (radio.loss > 0.0) changes.push_back({"no message is lost by chance", [](Scenario& s) { s.radio.loss = 0.0; }});
-  if (radio.delay_s > 0.0) changes.push_back({"no message is late", [](Scenario& s) { s.radio.delay_s = 0.0; }});
+  if (radio.loss > 0.0)
+    changes.push_back({"no message is lost by chance", [](Scenario& s) { s.radio.loss = 0.0; }, &GivenDelivery::lost});
+  if (radio.delay_s > 0.0)
+    changes.push_back(
+        {"no message is late", [](Scenario& s) { s.radio.delay_s = 0.0; },
+         [](const GivenDelivery& delivery) { return !delivery.lost && delivery.delay > Duration::zero(); }});
   if (radio.duplicates > 0.0)
-    changes.push_back({"no message arrives twice", [](Scenario& s) { s.radio.duplicates = 0.0; }});
-  changes.push_back({"the radio is perfect", [](Scenario& s) { s.radio = perfect(s.radio); }});
+    changes.push_back(
+        {"no message arrives twice", [](Scenario& s) { s.radio.duplicates = 0.0; }, &GivenDelivery::copied});
+  changes.push_back({"the radio is perfect", [](Scenario& s) { s.radio = perfect(s.radio); },
+                     [](const GivenDelivery&) { return true; }});
 }
 
 std::vector<WorldChange> changes_of(const Scenario& scenario) {
@@ -61,21 +69,33 @@ bool changes_it(const WorldChange& change, const Scenario& scenario) {
   return scenario_digest(changed) != scenario_digest(scenario);
 }
 
+bool fails_with(CaseHost& host, const FailingCase& small, const WorldChange& change, const FailurePattern& pattern) {
+  Scenario changed = small.scenario;
+  change.edit(changed);
+  if (change.spares) std::erase_if(changed.deliveries, change.spares);
+  return is_fair(changed) && pattern.match(host(changed)).has_value();
+}
+
 }  // namespace
 
-void add_shares(CaseHost& host, const FailingCase& failing, const FailurePattern& pattern, std::vector<Share>& found) {
+void add_shares(CaseHost& host, const FailingCase& failing, const FailingCase& small, const FailurePattern& pattern,
+                std::vector<Share>& found) {
   auto changes = changes_of(failing.scenario);
   std::erase_if(changes, [&, first = true](const WorldChange& change) mutable {
     return !std::exchange(first, false) && !changes_it(change, failing.scenario);
   });
   for (std::size_t i = 0; i < failing.scenario.agvs.size(); ++i) {
     if (EntityId{i} == failing.failure.a || EntityId{i} == failing.failure.b) continue;
-    changes.push_back({failing.scenario.agvs[i].name + " is not there",
-                       [i](Scenario& s) { s = with_agvs(s, [i](std::size_t other) { return other != i; }); }});
+    changes.push_back(
+        {failing.scenario.agvs[i].name + " is not there", [name = failing.scenario.agvs[i].name](Scenario& s) {
+           s = with_agvs(s, [&](std::size_t other) { return s.agvs[other].name != name; });
+         }});
   }
   for (std::size_t i = 0; i < failing.scenario.computers.size(); ++i) {
     changes.push_back({failing.scenario.computers[i].name + " is not there",
-                       [i](Scenario& s) { s = with_computers(s, [i](std::size_t other) { return other != i; }); }});
+                       [name = failing.scenario.computers[i].name](Scenario& s) {
+                         s = with_computers(s, [&](std::size_t other) { return s.computers[other].name != name; });
+                       }});
   }
   const auto draw = [](std::size_t rank) { return static_cast<std::uint32_t>(rank + 1); };
   for (const WorldChange& change : changes) {
@@ -88,6 +108,7 @@ void add_shares(CaseHost& host, const FailingCase& failing, const FailurePattern
     for (std::size_t rank = 0; rank < runs.size(); ++rank) {
       if (pattern.match(*runs[rank])) share.failing_draws.push_back(draw(rank));
     }
+    if (share.failing_draws.empty()) share.smallest_case_fails = fails_with(host, small, change, pattern);
     found.push_back(std::move(share));
   }
 }

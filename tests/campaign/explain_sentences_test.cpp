@@ -10,6 +10,18 @@
 namespace fleetproof::explain_sentences_test {
 namespace {
 
+// The first AGV has arrived when the second one runs into it.
+Scenario line() {
+  return parse_scenario(R"({"version": 1, "horizon_s": 60, "vehicle_types": [{"name": "pallet-agv"}],
+      "agvs": [{"name": "first", "start": "a", "script": [{"at_s": 1, "action": "move", "segment": "there"}]},
+               {"name": "second", "start": "c", "script": [{"at_s": 30, "action": "move", "segment": "back"}]}],
+      "layout": {"name": "line", "floor_low_m": [-3, -3], "floor_high_m": [23, 13],
+        "stations": [{"name": "a", "position_m": [0, 0]}, {"name": "b", "position_m": [10, 0]},
+                     {"name": "c", "position_m": [20, 0]}],
+        "segments": [{"name": "there", "from": "a", "to": "b"}, {"name": "back", "from": "c", "to": "b"}]}})",
+                        "line.json");
+}
+
 // A case whose losses are not written down: had one of these messages arrived, it would not fail.
 TEST(Explain, MessagesThatTheRadioDrewAreAskedForToo) {
   AgentPrograms programs;
@@ -35,16 +47,8 @@ TEST(Explain, MessagesThatTheRadioDrewAreAskedForToo) {
   EXPECT_GT(needed, 0U);
 }
 
-// One AGV has arrived when the other runs into it.
 TEST(Explain, TheLastDriveOfAnAgvThatStandsIsKept) {
-  const Scenario scenario = parse_scenario(R"({"version": 1, "horizon_s": 60, "vehicle_types": [{"name": "pallet-agv"}],
-      "agvs": [{"name": "first", "start": "a", "script": [{"at_s": 1, "action": "move", "segment": "there"}]},
-               {"name": "second", "start": "c", "script": [{"at_s": 30, "action": "move", "segment": "back"}]}],
-      "layout": {"name": "line", "floor_low_m": [-3, -3], "floor_high_m": [23, 13],
-        "stations": [{"name": "a", "position_m": [0, 0]}, {"name": "b", "position_m": [10, 0]},
-                     {"name": "c", "position_m": [20, 0]}],
-        "segments": [{"name": "there", "from": "a", "to": "b"}, {"name": "back", "from": "c", "to": "b"}]}})",
-                                           "line.json");
+  const Scenario scenario = line();
   AgentPrograms programs;
   CaseHost host({"scripted", ""}, programs, 1);
   const auto failure = failure_of(host(scenario));
@@ -95,6 +99,27 @@ TEST(Explain, TheSentencesTellWhereWhoStandsHadDriven) {
                              "The restart of " + made.name(made.a) + " at 4.500 s was after that.",
                              "The last that " + made.name(made.b) + " had heard of " + made.name(made.a) +
                                  " was message 7 (STATE: holds R1), sent at 8.000 s: 1.00 s old at the failure."}));
+}
+
+// At lower speeds, the run is over before they meet; the smaller case is not.
+TEST(Explain, WhatTheSmallestCaseDoesWithoutIsNoNeedOfTheFailure) {
+  AgentPrograms programs;
+  CaseHost host({"scripted", ""}, programs, 2);
+  FailingCase small{line(), {}}, original = small;
+  small.failure = *failure_of(host(small.scenario));
+  original.scenario.horizon = small.failure.at - kStart + std::chrono::milliseconds(200);
+  original.failure = *failure_of(host(original.scenario));
+  Explanation is;
+  is.original = original;
+  is.small = small;
+  add_shares(host, original, small, pattern_of(host, original), is.shares);
+  EXPECT_THAT(sentences_of(is),
+              testing::Contains(testing::StartsWith("If speeds are a tenth lower: 0 of 59 (below 5 %, 95 % sure): the "
+                                                    "run needs this to be otherwise, the smallest case does not")));
+  is.shares.clear();
+  add_shares(host, original, original, pattern_of(host, original), is.shares);
+  EXPECT_THAT(sentences_of(is), testing::Contains(testing::HasSubstr("tenth lower: 0 of 59 (below 5 %, 95 % sure): the "
+                                                                     "failure needs this to be otherwise")));
 }
 
 TEST(Explain, TheSentencesTellWhichAgentCrashed) {
