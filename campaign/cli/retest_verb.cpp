@@ -86,8 +86,9 @@ void put_line(const Retested& retested) {
   const auto& [finding, result] = retested;
   put("{}  {}\n  {}\n  {}\n", finding.id, name_of(result.verdict), finding.mechanism,
       reason(result, finding.neighbours));
-  put("  in {}, where it was found, {} of {} neighbours fail so\n", finding.found_in, finding.neighbours.alike,
-      finding.neighbours.of);
+  // Beside each verdict: software may fail otherwise and no longer as it did.
+  put("  {} of {} neighbours end as the case did; in {}, where it was found, {} of {}\n", result.now.alike,
+      result.now.of, finding.found_in, finding.neighbours.alike, finding.neighbours.of);
   if (result.whole_runs.of > 0)
     put("  of runs of its campaign with other draws, {} of {} end so, {} of {} before\n", result.whole_runs.alike,
         result.whole_runs.of, finding.whole.counts.alike, finding.whole.counts.of);
