@@ -43,6 +43,7 @@ CaseSource of_run(const CaseWords& words, AgentPrograms& programs) {
   if (auto stored = archive.run(run)) source.stored = std::move(stored->outcome);
   if (archive.recording(run)) source.recording = replay_command(words.source, run);
   source.name = fmt::format("{}-{}", std::filesystem::path(words.source).stem().string(), run);
+  source.command = fmt::format("{} {}", shell_word(words.source), run);
   source.scenario = ScenarioSource(plan).scenario(run);
   source.agent = case_agent(plan, agent);
   return source;
@@ -55,6 +56,7 @@ CaseSource of_file(const CaseWords& words, AgentPrograms& programs) {
   source.scenario = read_case_file(words.source);
   take_computer_programs(source.scenario, words.computers, words.source);
   source.name = std::filesystem::path(words.source).stem().string();
+  source.command = shell_word(words.source);
   std::vector<std::string> plugins = words.plugins;
   const std::string& named = words.agent.empty() ? source.scenario.agent : words.agent;
   source.agent.program = meet_agent(named, plugins, programs, &AgentPrograms::know, words.global_symbols);

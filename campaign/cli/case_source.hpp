@@ -30,6 +30,7 @@ struct CaseSource {
   std::string failure;            // as CaseWords
   std::optional<Outcome> stored;  // of the run in the campaign; absent: it is not stored, or it is a scenario file
   std::string recording;          // the command that plays what its agents did then; empty: that is not recorded
+  std::string command;            // "night.db 4711", or the scenario file, as words of a command line
   std::string plugin;             // as plugin_options has it; empty: a reference agent
   std::string identity;           // of scenario, agent and program: what was learnt of one case says nothing of another
 };

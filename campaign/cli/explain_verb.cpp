@@ -7,6 +7,7 @@
 
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/case_source.hpp"
+#include "campaign/cli/explained_pages.hpp"
 #include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/progress.hpp"
@@ -19,13 +20,16 @@
 #include "core/base/json_text.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
+#include "storage/archive_reader.hpp"
 
 namespace fleetproof::cli {
 namespace {
 
+constexpr double kShareOfPages = 0.15;  // of the time
+
 struct ExplainWords {
   CaseWords from;
-  std::string runs, max_time = "120";
+  std::string runs, html, max_time = "120";
   std::optional<std::uint64_t> jobs, trials;
   bool json = false;
 };
@@ -165,7 +169,8 @@ ShrinkResult search(const ExplainWords& words, const CaseHost& host, const CaseS
 
 Explanation explained(const ExplainWords& words, const CaseHost& host, const CaseSource& source, const WorkTime& time,
                       const FailingCase& original, WorkProgress& progress) {
-  const TimeLimit limit(time.end_before(0.0), is_interrupted);
+  const double for_pages_s = words.html.empty() ? 0.0 : kShareOfPages * time.allowed_s();
+  const TimeLimit limit(time.end_before(for_pages_s), is_interrupted);
   CaseHost within = host.within(limit);
   ShrinkResult small;
   small.best = original;
@@ -181,6 +186,16 @@ Explanation explained(const ExplainWords& words, const CaseHost& host, const Cas
   return explain(within, original, small, pattern, [&](std::string_view question) { progress.begin(question); });
 }
 
+// Beside the results file, if it is a run of one.
+void keep_for_page(const ExplainWords& words, const CaseSource& source, const Explanation& explanation) {
+  if (words.from.run.empty() || !source.stored || is_interrupted()) return;
+  const ArchiveReader archive(words.from.source, Checksums::Ignore);
+  const auto run = std::stoull(words.from.run);
+  keep_explained(
+      explained_path(words.from.source, run, words.from.failure),
+      explained_run(explanation, explained_name(archive.campaign(), run, *source.stored, words.from.failure)));
+}
+
 int explain_case(const ExplainWords& words) {
   const WorkTime time(words.max_time);
   AgentPrograms programs;
@@ -194,7 +209,14 @@ int explain_case(const ExplainWords& words) {
     progress.begin("simulating the run again");
     examined = failing_case(host, source, time);
     explanation = explained(words, host.looking_at(examined.choice), source, time, examined.failing, progress);
+    explanation.shapes = shapes_of(explanation.small, source.agent, programs);
+    if (!words.html.empty()) {
+      progress.begin("writing the pages");
+      const TimeLimit limit(time.end_before(0.0), is_interrupted);
+      write_pages(words.html, source, programs, explanation, [&] { return limit.is_over(); });
+    }
   }
+  keep_for_page(words, source, explanation);
   save_runs(words, source, explanation);
   if (words.json) {
     Json json = to_json(explanation);
@@ -217,6 +239,8 @@ Action prepare_explain(Options& options) {
   words->from.verb = "explain";
   add_case_options(options, words->from);
   options.option("--runs", words->runs, "write the runs that show what is said to this folder, as scenario files");
+  options.option("--html", words->html,
+                 "write pages to this folder: of the run (index.html), of its smallest case, of the runs that show it");
   options.option(
       "--max-time", words->max_time,
       "end after this time with what was found (default: 120 s); the smallest case takes half of it at most");

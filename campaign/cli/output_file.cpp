@@ -76,6 +76,7 @@ bool is_findings(std::string_view text) {
 }
 bool is_found_findings(std::string_view text) { return has_key(text, "findings") && has_key(text, "looked_at"); }
 bool is_explanation(std::string_view text) { return text.starts_with("# F-"); }
+bool is_found_explanation(std::string_view text) { return has_key(text, "sentences") && has_key(text, "branches"); }
 bool is_fleet(std::string_view text) { return text.starts_with("# vehicles of "); }
 
 struct KnownKind {
@@ -99,7 +100,8 @@ constexpr KnownKind kKinds[] = {{"a layout file", is_layout},
                                 {"a file of vehicles", is_fleet},
                                 {"a findings file", is_findings},
                                 {"findings of a campaign", is_found_findings},
-                                {"an explanation", is_explanation}};
+                                {"an explanation", is_explanation},
+                                {"the explanation of a run", is_found_explanation}};
 
 std::string remedy_of(const OutputFile& file) { return "choose another path for " + file.option; }
 

@@ -23,7 +23,8 @@ enum class OutputKind : std::uint8_t {
   Fleet,
   Findings,
   FoundFindings,
-  Explanation
+  Explanation,
+  FoundExplanation
 };
 
 // An output that the user asked for: the path, the option that named it, and the kind of the file.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/explained_pages.hpp"
 #include "campaign/cli/failure_words.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/recorded_elsewhere.hpp"
@@ -147,8 +148,15 @@ void print_text(const ReplayResult& result, const CellRecord& cell, const Scenar
 }
 
 // What a replay page says of a run of a campaign.
-ReplayWords page_words(const ReplayVerbWords& words, const CellRecord& cell) {
-  return {replay_command(words.archive, words.run), {{"run", fmt::format("{}", words.run)}, {"agent", cell.agent}}};
+ReplayWords page_words(const ReplayVerbWords& words, const CellRecord& cell, const ArchiveReader& archive,
+                       const std::optional<RunRecord>& stored) {
+  ReplayWords page{
+      replay_command(words.archive, words.run), {{"run", fmt::format("{}", words.run)}, {"agent", cell.agent}}, {}};
+  if (!stored || !stored->outcome.is_failure()) return page;
+  page.explained.command = fmt::format("fleetproof explain {} {}", shell_word(words.archive), words.run);
+  page.explained.run = kept_explained(explained_path(words.archive, words.run, {}),
+                                      explained_name(archive.campaign(), words.run, stored->outcome, {}));
+  return page;
 }
 
 // On a replay page that does not show the run of the archive.
@@ -173,7 +181,7 @@ int replay_run(const ReplayVerbWords& words) {
   if (words.observed.wanted()) {
     const auto stored = archive.run(words.run);
     observed.emplace(words.observed, scenario, stored ? stored->outcome.violations : std::vector<Violation>(),
-                     page_words(words, cell));
+                     page_words(words, cell, archive, stored));
   }
   AgentPrograms programs;
   const ReplayResult result = replay_either_way(words, archive, plan, programs, observed ? &*observed : nullptr);

@@ -26,6 +26,7 @@ struct Explanation {
   CaseNotes notes;                     // of the smallest case
   bool has_notes = true;               // false: there was no time for them
   std::vector<std::string> doing;      // what its AGVs did when it failed, as CaseRun has it
+  std::vector<std::string> shapes;     // what in the shapes of its bodies broke the distance, as shape_sentences has it
   std::string ended;                   // of a crash or a hang: what the engine says of it, after the name of the agent
   // All words of its agents on a perfect radio, sorted; none if it fails there, too.
   std::vector<std::string> undisturbed_words;

@@ -81,8 +81,9 @@ MessageNeed need_of(CaseHost& host, const FailingCase& failing, const FailurePat
   for (const Duration late : {need.latest->in_time, need.latest->too_late}) {
     Scenario later = with_delivery(failing.scenario, arriving_after(delivery, late));
     ExpectedOutcome outcome = expectation_of(host(later));
-    need.claims.push_back({fmt::format("it arrived at {:.3f} s", shown_seconds(delivery.sent + late)), std::move(later),
-                           std::move(outcome)});
+    need.claims.push_back({fmt::format("{} arrived at {:.3f} s", message_text(failing.scenario, message),
+                                       shown_seconds(delivery.sent + late)),
+                           std::move(later), std::move(outcome)});
   }
   return need;
 }
@@ -115,6 +116,7 @@ void add_drawn(CaseHost& host, const FailingCase& failing, const FailurePattern&
 struct Without {
   std::string what;
   std::function<Scenario(const Scenario&)> edit;
+  bool tells_why = false;
 };
 
 // What is no thing, but can be left out like one.
@@ -124,18 +126,22 @@ void add_properties(const Scenario& scenario, std::vector<Without>& things) {
                                               Scenario less = s;
                                               for (VehicleType& type : less.vehicle_types) type.loaded = {};
                                               return less;
-                                            }},
+                                            },
+                                            true},
                                            {"wrong clocks and positions",
                                             [](const Scenario& s) {
                                               Scenario less = s;
                                               for (AgvSetup& agv : less.agvs) agv.sensing = {};
                                               return less;
-                                            }},
-                                           {"low batteries", [](const Scenario& s) {
+                                            },
+                                            true},
+                                           {"low batteries",
+                                            [](const Scenario& s) {
                                               Scenario less = s;
                                               for (AgvSetup& agv : less.agvs) agv.battery = 1.0;
                                               return less;
-                                            }}};
+                                            },
+                                            true}};
   const std::uint64_t digest = scenario_digest(scenario);
   std::ranges::copy_if(properties, std::back_inserter(things),
                        [&](const Without& property) { return scenario_digest(property.edit(scenario)) != digest; });
@@ -170,7 +176,7 @@ void add_bends(CaseHost& host, const FailingCase& failing, std::vector<Without>&
   for (const std::size_t i : driven)
     things.push_back({fmt::format("the bend of the lane between {} and {}", map.station(segments[i].from).name,
                                   map.station(segments[i].to).name),
-                      [=](const Scenario& s) { return with_straight_lane(s, i); }});
+                      [=](const Scenario& s) { return with_straight_lane(s, i); }, true});
 }
 
 std::vector<Without> things_of(const Scenario& scenario) {
@@ -198,7 +204,8 @@ std::vector<Without> things_of(const Scenario& scenario) {
                         Scenario less = s;
                         less.faults = kept(s.faults, but(i));
                         return less;
-                      }});
+                      },
+                      true});
   }
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i) {
     things.push_back({"the obstacle " + scenario.obstacles[i].name, [=](const Scenario& s) {
@@ -240,7 +247,7 @@ std::vector<Claim> without_each_thing(CaseHost& host, const FailingCase& failing
                       : avoided               ? "does not fail so"
                                               : "fails a little otherwise";
     claims.push_back({fmt::format("{} without {}", how, things[i].what), *make(i), expectation_of(*runs[i]), avoided,
-                      runs[i]->all_words});
+                      runs[i]->all_words, things[i].tells_why});
   }
   return claims;
 }

@@ -12,15 +12,19 @@ namespace fleetproof {
 namespace {
 
 constexpr std::size_t kEnoughFailing = 12;
+// As Sentence::decides. That a drive needed the message which let it begin says least: it may have been right to send
+// it.
+constexpr int kByGoAhead = 1, kByShare = 2, kByThing = 3, kByMessage = 4;
 constexpr Duration kNotable = std::chrono::milliseconds(10);  // so late a message is worth a word
 
 class Words {
  public:
   explicit Words(const Explanation& of) : of_(of), scenario_(of.small.scenario) {}
 
-  std::vector<std::string> all() {
+  std::vector<Sentence> all() {
     what_happens();
     if (!of_.ended.empty()) say("The {}.", of_.ended);
+    for (const std::string& shape : of_.shapes) say("{}", shape).at = of_.small.failure.at;
     for (const MessageNeed& need : of_.messages) message(need);
     things();
     for (const LastStop& stop : of_.stops) last_stop(stop);
@@ -36,16 +40,24 @@ class Words {
   }
 
  private:
+  // The sentence, for what else is to be said of it.
   template <class... Parts>
-  void say(fmt::format_string<Parts...> format, Parts&&... parts) {
-    lines_.push_back(fmt::format(format, std::forward<Parts>(parts)...));
+  Sentence& say(fmt::format_string<Parts...> format, Parts&&... parts) {
+    Sentence& sentence = lines_.emplace_back();
+    sentence.text = fmt::format(format, std::forward<Parts>(parts)...);
+    return sentence;
+  }
+  template <class... Parts>
+  Sentence& say_at(SimTime at, fmt::format_string<Parts...> format, Parts&&... parts) {
+    Sentence& sentence = say(format, std::forward<Parts>(parts)...);
+    sentence.at = at;
+    return sentence;
   }
 
   // Claims are told in the order of claims_of, so that their numbers go up.
-  std::string runs(std::size_t count) {
-    std::vector<std::size_t> numbers;
-    for (std::size_t i = 0; i < count; ++i) numbers.push_back(++claim_);
-    return fmt::format("[{}]", fmt::join(numbers, ", "));
+  Sentence& shown_by(std::size_t count, Sentence& sentence) {
+    for (std::size_t i = 0; i < count; ++i) sentence.claims.push_back(++claim_);
+    return sentence;
   }
 
   std::vector<EntityId> involved() const {
@@ -56,13 +68,25 @@ class Words {
     return agvs;
   }
 
+  static std::vector<std::string> names(const FailingCase& of) {
+    std::vector<std::string> names;
+    for (const EntityId body : {of.failure.a, of.failure.b}) {
+      if (body.valid()) names.push_back(name_of_body(of.scenario, body));
+    }
+    std::ranges::sort(names);
+    return names;
+  }
+
   void what_happens() {
     const Failure& failure = of_.small.failure;
     std::string who;
     if (failure.a.valid()) who = " of " + name_of_body(scenario_, failure.a);
     if (failure.b.valid()) who += " and " + name_of_body(scenario_, failure.b);
-    say("The {} fails at {:.3f} s: {}{}.", of_.is_smallest ? "smallest case" : "case found so far",
-        shown_seconds(failure.at), failure.kind.what, who);
+    say_at(failure.at, "The {} fails at {:.3f} s: {}{}.", of_.is_smallest ? "smallest case" : "case found so far",
+           shown_seconds(failure.at), failure.kind.what, who);
+    if (const Failure& original = of_.original.failure; names(of_.original) != names(of_.small) && original.a.valid())
+      say("In the run itself it is {}: the smallest case fails in the same way, but with others.",
+          fmt::join(names(of_.original), " and "));
     std::vector<std::string> doings;
     for (std::size_t i = 0; i < std::min(involved().size(), of_.doing.size()); ++i)
       doings.push_back(fmt::format("{} {}", name_of_body(scenario_, involved()[i]), past_of(of_.doing[i])));
@@ -83,19 +107,23 @@ class Words {
     const std::string trouble = delivery.lost     ? "the loss"
                                 : delivery.copied ? "the second copy"
                                                   : fmt::format("the delay of {:.2f} s", to_seconds(delivery.delay));
-    const std::size_t count = need.claims.size();
-    if (!need.is_needed) return say("It does not need {} of {} {}.", trouble, name, runs(count));
-    if (!need.latest)
-      return say("It needs {} of {}: had it arrived at once, no failure {}.", trouble, name, runs(count));
-    say("It needs {} of {}. Had it arrived by {:.3f} s, no failure; at {:.3f} s, it fails {}.", trouble, name,
-        shown_seconds(delivery.sent + need.latest->in_time), shown_seconds(delivery.sent + need.latest->too_late),
-        runs(count));
+    const SimTime sent = kStart + delivery.sent;
+    Sentence& sentence =
+        !need.is_needed ? say_at(sent, "It does not need {} of {}.", trouble, name)
+        : !need.latest
+            ? say_at(sent, "It needs {} of {}: had it arrived at once, no failure.", trouble, name)
+            : say_at(sent, "It needs {} of {}. Had it arrived by {:.3f} s, no failure; at {:.3f} s, it fails.", trouble,
+                     name, shown_seconds(delivery.sent + need.latest->in_time),
+                     shown_seconds(delivery.sent + need.latest->too_late));
+    if (need.is_needed) sentence.decides = kByMessage;
+    shown_by(need.claims.size(), sentence);
   }
 
   void things() {
     for (const Claim& claim : of_.things) {
-      say("It {} {}.", claim.sentence, runs(1));
+      Sentence& sentence = shown_by(1, say("It {}.", claim.sentence));
       if (!claim.avoids) continue;
+      if (claim.tells_why) sentence.decides = kByThing;
       avoiding_.push_back(claim_);
       said_when_avoided_.insert(claim.words.begin(), claim.words.end());
     }
@@ -103,13 +131,12 @@ class Words {
 
   void last_stop(const LastStop& stop) {
     const std::size_t count = stop.claims.size();
-    if (!stop.at)
-      return say("No brake of {} in the last 30 s avoids it, not even the first {}.", stop.agv, runs(count));
-    if (count == 1)
-      return say("{} avoids it by braking at {:.3f} s, 0.1 s before it {}.", stop.agv, shown_seconds(*stop.at),
-                 runs(count));
-    say("{} avoids it by braking at {:.3f} s at the latest; 0.1 s later is too late {}.", stop.agv,
-        shown_seconds(*stop.at), runs(count));
+    if (!stop.at) {
+      shown_by(count, say("No brake of {} in the last 30 s avoids it, not even the first.", stop.agv));
+      return;
+    }
+    const char* how = count == 1 ? ", 0.1 s before it" : " at the latest; 0.1 s later is too late";
+    shown_by(count, say_at(*stop.at, "{} avoids it by braking at {:.3f} s{}.", stop.agv, shown_seconds(*stop.at), how));
   }
 
   void set_off(const SetOff& is) {
@@ -118,8 +145,8 @@ class Words {
     const std::string what = is.is_turn()
                                  ? "began to turn at " + station(is.drive.from)
                                  : fmt::format("set off from {} for {}", station(is.drive.from), station(is.drive.to));
-    say("{} {} at {:.3f} s, {:.2f} s before.", name, what, shown_seconds(is.drive.at),
-        to_seconds(of_.small.failure.at - is.drive.at));
+    say_at(is.drive.at, "{} {} at {:.3f} s, {:.2f} s before.", name, what, shown_seconds(is.drive.at),
+           to_seconds(of_.small.failure.at - is.drive.at));
     for (std::size_t i = 0; i < scenario_.agvs.size(); ++i) {
       const bool is_silent = std::ranges::count(is.leaves, EntityId{i}, &Leave::from) == 0;
       if (EntityId{i} != is.agv && is_silent)
@@ -133,8 +160,8 @@ class Words {
   void past_drive(const Departure& drive) {
     const auto& map = *scenario_.map;
     const Duration at = drive.at - kStart;
-    say("{} had last set off from {} for {}, at {:.3f} s.", name_of_body(scenario_, drive.agv),
-        map.station(drive.from).name, map.station(drive.to).name, shown_seconds(drive.at));
+    say_at(drive.at, "{} had last set off from {} for {}, at {:.3f} s.", name_of_body(scenario_, drive.agv),
+           map.station(drive.from).name, map.station(drive.to).name, shown_seconds(drive.at));
     faults_between(drive.agv, at, of_.small.failure.at - kStart, "after that");
   }
 
@@ -142,13 +169,14 @@ class Words {
     const std::string from = name_of_body(scenario_, of.from);
     const auto looked_at_s = kLookedAt / std::chrono::seconds(1);
     for (std::size_t i = 0; i < of.claims.size(); ++i)
-      say("Without any {}message of {} in the {} s before, it does not {} then{} {}.",
-          of.kinds[i].empty() ? "" : of.kinds[i] + " ", from, looked_at_s, is.is_turn() ? "turn" : "set off",
-          and_then(of.claims[i]), runs(1));
+      shown_by(1, say("Without any {}message of {} in the {} s before, it does not {} then{}.",
+                      of.kinds[i].empty() ? "" : of.kinds[i] + " ", from, looked_at_s,
+                      is.is_turn() ? "turn" : "set off", and_then(of.claims[i])));
     if (of.without_others)
-      say("It needed nothing {}of {} for that: without {} in the {} s before, it {} all the same {}.",
-          of.kinds.empty() ? "" : "else ", from, of.kinds.empty() ? "any message of it" : "any other message of it",
-          looked_at_s, is.is_turn() ? "turns" : "sets off", runs(1));
+      shown_by(1, say("It needed nothing {}of {} for that: without {} in the {} s before, it {} all the same.",
+                      of.kinds.empty() ? "" : "else ", from,
+                      of.kinds.empty() ? "any message of it" : "any other message of it", looked_at_s,
+                      is.is_turn() ? "turns" : "sets off"));
     for (const GoAhead& one : of.keys) key(is, one);
     if (of.keys.size() == 2) two_answers(name_of_body(scenario_, is.agv), of.keys[0].message, of.keys[1].message);
   }
@@ -163,8 +191,15 @@ class Words {
   void key(const SetOff& is, const GoAhead& key) {
     const GivenDelivery& delivery = key.message.delivery;
     const std::string name = name_of_body(scenario_, is.agv), from = name_of_body(scenario_, delivery.sender);
-    say("Without {} alone, it does not either{} {}.", message_text(scenario_, key.message), and_then(key.claim),
-        runs(1));
+    const std::string message = message_text(scenario_, key.message);
+    Sentence& alone =
+        say_at(kStart + delivery.sent, "Without {} alone, it does not either{}.", message, and_then(key.claim));
+    if (key.claim.avoids) {
+      alone.decides = kByGoAhead;
+      alone.lead = fmt::format("Without {}, {} does not {} then, and nothing fails.", message, name,
+                               is.is_turn() ? "turn" : "set off");
+    }
+    shown_by(1, alone);
     if (delivery.copied) say("That message arrived twice.");
     if (delivery.delay >= kNotable) say("That message was {:.2f} s late.", to_seconds(delivery.delay));
     said_with(delivery);
@@ -172,9 +207,10 @@ class Words {
     for (const Question& asked : key.asked) question(is, asked, name, from);
     if (!key.sender_drive || std::ranges::count(involved(), delivery.sender) == 0) return;
     const auto& map = *scenario_.map;
-    say("{} had last set off from {} for {} then, at {:.3f} s{}.", from, map.station(key.sender_drive->from).name,
-        map.station(key.sender_drive->to).name, shown_seconds(key.sender_drive->at),
-        key.is_last_drive ? "; it was on that drive, or behind it, when it failed" : "");
+    say_at(key.sender_drive->at, "{} had last set off from {} for {} then, at {:.3f} s{}.", from,
+           map.station(key.sender_drive->from).name, map.station(key.sender_drive->to).name,
+           shown_seconds(key.sender_drive->at),
+           key.is_last_drive ? "; it was on that drive, or behind it, when it failed" : "");
     faults_between(delivery.sender, key.sender_drive->at - kStart, delivery.sent, "between that and the message");
   }
 
@@ -184,9 +220,10 @@ class Words {
     if (again > 0)
       since = fmt::format("; {} sent {} more of that kind before that drive or turn, at last message {} ({}, {:.3f} s)",
                           name, again, last->number, words_of(*last), shown_seconds(last->delivery.sent));
-    say("When {} sent it, the last {}to reach it of {} was message {} ({}, {:.3f} s){}.", from,
-        message.kind.empty() ? "" : message.kind + " ", name, message.number, words_of(message),
-        shown_seconds(message.delivery.sent), since);
+    say_at(kStart + message.delivery.sent,
+           "When {} sent it, the last {}to reach it of {} was message {} ({}, {:.3f} s){}.", from,
+           message.kind.empty() ? "" : message.kind + " ", name, message.number, words_of(message),
+           shown_seconds(message.delivery.sent), since);
     faults_between(is.agv, message.delivery.sent, is.drive.at - kStart, "after it had sent that");
   }
 
@@ -204,8 +241,8 @@ class Words {
   void faults_between(EntityId agv, Duration from, Duration to, std::string_view when) {
     for (const Fault& fault : scenario_.faults) {
       if (fault.agv == agv && !fault.transport && from <= fault.at && fault.at <= to)
-        say("The {} of {} at {:.3f} s was {}.", text_of(fault), name_of_body(scenario_, agv), shown_seconds(fault.at),
-            when);
+        say_at(kStart + fault.at, "The {} of {} at {:.3f} s was {}.", text_of(fault), name_of_body(scenario_, agv),
+               shown_seconds(fault.at), when);
     }
   }
 
@@ -215,11 +252,12 @@ class Words {
     for (const Declared& declared : of_.notes.declared) {
       if (declared.agv != agv) continue;
       if (!of_.undisturbed_words.empty() && !std::ranges::binary_search(of_.undisturbed_words, declared.word)) {
-        say("{} said \"{}\" at {:.3f} s; on a perfect radio, nobody says it.", name, declared.word,
-            shown_seconds(declared.at));
+        say_at(declared.at, "{} said \"{}\" at {:.3f} s; on a perfect radio, nobody says it.", name, declared.word,
+               shown_seconds(declared.at));
       } else if (!avoiding_.empty() && !said_when_avoided_.contains(declared.word)) {
-        say("{} said \"{}\" at {:.3f} s; nobody says it in [{}].", name, declared.word, shown_seconds(declared.at),
-            fmt::join(avoiding_, ", "));
+        say_at(declared.at, "{} said \"{}\" at {:.3f} s; nobody says it in the runs that avoid it.", name,
+               declared.word, shown_seconds(declared.at))
+            .claims = avoiding_;
       }
     }
     for (const EntityId other : involved()) {
@@ -232,11 +270,13 @@ class Words {
     const auto last =
         std::ranges::find_if(of_.notes.heard, [&](const Heard& h) { return h.by == agv && h.of == other; });
     if (last == of_.notes.heard.end()) {
-      say("{} had never heard {}.", name, from);
+      // In a central fleet, AGVs may never speak with each other.
+      if (scenario_.computers.empty()) say("{} had never heard {}.", name, from);
     } else {
-      say("The last that {} had heard of {} was message {}{}, sent at {:.3f} s: {:.2f} s old at the failure.", name,
-          from, last->number, last->kind.empty() ? "" : " (" + words_of(last->kind, last->content) + ")",
-          shown_seconds(last->sent), to_seconds(of_.small.failure.at - last->sent));
+      say_at(last->sent,
+             "The last that {} had heard of {} was message {}{}, sent at {:.3f} s: {:.2f} s old at the failure.", name,
+             from, last->number, last->kind.empty() ? "" : " (" + words_of(last->kind, last->content) + ")",
+             shown_seconds(last->sent), to_seconds(of_.small.failure.at - last->sent));
     }
     const auto belief =
         std::ranges::find_if(of_.notes.believed, [&](const Believed& b) { return b.by == agv && b.about == other; });
@@ -248,10 +288,15 @@ class Words {
   void shares() {
     if (of_.shares.empty()) return;
     const Share& base = of_.shares.front();
-    say("With other draws, the run fails in the same way in {} of {} [share 1].", base.failing(), base.of);
+    say("With other draws, the run fails in the same way in {} of {}.", base.failing(), base.of).share = 1;
     for (std::size_t i = 1; i < of_.shares.size(); ++i) {
       const Share& share = of_.shares[i];
-      say("If {}: {} of {}{} [share {}].", share.what, share.failing(), share.of, verdict(share, base), i + 1);
+      Sentence& sentence = say("If {}: {} of {}{}.", share.what, share.failing(), share.of, verdict(share, base));
+      sentence.share = i + 1;
+      if (base.failing() < kEnoughFailing || share.failing() > 0 || share.smallest_case_fails) continue;
+      sentence.decides = kByShare;
+      sentence.lead = fmt::format("If {}, it fails in none of {} runs with other draws; as it is, in {}.", share.what,
+                                  share.of, base.failing());
     }
   }
 
@@ -269,28 +314,37 @@ class Words {
     const NoReturn& curve = of_.no_return;
     if (curve.curve.empty()) return;
     const SimTime at = of_.original.failure.at;
+    const auto of_run = [&](SimTime instant, Sentence& sentence) {
+      sentence.at = instant;
+      sentence.is_of_run = true;
+    };
     if (curve.certain_from == curve.curve.front().at)
-      return say(
-          "The run itself fails at {:.3f} s. That is certain from {:.3f} s on, the first instant looked at: all {} "
-          "branches with a new radio fail so.",
-          shown_seconds(at), shown_seconds(*curve.certain_from), kBranches);
-    say("The run itself fails at {:.3f} s. From {:.2f} s before that, {} of {} branches with a new radio fail.",
-        shown_seconds(at), to_seconds(at - curve.curve.front().at), curve.curve.front().failing(), kBranches);
+      return of_run(
+          at,
+          say("The run itself fails at {:.3f} s. That is certain from {:.3f} s on, the first instant looked at: all {} "
+              "branches with a new radio fail so.",
+              shown_seconds(at), shown_seconds(*curve.certain_from), kBranches));
+    of_run(at,
+           say("The run itself fails at {:.3f} s. From {:.2f} s before that, {} of {} branches with a new radio fail.",
+               shown_seconds(at), to_seconds(at - curve.curve.front().at), curve.curve.front().failing(), kBranches));
     if (curve.likely_from)
-      say("It is likely from {:.3f} s on ({:.2f} s before).", shown_seconds(*curve.likely_from),
-          to_seconds(at - *curve.likely_from));
+      of_run(*curve.likely_from, say("It is likely from {:.3f} s on ({:.2f} s before).",
+                                     shown_seconds(*curve.likely_from), to_seconds(at - *curve.likely_from)));
     if (curve.certain_from) {
-      say("It is certain from {:.3f} s on ({:.2f} s before): what decided it happened between {:.3f} s and then{}.",
-          shown_seconds(*curve.certain_from), to_seconds(at - *curve.certain_from), shown_seconds(curve.open_until),
-          curve.acted_by ? fmt::format(", and was acted upon by {:.3f} s", shown_seconds(*curve.acted_by)) : "");
+      of_run(
+          curve.open_until,
+          say("It is certain from {:.3f} s on ({:.2f} s before): what decided it happened between {:.3f} s and then{}.",
+              shown_seconds(*curve.certain_from), to_seconds(at - *curve.certain_from), shown_seconds(curve.open_until),
+              curve.acted_by ? fmt::format(", and was acted upon by {:.3f} s", shown_seconds(*curve.acted_by)) : ""));
     } else {
-      say("Until {:.2f} s before it, a new radio could still avoid it.", to_seconds(at - curve.curve.back().at));
+      of_run(curve.curve.back().at, say("Until {:.2f} s before it, a new radio could still avoid it.",
+                                        to_seconds(at - curve.curve.back().at)));
     }
   }
 
   const Explanation& of_;
   const Scenario& scenario_;
-  std::vector<std::string> lines_;
+  std::vector<Sentence> lines_;
   std::size_t claim_ = 0;
   std::vector<std::size_t> avoiding_;  // runs without a thing that avoid the failure, and all that is said in them
   std::set<std::string> said_when_avoided_;
@@ -298,6 +352,24 @@ class Words {
 
 }  // namespace
 
-std::vector<std::string> sentences_of(const Explanation& explanation) { return Words(explanation).all(); }
+std::string text_of(const Sentence& sentence) {
+  if (sentence.claims.empty() && sentence.share == 0) return sentence.text;
+  const std::string shown_by = sentence.share > 0 ? fmt::format("share {}", sentence.share)
+                                                  : fmt::format("{}", fmt::join(sentence.claims, ", "));
+  return fmt::format("{} [{}].", sentence.text.substr(0, sentence.text.size() - 1), shown_by);
+}
+
+std::vector<Sentence> told(const Explanation& explanation) { return Words(explanation).all(); }
+
+std::vector<std::string> sentences_of(const Explanation& explanation) {
+  std::vector<std::string> texts;
+  for (const Sentence& sentence : told(explanation)) texts.push_back(text_of(sentence));
+  return texts;
+}
+
+const Sentence* leading(const std::vector<Sentence>& sentences) {
+  const auto most = std::ranges::max_element(sentences, {}, &Sentence::decides);
+  return most != sentences.end() && most->decides > 0 ? &*most : nullptr;
+}
 
 }  // namespace fleetproof

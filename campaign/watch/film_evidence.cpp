@@ -11,7 +11,6 @@
 #include "core/base/outside_text.hpp"
 #include "core/outcome/trace.hpp"
 #include "reports/page/wording.hpp"
-#include "reports/replay_page/body_then.hpp"
 
 namespace fleetproof {
 namespace {
@@ -31,6 +30,38 @@ const Row* last_until(const std::vector<Row>& rows, std::size_t body, std::int64
     if (row.body == body && row.at_us <= at_us) found = &row;
   }
   return found;
+}
+
+// The faults that have struck a body and are not over: "breakdown since 29.300 s, not over". Empty: none.
+std::string faults_under_way(const web::Film& film, std::size_t body, std::int64_t before_us) {
+  std::map<std::string, std::int64_t> since_us;
+  for (const web::Happening& h : film.happenings) {
+    if (!h.is_fault || h.body != body || h.at_us >= before_us) continue;
+    const std::string& fault = h.details.empty() ? h.what : h.details;
+    if (h.what.ends_with(" over")) {
+      since_us.erase(fault);
+    } else {
+      since_us.emplace(fault, h.at_us);
+    }
+  }
+  std::vector<std::string> texts;
+  for (const auto& [fault, at_us] : since_us)
+    texts.push_back(fmt::format("{} since {:.3f} s", fault, in_seconds(at_us)));
+  return texts.empty() ? "" : joined(texts) + ", not over";
+}
+
+// Since when the body has stood at the place of the first violation. Nothing if it moved there, or is not one of its
+// two bodies.
+std::optional<std::int64_t> stood_there_since(const web::Film& film, std::size_t body, std::int64_t at_us) {
+  if (film.violations.empty()) return std::nullopt;
+  const web::TooClose& first = film.violations.front();
+  if (body != first.a && body != first.b) return std::nullopt;
+  std::int64_t since_us = 0;
+  for (const web::MotionPiece& piece : film.pieces) {
+    const bool moves = piece.body == body && piece.moving != web::Moving::Rests && piece.begin_us < first.first_us;
+    if (moves) since_us = std::max(since_us, piece.end_us);
+  }
+  return since_us < at_us ? std::optional(since_us) : std::nullopt;
 }
 
 }  // namespace
@@ -76,14 +107,13 @@ std::string FilmEvidence::doing(EntityId body, SimTime at) const {
     text += "was turning on the spot at " + place_text(pose.position_m);
   } else {
     text += "stood at " + place_text(pose.position_m);
-    if (const auto since_us = web::stood_there_since(film_, body.index(), at_us))
+    if (const auto since_us = stood_there_since(film_, body.index(), at_us))
       text += fmt::format(" since {:.3f} s", in_seconds(*since_us));
     if (activity != nullptr)
       text += fmt::format(", in the middle of its {}{}", activity->kind,
                           activity->details.empty() ? "" : " " + activity->details);
   }
-  if (const std::string faults = web::faults_under_way(film_, body.index(), {at_us, 0}); !faults.empty())
-    text += "; " + faults;
+  if (const std::string faults = faults_under_way(film_, body.index(), at_us); !faults.empty()) text += "; " + faults;
   if (const web::Declared* state = last_until(film_.states, body.index(), at_us);
       state != nullptr && !state->word.empty())
     text += fmt::format("; its agent said \"{}\" since {:.3f} s", state->word, in_seconds(state->at_us));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 
 #include "campaign/watch/film_clearances.hpp"
@@ -14,11 +15,20 @@
 #include "core/base/outside_text.hpp"
 #include "core/outcome/run_failures.hpp"
 #include "reports/page/wording.hpp"
-#include "reports/replay_page/message_numbers.hpp"
 #include "reports/replay_page/replay_page.hpp"
 
 namespace fleetproof {
 namespace {
+
+bool has_word(std::string_view text, std::string_view word) {
+  const auto is_end = [&](std::size_t at) {
+    return at >= text.size() || std::isalnum(static_cast<unsigned char>(text[at])) == 0;
+  };
+  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+    if ((at == 0 || is_end(at - 1)) && is_end(at + word.size())) return true;
+  }
+  return false;
+}
 
 // What the words of agents in this run mean, as far as the project's agents use them: notes, states, and words in the
 // contents of messages.
@@ -30,9 +40,8 @@ void add_glossary(web::Film& film) {
   for (const web::Declared& state : film.states) said.insert(state.word);
   for (const web::Message& message : film.messages) contents.insert(message.content);
   for (const auto& [word, meaning] : agents::vocabulary()) {
-    const bool occurs = said.contains(std::string(word)) || std::ranges::any_of(contents, [&](const std::string& c) {
-                          return web::after_word(c, word).has_value();
-                        });
+    const bool occurs = said.contains(std::string(word)) ||
+                        std::ranges::any_of(contents, [&](const std::string& c) { return has_word(c, word); });
     if (occurs) film.glossary.push_back({std::string(word), std::string(meaning)});
   }
 }
@@ -98,8 +107,8 @@ void add_strip(web::Film& film, const Scenario& scenario, const std::vector<Piec
 
 }  // namespace
 
-std::string replay_html(FilmRecorder& recorder, const Scenario& scenario, const Outcome& outcome,
-                        const ReplayWords& words, const std::string& remark) {
+web::Film film_of(FilmRecorder& recorder, const Scenario& scenario, const Outcome& outcome, const ReplayWords& words,
+                  const std::string& remark) {
   web::Film film = recorder.take(at_ns(static_cast<std::int64_t>(outcome.simulated_ns)));
   film.command = words.command;
   film.facts = words.facts;
@@ -113,7 +122,12 @@ std::string replay_html(FilmRecorder& recorder, const Scenario& scenario, const 
   if (!remark.empty()) film.story.insert(film.story.begin(), remark);
   add_glossary(film);
   add_strip(film, scenario, recorder.pieces(), outcome);
-  return web::replay_page(std::move(film));
+  return film;
+}
+
+std::string replay_html(FilmRecorder& recorder, const Scenario& scenario, const Outcome& outcome,
+                        const ReplayWords& words, const std::string& remark) {
+  return web::replay_page(film_of(recorder, scenario, outcome, words, remark), words.explained);
 }
 
 }  // namespace fleetproof

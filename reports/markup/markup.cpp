@@ -61,6 +61,15 @@ Element Element::link_to(std::string_view id, std::string_view text) {
   return link.text(text);
 }
 
+Element Element::link_to_page(std::string_view page, std::string_view place, std::string_view text) {
+  const auto is_of_pages = [](char c) { return is_of_ids(c) || c == '.' || c == '='; };
+  ensure(!page.empty() && std::ranges::all_of(page, is_of_pages) && std::ranges::all_of(place, is_of_pages),
+         "the name of a page consists of letters, digits, hyphens and points");
+  Element link("a");
+  link.attributes_ = fmt::format(" href=\"{}{}{}\"", page, place.empty() ? "" : "#", place);
+  return link.text(text);
+}
+
 bool Element::is_void() const { return name_.text() == "meta" || name_.text() == "br"; }
 
 std::string Element::str() const {

@@ -80,6 +80,9 @@ class Element {
 
   // A link to the element of this page that has the id. Requires: an id of letters, digits and hyphens.
   static Element link_to(std::string_view id, std::string_view text);
+  // A link to a page beside this one, "case-7.html", and to a place in it, "t=12.3"; that may be empty. Requires: both
+  // of letters, digits, hyphens, points and equals signs.
+  static Element link_to_page(std::string_view page, std::string_view place, std::string_view text);
 
  private:
   bool is_void() const;

@@ -33,7 +33,7 @@ const stepLine = by => {
 };
 document.addEventListener('click', event => {
   const line = event.target.closest('[data-us]');
-  if (!line || !line.closest('#log-lines, .reason, .story')) return;
+  if (!line || !line.closest('#log-lines, .why, .story, .differences')) return;
   play(false);
   goTo(usOf(line) / 1e6, eventLog && eventLog.contains(line) ? line : null);
 });

@@ -99,6 +99,4 @@ const activityOf = (body, t_s) => {
   const row = lastActivityOf(body, t_s);
   return row && row[2] >= t_s * 1e3 ? row : null;
 };
-// Why an activity may have been begun; undefined: the page has it only for those nearest to the failure.
-const reasons = new Map(film.reasons.map(reason => [film.activities_ms[reason.activity], reason]));
 const lastActivityOf = (body, t_s) => lastUpTo(activitiesOf[body], r => r[1], t_s * 1e3 + 1e-6);

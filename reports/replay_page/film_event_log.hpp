@@ -26,8 +26,8 @@ struct EventLog {
 };
 
 // Around the failure: what the bodies that the page is about did and said, all faults, and every message to or from
-// these bodies. Between two events, messages of one kind from one sender to one receiver are one line, but for the
-// first answer after a new request. Calls that are refused again and again are one line, too, and so are equal notes.
+// these bodies. Between two events, messages of one kind from one sender to one receiver are one line. Calls that are
+// refused again and again are one line, too, and so are equal notes.
 EventLog event_log_of(const Film& film);
 
 }  // namespace fleetproof::web

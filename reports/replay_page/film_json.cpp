@@ -194,15 +194,6 @@ void add_what_happened(Members& members, const Film& film, Words& words) {
   });
 }
 
-std::string reason_json(const Reason& reason) {
-  std::string lines;
-  for (const ReasonLine& line : reason.lines)
-    lines += fmt::format("{}[{},{},{}]", lines.empty() ? "" : ",", static_cast<int>(line.rank) + (line.marked ? 4 : 0),
-                         line.at_us, in_json(line.text));
-  return fmt::format("{{\"activity\":{},\"title\":{},\"lines_us\":[{}]}}",
-                     reason.activity ? static_cast<std::int64_t>(*reason.activity) : -1, in_json(reason.title), lines);
-}
-
 // Outside of strings, JSON has none of these characters.
 std::string without_markup(const std::string& json) {
   std::string text;
@@ -219,7 +210,7 @@ std::string without_markup(const std::string& json) {
 
 }  // namespace
 
-std::string film_json(const Film& film, const std::vector<Reason>& reasons) {
+std::string film_json(const Film& film) {
   Members members;
   Words words;
   members.add("schema_version", "1");
@@ -231,7 +222,6 @@ std::string film_json(const Film& film, const std::vector<Reason>& reasons) {
   add_floor(members, film);
   add_failure(members, film);
   add_what_happened(members, film, words);
-  members.rows("reasons", reasons, reason_json);
   members.rows("words", words.all(), in_json);
   return without_markup(printable_json(members.text()));
 }

@@ -26,9 +26,4 @@ std::string text_of(const Message& message) {
   return message.content.empty() ? name : fmt::format("{} ({})", name, message.content);
 }
 
-std::string times_text(std::size_t count) {
-  if (count == 1) return "once";
-  return count == 2 ? "twice" : fmt::format("{} times", count);
-}
-
 }  // namespace fleetproof::web

@@ -18,9 +18,6 @@ const char* word_of(Receipt receipt);
 // "GRANT #118", and its content if there is one: "GRANT #118 (answers 7.0)".
 std::string text_of(const Message& message);
 
-// "once", "twice", "3 times".
-std::string times_text(std::size_t count);
-
 // Where something stands in the run: by its instant, and of things at one instant by their cause and effect.
 struct Moment {
   std::int64_t at_us = 0;

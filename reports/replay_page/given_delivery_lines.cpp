@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "reports/page/wording.hpp"
-#include "reports/replay_page/film_talk.hpp"
+#include "reports/replay_page/film_words.hpp"
 
 namespace fleetproof::web {
 namespace {
@@ -45,14 +45,13 @@ std::string delivery_text(const Given& given, const Film& film) {
 
 }  // namespace
 
-std::vector<ReasonLine> given_delivery_lines(const Film& film) {
+std::vector<GivenDeliveryLine> given_delivery_lines(const Film& film) {
   const std::vector<Given> all = given_until_failure(film);
   const std::size_t skipped = all.size() > kMostDeliveries ? all.size() - kMostDeliveries : 0;
-  std::vector<ReasonLine> lines;
+  std::vector<GivenDeliveryLine> lines;
   for (std::size_t i = skipped; i < all.size(); ++i) {
     const Given& given = all[i];
-    ReasonLine line;
-    line.marked = true;
+    GivenDeliveryLine line;
     line.at_us = given.message->sent_us;
     line.text = fmt::format("{} from {} to {}, sent {} s: {}{}", text_of(*given.message),
                             film.bodies[given.message->sender].name, film.bodies[given.receiver].name,

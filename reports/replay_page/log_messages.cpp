@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "reports/page/wording.hpp"
-#include "reports/replay_page/message_numbers.hpp"
 
 namespace fleetproof::web {
 namespace {
@@ -30,7 +29,6 @@ class MessageLines {
 
   std::vector<LogLine> all() {
     for (const Message& message : film_.messages) {
-      note_request(message);
       if (message.sent_us < from_us_ || message.sent_us > to_us_) continue;
       const std::vector<Place> places = places_of(message);
       const bool counts = is_subject_[message.sender] ||
@@ -115,9 +113,7 @@ class MessageLines {
     std::string delivery;
     if (message.receiver && !places.empty())
       delivery = fmt::format("{} {}", word_of(places.front().receipt), places.front().received.size());
-    // After a new request, another line begins: the first answer to it is not folded into answers before it.
-    const std::size_t asked = message.receiver ? requests_[*message.receiver].count : 0;
-    line.alike = fmt::format("{}\n{}\n{}\n{}\n{}", line.who, message.kind, message.content, delivery, asked);
+    line.alike = fmt::format("{}\n{}\n{}\n{}", line.who, message.kind, message.content, delivery);
     lines_.push_back(std::move(line));
   }
 
@@ -138,22 +134,7 @@ class MessageLines {
     }
   }
 
-  // A body asks with other numbers than before.
-  void note_request(const Message& message) {
-    const MessageNumbers numbers = numbers_asked(message.content);
-    Requests& own = requests_[message.sender];
-    if (numbers.list.empty() || numbers.list == own.numbers) return;
-    own.numbers = numbers.list;
-    ++own.count;
-  }
-
-  struct Requests {
-    std::size_t count = 0;
-    std::vector<std::string> numbers;  // of the newest one
-  };
-
   const Film& film_;
-  std::map<std::size_t, Requests> requests_;  // by body
   std::int64_t from_us_, to_us_;
   std::vector<bool> is_subject_;
   std::vector<LogLine> lines_;

@@ -113,44 +113,25 @@ const tellDetails = (body, t_s, all, box) => {
   }
 };
 
-// Why the AGV began what it does, or did last.
-const tellReason = (body, t_s, box) => {
-  const row = lastActivityOf(body, t_s), reason = reasons.get(row);
-  if (!row) return;
-  const part = element('div', undefined, 'reason');
-  const title = reason ? reason.title : 'It began to ' + word(row[3]) + ' at ' + seconds(row[1] / 1e3);
-  part.append(element('h3', title));
-  if (!reason) part.append(element('p', 'The page has this only for activities nearer to the failure.', 'soft'));
-  for (const [flags, at_us, text] of reason ? reason.lines_us : []) {
-    const line = element('p', text, ['sentence', 'head-line', 'item'][flags % 4] + (flags >= 4 ? ' marked' : ''));
-    line.dataset.us = at_us;
-    part.append(line);
-  }
-  box.append(part);
-};
-
-// On a wide screen the reasons of what is fatal stand beside the floor, unless an AGV is selected; else below it.
-const reasonsBox = document.getElementById('reasons'), kWide = matchMedia('(min-width: 1150px)');
-const placeReasons = () => {
+// On a wide screen, why the run failed stands beside the floor, unless an AGV is selected; else below it.
+const whyBox = byId('why'), kWide = matchMedia('(min-width: 1150px)');
+const placeWhy = () => {
   const player = byId('player'), home = kWide.matches ? panel.parentElement : player.parentElement;
   const next = kWide.matches ? panel : player.nextElementSibling;
-  if (next !== reasonsBox && reasonsBox.nextElementSibling !== next) home.insertBefore(reasonsBox, next);
-  reasonsBox.hidden = selected !== null && kWide.matches;
+  if (next !== whyBox && whyBox.nextElementSibling !== next) home.insertBefore(whyBox, next);
+  whyBox.hidden = selected !== null && kWide.matches;
 };
 
 // The selected AGV or computer with all details; without one, those involved in short, or else the computers.
 const tell = (t_s, all) => {
-  placeReasons();
+  placeWhy();
   tellPair(t_s, all);
   const box = document.createDocumentFragment();
   const bodies = selected === null ? (film.involved.length ? film.involved : kComputers).slice(0, 6) : [selected];
   for (const body of bodies) {
     tellBody(body, t_s, all, box);
-    if (body === selected) tellReason(body, t_s, box);
     if (bodies.length <= 2) tellDetails(body, t_s, all, box);
   }
-  if (bodies.length && selected === null)
-    box.append(element('p', 'Select an AGV to read why it began what it does: click on it, or press 1 to 9.', 'soft'));
-  if (!bodies.length) box.append(element('p', 'Select an AGV: click on it, or press 1 to 9.', 'soft'));
+  if (selected === null) box.append(element('p', 'Select an AGV: click on it, or press 1 to 9.', 'soft'));
   panel.replaceChildren(box);
 };

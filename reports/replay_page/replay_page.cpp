@@ -7,7 +7,7 @@
 #include "reports/markup/section_tables.hpp"
 #include "reports/replay_page/assets.hpp"
 #include "reports/replay_page/clearance_chart.hpp"
-#include "reports/replay_page/drive_reasons.hpp"
+#include "reports/replay_page/differences.hpp"
 #include "reports/replay_page/event_log_part.hpp"
 #include "reports/replay_page/film_budget.hpp"
 #include "reports/replay_page/film_json.hpp"
@@ -54,42 +54,18 @@ std::string kicker_of(const Film& film) {
   return text;
 }
 
-Element header_of(const Film& film, const ReasonLine* decisive) {
+Element header_of(const Film& film, const std::string& lead) {
   Element header("header");
   header.add(text_element("p", kicker_of(film), {{"class", "kicker"}}));
   header.add(text_element("h1", film.title));
   Element story("div", {{"class", film.failed || !film.involved.empty() ? "story failed" : "story"}});
-  const auto instant = [&](const ReasonLine& line, const char* name) {
-    return text_element("p", line.text, {{"class", name}, {"data-us", fmt::format("{}", line.at_us)}});
-  };
   for (std::size_t i = 0; i < film.story.size(); ++i) {
     story.add(text_element("p", film.story[i]));
-    if (i == 0 && decisive != nullptr) story.add(instant(*decisive, "decisive"));
+    if (i == 0 && !lead.empty()) story.add(text_element("p", lead, {{"class", "decisive"}}));
   }
-  for (const ReasonLine& line : given_delivery_lines(film)) story.add(instant(line, "given"));
+  for (const GivenDeliveryLine& line : given_delivery_lines(film))
+    story.add(text_element("p", line.text, {{"class", "given"}, {"data-us", fmt::format("{}", line.at_us)}}));
   return header.add(story);
-}
-
-Element reason_element(const Reason& reason) {
-  Element box("div", {{"class", "reason"}});
-  box.add(text_element("h3", reason.title));
-  for (const ReasonLine& line : reason.lines) {
-    constexpr const char* kClasses[] = {"sentence", "head-line", "item"};
-    box.add(text_element(
-        "p", line.text,
-        {{"class", fmt::format("{}{}", kClasses[static_cast<std::size_t>(line.rank)], line.marked ? " marked" : "")},
-         {"data-us", fmt::format("{}", line.at_us)}}));
-  }
-  return box;
-}
-
-// The reasons of what is fatal, side by side; the others stand in the data of the page.
-Element reasons_part(const std::vector<Reason>& reasons) {
-  Element part("div", {{"class", "reasons"}, {"id", "reasons"}});
-  for (const Reason& reason : reasons) {
-    if (reason.is_fatal) part.add(reason_element(reason));
-  }
-  return part;
 }
 
 // At the bottom: names of files may tell a cause that one wants to see first.
@@ -137,10 +113,24 @@ Element words_part(const Film& film) {
   return part.add(list);
 }
 
-// Where the decision fell; without one, as the story says.
-void open_at_decision(Film& film, const std::vector<Reason>& reasons) {
-  if (!film.violations.empty() && !reasons.empty() && reasons.front().is_fatal && reasons.front().activity)
-    film.open_us = std::min(film.open_us, reasons.front().decided_us);
+// Found in the smallest case, in which other AGVs may fail.
+std::string lead_of(const ExplainedPart& explained) {
+  const std::string& lead = explained.run.lead;
+  const bool is_here = explained.shows == ExplainedPart::Shows::Smallest;
+  return lead.empty() || is_here ? lead : "In the smallest case that fails in the same way: " + lead;
+}
+
+// Where the bodies of a violation set off for what they did then; if that is not known, as the story says.
+void open_where_they_set_off(Film& film) {
+  if (film.violations.empty()) return;
+  for (const std::size_t body : film.involved) {
+    const ActivityBar* last = nullptr;
+    for (const ActivityBar& bar : film.activities) {
+      if (bar.body == body && bar.begin_us <= film.focus_us) last = &bar;
+    }
+    const bool went_on = last != nullptr && film.focus_us <= last->end_us;
+    if (went_on) film.open_us = std::min(film.open_us, last->commanded_us.value_or(last->begin_us));
+  }
 }
 
 std::string script_of(const std::string& json) {
@@ -150,28 +140,27 @@ std::string script_of(const std::string& json) {
 
 }  // namespace
 
-std::string replay_page(Film film) {
-  const std::vector<Reason> reasons = drive_reasons(film);
-  const ReasonLine* decisive = reasons.empty() || !reasons.front().is_fatal ? nullptr : reasons.front().decisive();
-  open_at_decision(film, reasons);
+std::string replay_page(Film film, const ExplainedPart& explained) {
+  open_where_they_set_off(film);
   Element tables("div", {{"id", "record"}});
   const EventLog event_log = event_log_of(film);
+  if (explained.failing != nullptr) tables.add(differences_part(*explained.failing, film, explained.small_page));
   if (!event_log.lines.empty()) tables.add(event_log_part(event_log));
   if (!film.clearances.empty()) tables.add(clearance_part(film));
   if (!film.strip.frames.empty()) tables.add(pictures_part(film));
   for (const Element& part : table_parts(film)) tables.add(part);
   keep_within(film);
   if (!film.left_out.empty()) tables.add(left_out_part(film));
-  std::string body = header_of(film, decisive).str();
+  std::string body = header_of(film, lead_of(explained)).str();
   body += Element("noscript")
               .add(text_element("p", "Scripts are off. The words, the pictures and the tables show the failure.",
                                 {{"class", "note"}}))
               .str();
-  body += reasons_part(reasons).str();
+  body += explained_part(explained).str();
   body += player_markup();
   body += tables.str() + run_part(film).str() + words_part(film).str();
   return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">{}<body><main>{}</main>{}</body></html>\n", head_of(film),
-                     body, script_of(film_json(film, reasons)));
+                     body, script_of(film_json(film)));
 }
 
 }  // namespace fleetproof::web

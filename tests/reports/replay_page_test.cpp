@@ -205,24 +205,6 @@ TEST(ReplayPage, HasThePlacesOfComputersAndWhatTheySayToEverybody) {
       << "faults of all stand in the event log";
 }
 
-// Whose answers count is inferred of AGVs alone. In this fleet they do not talk with each other at all.
-TEST(ReplayPage, BlamesNoAgvForSilenceIfAllTalkWithAServer) {
-  const auto reasons_text = [](const Film& film) {
-    std::string text;
-    const Json data = data_of(replay_page(film));
-    for (const Json& reason : data["reasons"]) {
-      for (const Json& line : reason["lines_us"]) text += line[2].get<std::string>() + "\n";
-    }
-    return text;
-  };
-  const std::string told = reasons_text(central_film());
-  EXPECT_THAT(told, HasSubstr("AGV 0 had sent ASK once (8.000 s)."));
-  for (const char* word : {"Answers in time", "had sent nothing to", "no ASK"}) EXPECT_THAT(told, Not(HasSubstr(word)));
-  Film mixed = central_film();
-  mixed.messages.push_back(message(9, 1, 0, 12'000'000, Receipt::Received));
-  EXPECT_THAT(reasons_text(mixed), HasSubstr("Answers in time: GRANT from AGV 1.")) << "to all is as good as to one";
-}
-
 TEST(ReplayPage, NamesComputersAmongThoseWhoReceive) {
   Film film = central_film();
   Message& to_all = film.messages.emplace_back(message(9, 0, 1, 12'000'000, Receipt::Received));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "tests/support/program.hpp"
@@ -113,6 +114,45 @@ TEST_F(ExplainVerb, ThePageTellsHowToSimulateThem) {
   EXPECT_THAT(explained.out, HasSubstr(" of 59 [share 1]."));
   EXPECT_THAT(explained.out, HasSubstr("fleetproof simulate runs/share-1.json --draw N"));
   EXPECT_THAT(explained.out, HasSubstr("fleetproof simulate runs/branch-1.json --radio-draw N"));
+}
+
+// What was found of a run is kept beside its results file, and its page shows it; that of another run does not.
+TEST_F(ExplainVerb, ThePageOfARunShowsWhatWasFound) {
+  int failing = -1;
+  for (int index = 0; index < 12 && failing < 0; ++index) {
+    if (run("replay a.db " + std::to_string(index) + " --html p.html").out.find("  failure: contact") !=
+        std::string::npos)
+      failing = index;
+  }
+  ASSERT_GE(failing, 0);
+  const std::string index = std::to_string(failing);
+  const std::string before = read(path("p.html"));
+  EXPECT_THAT(before, HasSubstr("<code>fleetproof explain a.db " + index + "</code>"));
+  EXPECT_THAT(before, testing::Not(HasSubstr("Why it failed</h3>")));
+  const auto explained = run("explain a.db " + index + " --max-trials 300 --html pages");
+  ASSERT_EQ(explained.exit_code, 0) << explained.err;
+  ASSERT_TRUE(test::has_verdict(run("replay a.db " + index + " --html p.html")));
+  const std::string page = read(path("p.html"));
+  EXPECT_THAT(page, HasSubstr("Why it failed</h3>"));
+  std::istringstream lines(explained.out);
+  std::size_t told = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("- ") || line.find_first_of("[<>&\"") != std::string::npos) continue;
+    EXPECT_THAT(page, HasSubstr(line.substr(2)));
+    ++told;
+  }
+  EXPECT_GT(told, 3U);
+  // The pages of the runs: each that a sentence names, beside the case that fails.
+  for (const char* file : {"pages/index.html", "pages/smallest.html", "pages/001.html"})
+    EXPECT_THAT(read(path(file)), HasSubstr("name=\"generator\" content=\"fleetproof replay\"")) << file;
+  EXPECT_THAT(read(path("pages/001.html")), HasSubstr("Beside the failing case"));
+  EXPECT_THAT(read(path("pages/index.html")), HasSubstr("href=\"001.html\""));
+  // A file of another run is not taken for that of this one.
+  const std::string kept = "a.run-" + index + ".explained.json";
+  write(kept, std::regex_replace(read(path(kept)), std::regex("\"of\": \"[0-9a-f]"), "\"of\": \"x"));
+  const auto other = run("replay a.db " + index + " --html p.html");
+  EXPECT_THAT(other.err, HasSubstr("is of another run, or of other software: explain the run again"));
+  EXPECT_THAT(read(path("p.html")), testing::Not(HasSubstr("Why it failed</h3>")));
 }
 
 TEST_F(ExplainVerb, ADrawIsACountingNumber) {
