@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "campaign/cli/campaign_words.hpp"
+#include "campaign/cli/recorded_elsewhere.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/run/replay.hpp"
 #include "campaign/run/run_one.hpp"
@@ -41,13 +42,6 @@ class FilmMaker {
           "No film strip: simulated again for this page, the run came out differently (" + result.explanation + ").";
       return strip;
     }
-    if (stills.front().bodies.empty()) {
-      strip.note =
-          "No film strip: control software in a shared object is drawn from the recording of its calls. Only runs that "
-          "broke a distance, crashed or hung are recorded; this run did none of these (it stalled, for instance). The "
-          "command above simulates it again.";
-      return strip;
-    }
     return strip_of(stills, subject, source_.scenario(run.run_index));
   }
 
@@ -59,10 +53,7 @@ class FilmMaker {
     if (const auto recording = archive_.recording(run_index)) return play(run_index, *recording, std::move(camera));
     if (std::ranges::find(plugins, agent.name) == plugins.end())
       return RunOne(plan_, reference_)(run_index, nullptr, {}, std::move(camera));
-    RunRecord again = in_worker(run_index, agent);
-    // Another outcome gets no frames, and needs no recording.
-    if (again.recording.empty()) return again;
-    return play(run_index, again.recording, std::move(camera));
+    return play(run_index, recorded_again(run_index, agent), std::move(camera));
   }
 
   RunRecord play(std::uint64_t run_index, const std::string& recording, std::unique_ptr<StillCamera> camera) {
@@ -71,14 +62,11 @@ class FilmMaker {
     return RunOne(plan_, reference_)(run_index, nullptr, watch, std::move(camera));
   }
 
-  RunRecord in_worker(std::uint64_t run_index, const AgentFactor& agent) {
+  // A campaign records failures that break a distance, crash or hang; one that stalled is recorded now.
+  std::string recorded_again(std::uint64_t run_index, const AgentFactor& agent) {
     AgentPrograms programs;
     meet_plugins(path_, archive_.campaign(), {&agent, 1}, {}, programs, &AgentPrograms::know);
-    RunHost host(plan_, programs, Hosting{});
-    host.record(agent_of_run(run_index, plan_.agents.size()), true);
-    auto record = host(run_index);
-    ensure(record.has_value(), "a strip is not abandoned");
-    return *std::move(record);
+    return recorded_elsewhere(source_.scenario(run_index), case_agent(plan_, agent), programs);
   }
 
   const ArchiveReader& archive_;

@@ -152,7 +152,7 @@ ReplayWords page_words(const ReplayVerbWords& words, const CellRecord& cell, con
                        const std::optional<RunRecord>& stored) {
   ReplayWords page{
       replay_command(words.archive, words.run), {{"run", fmt::format("{}", words.run)}, {"agent", cell.agent}}, {}};
-  if (!stored || !stored->outcome.is_failure()) return page;
+  if (!stored || !chosen_failure(stored->outcome, {})) return page;
   page.explained.command = fmt::format("fleetproof explain {} {}", shell_word(words.archive), words.run);
   page.explained.run = kept_explained(explained_path(words.archive, words.run, {}),
                                       explained_name(archive.campaign(), words.run, stored->outcome, {}));

@@ -84,7 +84,9 @@ Explanation explain(CaseHost& host, const FailingCase& original, const ShrinkRes
   asking.ask("which messages it needs", [&] { add_message_needs(host, found.small, pattern, found.messages); });
   asking.ask("which AGVs, orders, faults and obstacles it needs",
              [&] { found.things = without_each_thing(host, found.small, pattern); });
-  asking.ask("until when braking avoids it", [&] { add_last_stops(host, found.small, pattern, found.stops); });
+  // A fleet that stalls has nothing to brake for.
+  if (found.small.failure.is_violation)
+    asking.ask("until when braking avoids it", [&] { add_last_stops(host, found.small, pattern, found.stops); });
   asking.ask("what let the AGVs set off", [&] { add_set_offs(host, found.small, pattern, found.set_offs); });
   asking.ask("how often the run fails with other draws",
              [&] { add_shares(host, original, found.small, pattern, found.shares); });

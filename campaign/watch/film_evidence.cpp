@@ -11,12 +11,14 @@
 #include "core/base/outside_text.hpp"
 #include "core/outcome/trace.hpp"
 #include "reports/page/wording.hpp"
+#include "reports/replay_page/film_words.hpp"
 
 namespace fleetproof {
 namespace {
 
 constexpr std::int64_t kFaultsBefore_us = 120'000'000;
 constexpr std::size_t kMostFaults = 4;
+constexpr double kSameStation_m = 5e-3;  // as places are shown
 
 // Cut to milliseconds, as everywhere on the page.
 double in_seconds(std::int64_t us) { return static_cast<double>(us / 1000) / 1e3; }
@@ -88,6 +90,15 @@ std::string place_text(const Vec2& place_m) {
 
 std::string FilmEvidence::name(EntityId id) const { return printable(body_name(scenario_, id)); }
 
+// "A4.2, (26.10, 9.20) m" at a station.
+std::string FilmEvidence::named_place(const Vec2& place_m) const {
+  for (const Station& station : scenario_.map->layout().stations) {
+    if ((station.position_m - place_m).norm() < kSameStation_m)
+      return printable(station.name) + ", " + place_text(place_m);
+  }
+  return place_text(place_m);
+}
+
 std::string FilmEvidence::doing(EntityId body, SimTime at) const {
   if (scenario_.is_computer(body)) return {};
   const Piece* piece = piece_at(bodies_, body, at);
@@ -104,9 +115,9 @@ std::string FilmEvidence::doing(EntityId body, SimTime at) const {
     text += fmt::format("was driving from {} at {:.2f} m/s", activity == nullptr ? "" : activity->details,
                         piece->speed_at(at));
   } else if (piece->manner == Manner::Turn) {
-    text += "was turning on the spot at " + place_text(pose.position_m);
+    text += "was turning on the spot at " + named_place(pose.position_m);
   } else {
-    text += "stood at " + place_text(pose.position_m);
+    text += "stood at " + named_place(pose.position_m);
     if (const auto since_us = stood_there_since(film_, body.index(), at_us))
       text += fmt::format(" since {:.3f} s", in_seconds(*since_us));
     if (activity != nullptr)
@@ -118,7 +129,8 @@ std::string FilmEvidence::doing(EntityId body, SimTime at) const {
       state != nullptr && !state->word.empty())
     text += fmt::format("; its agent said \"{}\" since {:.3f} s", state->word, in_seconds(state->at_us));
   if (const web::Waiting* wait = last_until(film_.waits, body.index(), at_us); wait != nullptr && wait->for_whom)
-    text += fmt::format(" and that it waited for {}", name(EntityId{*wait->for_whom}));
+    text += fmt::format(" and that it waited for {} (since {:.3f} s)", name(EntityId{*wait->for_whom}),
+                        in_seconds(wait->at_us));
   return text + ".";
 }
 
@@ -153,6 +165,38 @@ std::vector<std::string> FilmEvidence::messages(EntityId one, EntityId other, Si
   if (!sends(one) && !sends(other))
     return {fmt::format("Until then, neither {} nor {} had sent a message.", name(one), name(other))};
   return {};  // what they sent each other stands in the reasons of the page
+}
+
+// What a computer said to it last, and the last that said something else: the grant that it still has, for instance.
+std::vector<std::string> FilmEvidence::from_computers(EntityId agv, SimTime at) const {
+  std::vector<std::string> told;
+  for (std::size_t i = 0; i < scenario_.computers.size(); ++i) {
+    const EntityId computer{scenario_.agvs.size() + i};
+    const web::Message *last = nullptr, *before = nullptr;
+    for (const web::Message& m : film_.messages) {
+      const bool is_to_it = m.sender == computer.index() && m.receiver == std::optional(agv.index());
+      if (!is_to_it || m.sent_us > film_us(at)) continue;
+      if (last != nullptr && (last->kind != m.kind || last->content != m.content)) before = last;
+      last = &m;
+    }
+    if (last == nullptr) {
+      told.push_back(fmt::format("{} had sent it nothing.", name(computer)));
+      continue;
+    }
+    const auto text = [&](const web::Message& m) {
+      const web::Arrival* arrival = m.arrivals.empty() ? nullptr : &m.arrivals.front();
+      std::string fate = arrival == nullptr ? "" : std::string(", ") + web::word_of(arrival->receipt);
+      if (arrival != nullptr && arrival->receipt == web::Receipt::Received)
+        fate = m.sent_us + arrival->after_us > film_us(at)
+                   ? ", under way"
+                   : fmt::format(", received {:.3f} s", in_seconds(m.sent_us + arrival->after_us));
+      return fmt::format("{}, sent {:.3f} s{}", web::text_of(m), in_seconds(m.sent_us), fate);
+    };
+    std::string sentence = fmt::format("The last that {} had sent it was {}", name(computer), text(*last));
+    if (before != nullptr) sentence += fmt::format("; the last that said something else, {}", text(*before));
+    told.push_back(sentence + ".");
+  }
+  return told;
 }
 
 std::string FilmEvidence::faults(const std::vector<std::size_t>& bodies, SimTime at) const {

@@ -29,10 +29,13 @@ class FilmEvidence {
   std::vector<std::string> belief(EntityId agv, EntityId other, SimTime at) const;
   // That the two sent each other nothing, if it is so.
   std::vector<std::string> messages(EntityId one, EntityId other, SimTime at) const;
+  // What each computer of the scenario had said to it.
+  std::vector<std::string> from_computers(EntityId agv, SimTime at) const;
   std::string faults(const std::vector<std::size_t>& bodies, SimTime at) const;
 
  private:
   std::string name(EntityId id) const;
+  std::string named_place(const Vec2& place_m) const;
   bool is_agv(EntityId id) const { return id.index() < scenario_.agvs.size(); }
 
   const web::Film& film_;

@@ -149,38 +149,42 @@ class Storyteller {
 
   void tell_stall(const Incident& incident) {
     look_at(incident.first, 0);
-    const auto involve = [&](EntityId id) {
-      if (!id.valid() || film_.involved.size() == kMostInvolved) return;
-      if (std::ranges::find(film_.involved, id.index()) == film_.involved.end()) film_.involved.push_back(id.index());
-    };
-    involve(incident.a);
-    involve(incident.b);
     std::vector<const Incident*> waits;
     for (const Incident& wait : outcome_.incidents) {
-      if (incident.kind != IncidentKind::Deadlock || !is_link(wait.kind) || wait.first != incident.first) continue;
-      if (wait.last != incident.last) continue;
-      waits.push_back(&wait);
-      involve(wait.a);
-      involve(wait.b);
+      const bool is_of_it = incident.kind == IncidentKind::Deadlock && is_link(wait.kind) &&
+                            wait.first == incident.first && wait.last == incident.last;
+      if (is_of_it) waits.push_back(&wait);
     }
     open_when_all_wait(waits);
+    const SimTime closed = at_ns(film_.open_us * 1000);
+    const std::size_t left_out = involve_all(incident, waits, film_.open_us);
     const IncidentKindInfo& info = info_of(incident.kind);
     std::string word(info.name);
     word.front() = static_cast<char>(word.front() - 'a' + 'A');
     std::string whom;
-    for (const std::size_t body : film_.involved) whom += (whom.empty() ? "" : ", ") + name(EntityId{body});
+    for (const std::size_t body : film_.involved) {
+      const EntityId id{body};
+      const bool is_accused = incident.kind == IncidentKind::Deadlock || id == incident.a || id == incident.b;
+      if (is_accused) whom += (whom.empty() ? "" : ", ") + name(id);
+    }
+    if (left_out > 0 && incident.kind == IncidentKind::Deadlock) whom += fmt::format(" and {} more", left_out);
     film_.title =
         fmt::format("{}{}{} from {:.3f} s on", word, whom.empty() ? "" : ": ", whom, in_milliseconds(incident.first));
     add(fmt::format("From {:.3f} s to {:.3f} s: {}.", in_milliseconds(incident.first), in_milliseconds(incident.last),
                     info.meaning));
     for (const Incident* wait : waits) {
-      add(fmt::format("{} waits for {}{}.", name(wait->a), name(wait->b),
-                      wait->kind == IncidentKind::WaitsDeclared
-                          ? ", as its agent declares"
-                          : ", which stands in its way (its agent declares nothing)"));
+      if (wait->kind == IncidentKind::WaitsInferred)
+        add(fmt::format("{} waits for {}, which stands in its way (its agent declares nothing).", name(wait->a),
+                        name(wait->b)));
     }
-    for (const std::size_t body : film_.involved) add(evidence_.doing(EntityId{body}, incident.last));
-    tell_waiting_fleet(incident.last);
+    if (film_.open_us != film_.focus_us)
+      add(fmt::format("At {:.3f} s, when the last of these waits was declared:", in_milliseconds(film_.open_us)));
+    for (const std::size_t body : film_.involved) {
+      std::string told = evidence_.doing(EntityId{body}, closed);
+      for (const std::string& sentence : evidence_.from_computers(EntityId{body}, closed)) told += " " + sentence;
+      add(std::move(told));
+    }
+    tell_waiting_fleet(closed);
     add(evidence_.faults(film_.involved, incident.first));
     std::set<std::string> others;
     for (const Incident& other : outcome_.incidents) {
@@ -188,6 +192,47 @@ class Storyteller {
       if (its.role == IncidentRole::Accusation && other.kind != incident.kind) others.insert(std::string(its.name));
     }
     if (!others.empty()) add("The run was also filed for: " + joined({others.begin(), others.end()}) + ".");
+  }
+
+  // Who waits for whom then, as the agents say.
+  std::map<std::size_t, std::size_t> waiting(std::int64_t at_us) const {
+    std::map<std::size_t, std::size_t> whom;
+    for (const web::Waiting& w : film_.waits) {
+      if (w.at_us > at_us) continue;
+      whom.erase(w.body);
+      if (w.for_whom) whom[w.body] = *w.for_whom;
+    }
+    return whom;
+  }
+
+  // The bodies of the stall, those for whom they wait, and so on. Where no circle is known, the fleet stands: all its
+  // AGVs are involved, those that wait first. Returns how many do not fit.
+  std::size_t involve_all(const Incident& incident, const std::vector<const Incident*>& waits, std::int64_t at_us) {
+    std::vector<std::size_t> all;
+    const auto involve = [&](EntityId id) {
+      if (id.valid() && std::ranges::find(all, id.index()) == all.end()) all.push_back(id.index());
+    };
+    involve(incident.a);
+    involve(incident.b);
+    for (const Incident* wait : waits) {
+      involve(wait->a);
+      involve(wait->b);
+    }
+    const auto whom = waiting(at_us);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (const auto wait = whom.find(all[i]); wait != whom.end()) involve(EntityId{wait->second});
+    }
+    const bool is_circle =
+        std::ranges::any_of(waits, [&](const Incident* wait) { return wait->a == incident.a; }) || incident.b.valid();
+    if (incident.kind == IncidentKind::Deadlock && !is_circle) {
+      for (const auto& [one, other] : whom) involve(EntityId{one});
+      for (std::size_t agv = 0; agv < scenario_.agvs.size(); ++agv) involve(EntityId{agv});
+    }
+    std::erase_if(all, [&](std::size_t body) { return scenario_.is_computer(EntityId{body}); });
+    const std::size_t left_out = all.size() > kMostInvolved ? all.size() - kMostInvolved : 0;
+    all.resize(all.size() - left_out);
+    film_.involved = std::move(all);
+    return left_out;
   }
 
   // A deadlock is known from when it began, often before its AGVs say for whom they wait: the page opens when they do,
@@ -199,23 +244,23 @@ class Storyteller {
       return wait->kind == IncidentKind::WaitsInferred ||
              (found != now.end() && found->second == std::optional(wait->b.index()));
     };
-    for (const web::Waiting& w : film_.waits) {
+    for (std::size_t i = 0; i < film_.waits.size(); ++i) {
+      const web::Waiting& w = film_.waits[i];
       now[w.body] = w.for_whom;
-      if (w.at_us < film_.focus_us || !std::ranges::all_of(waits, holds)) continue;
-      if (!waits.empty()) film_.open_us = w.at_us;
+      const bool is_last_before = i + 1 == film_.waits.size() || film_.waits[i + 1].at_us > film_.focus_us;
+      if ((w.at_us < film_.focus_us && !is_last_before) || !std::ranges::all_of(waits, holds)) continue;
+      if (!waits.empty()) film_.open_us = std::max(film_.focus_us, w.at_us);
       return;
     }
   }
 
   void tell_waiting_fleet(SimTime at) {
-    std::map<std::size_t, bool> waits;
-    for (const web::Waiting& w : film_.waits) {
-      if (w.at_us <= film_us(at) && scenario_.is_agv(EntityId{w.body})) waits[w.body] = w.for_whom.has_value();
-    }
-    const auto waiting = std::ranges::count_if(waits, [](const auto& entry) { return entry.second; });
-    if (waiting > 0)
+    const auto whom = waiting(film_us(at));
+    const auto waiting_agvs =
+        std::ranges::count_if(whom, [&](const auto& entry) { return scenario_.is_agv(EntityId{entry.first}); });
+    if (waiting_agvs > 0)
       add(fmt::format("At {:.3f} s, {} of {} AGVs declared that they waited for another{}.", in_milliseconds(at),
-                      waiting, scenario_.agvs.size(), scenario_.computers.empty() ? "" : " or for a computer"));
+                      waiting_agvs, scenario_.agvs.size(), scenario_.computers.empty() ? "" : " or for a computer"));
   }
 
   void tell_end() {

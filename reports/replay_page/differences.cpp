@@ -89,7 +89,8 @@ class Rows {
     put_alike();
     // The last link leads here.
     Element end("tr", {{"id", fmt::format("difference-{}", differences_ + 1)}});
-    const std::string text = rows_ > kMostDifferences   ? count_text(rows_ - kMostDifferences, "more line") + " that differ"
+    const std::string text = rows_ > kMostDifferences
+                                 ? count_text(rows_ - kMostDifferences, "more line") + " that differ"
                              : differences_ == 0 ? "No difference in the time around the failure."
                                                  : "The end.";
     return body_.add(end.add(text_element("td", text, {{"colspan", "4"}})));

@@ -150,5 +150,30 @@ TEST(Explain, TheSentencesTellThatTwoMessagesSayTheSame) {
   EXPECT_EQ(is_told(), 0);
 }
 
+// The first line of a page: what decided it, as directly as a run shows it.
+TEST(Explain, TheLeadingSentenceIsTheOneThatNamesWhatDecidedIt) {
+  const auto leads = [](std::vector<int> decides) -> std::ptrdiff_t {
+    std::vector<Sentence> sentences;
+    for (const int weight : decides) sentences.push_back({"It is so.", {}, false, {}, 0, weight, {}});
+    const Sentence* found = leading(sentences);
+    return found == nullptr ? -1 : found - sentences.data();
+  };
+  EXPECT_EQ(leads({}), -1);
+  EXPECT_EQ(leads({0, 0}), -1) << "nothing that was tried avoids it";
+  EXPECT_EQ(leads({0, 1, 4, 4, 2}), 2) << "the first of those that say most";
+}
+
+// As text, a sentence ends with the numbers of what shows it.
+TEST(Explain, SentencesKnowTheirInstantsAndTheirRuns) {
+  MadeUp made;
+  const std::vector<Sentence> sentences = told(made.is);
+  ASSERT_FALSE(sentences.empty());
+  EXPECT_EQ(sentences.front().at, made.is.small.failure.at);
+  EXPECT_FALSE(sentences.front().is_of_run);
+  EXPECT_EQ(text_of({"It is so.", {}, false, {3, 4}, 0, 0, {}}), "It is so [3, 4].");
+  EXPECT_EQ(text_of({"It is so.", {}, false, {}, 2, 0, {}}), "It is so [share 2].");
+  EXPECT_EQ(text_of({"It is so.", {}, false, {}, 0, 0, {}}), "It is so.");
+}
+
 }  // namespace
 }  // namespace fleetproof::explain_sentences_test

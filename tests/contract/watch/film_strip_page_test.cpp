@@ -98,7 +98,8 @@ TEST_F(FilmStripPage, APlugInThatIsAtHandIsFilmed) {
     EXPECT_THAT(strip, HasSubstr("is not built in, and no session log beside c.db"));
 }
 
-TEST_F(FilmStripPage, APlugInThatOnlyStallsHasNoRecordingAndTheNoteSaysSo) {
+// A campaign keeps no recording of such a run. It is recorded for the page.
+TEST_F(FilmStripPage, APlugInThatOnlyStallsIsShownToo) {
   std::filesystem::copy_file(FLEETPROOF_FAULTY_AGENT, path("faulty.so"));
   write("c.toml",
         "replicates = 2\nhorizon_s = 600\n[factors]\nagents = [{ file = \"faulty.so\", config = \"stop\" }]\n"
@@ -107,8 +108,8 @@ TEST_F(FilmStripPage, APlugInThatOnlyStallsHasNoRecordingAndTheNoteSaysSo) {
   const auto all = strips("c.db");
   ASSERT_FALSE(all.empty()) << ran.out;
   for (const std::string& strip : all) {
-    EXPECT_EQ(frames_in(strip), 0u);
-    EXPECT_THAT(strip, HasSubstr("Only runs that broke a distance, crashed or hung are recorded; this run did none"));
+    EXPECT_GT(frames_in(strip), 0u) << strip;
+    EXPECT_THAT(strip, testing::Not(HasSubstr("No film strip")));
   }
 }
 

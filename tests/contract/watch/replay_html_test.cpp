@@ -308,10 +308,27 @@ TEST_F(ReplayHtml, ADeadlockSaysWhoWaitsForWhom) {
   ASSERT_EQ(run("replay d.db 0 --html p.html").exit_code, 0);
   const std::string page = read(path("p.html"));
   ASSERT_THAT(page, HasSubstr("<h1>Deadlock: "));
-  EXPECT_THAT(page, testing::ContainsRegex("<p>AGV [0-9]+ waits for AGV [0-9]+"));
+  EXPECT_THAT(page, testing::ContainsRegex("<p>AGV [0-9]+ stood at [^<]* and that it waited for AGV [0-9]+ \\(since "));
   EXPECT_THAT(page, HasSubstr("id=\"who-waits-for-whom\""));
   EXPECT_THAT(page, HasSubstr("this pair came closest of all"));
   EXPECT_GE(film("p.html")["involved"].size(), 2U);
+}
+
+// The server never repeats a grant: it believes that the AGVs have what the radio has lost.
+TEST_F(ReplayHtml, AStallOfACentralFleetSaysWhatTheServerHadSaid) {
+  write("g.toml",
+        "seed = 77\nreplicates = 2\nkind = \"search\"\nhorizon_s = 300\n[factors]\nagents = [{ vehicle = "
+        "\"follower\", computer = \"grants-once\" }]\nlayouts = [\"aisle-grid\"]\nfleet_sizes = [5]\nloss = [0.4]\n"
+        "delay_s = [2]\n[world]\ntransports_per_agv_hour = 30\n");
+  run("run g.toml --db g.db");
+  ASSERT_EQ(run("replay g.db 0 --html p.html").exit_code, 0);
+  const std::string page = read(path("p.html"));
+  ASSERT_THAT(page, HasSubstr("<h1>Deadlock: "));
+  EXPECT_THAT(page,
+              testing::ContainsRegex("the last that said something else, GRANT #[0-9]+ [^<]*, lost by chance\\."));
+  const Json shown = film("p.html");
+  EXPECT_EQ(shown["involved"].size(), 5U) << "no circle is known: the fleet stands";
+  EXPECT_THAT(page, HasSubstr("<code>fleetproof explain g.db 0</code>"));
 }
 
 // There is nothing to see before it, so the strip shows what comes after.
