@@ -17,6 +17,15 @@ constexpr std::size_t kEnoughFailing = 12;
 constexpr int kByGoAhead = 1, kByShare = 2, kByThing = 3, kByMessage = 4;
 constexpr Duration kNotable = std::chrono::milliseconds(10);  // so late a message is worth a word
 
+std::vector<std::string> names_of_bodies(const FailingCase& of) {
+  std::vector<std::string> names;
+  for (const EntityId body : {of.failure.a, of.failure.b}) {
+    if (body.valid()) names.push_back(name_of_body(of.scenario, body));
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 class Words {
  public:
   explicit Words(const Explanation& of) : of_(of), scenario_(of.small.scenario) {}
@@ -68,15 +77,6 @@ class Words {
     return agvs;
   }
 
-  static std::vector<std::string> names(const FailingCase& of) {
-    std::vector<std::string> names;
-    for (const EntityId body : {of.failure.a, of.failure.b}) {
-      if (body.valid()) names.push_back(name_of_body(of.scenario, body));
-    }
-    std::ranges::sort(names);
-    return names;
-  }
-
   void what_happens() {
     const Failure& failure = of_.small.failure;
     std::string who;
@@ -84,9 +84,10 @@ class Words {
     if (failure.b.valid()) who += " and " + name_of_body(scenario_, failure.b);
     say_at(failure.at, "The {} fails at {:.3f} s: {}{}.", of_.is_smallest ? "smallest case" : "case found so far",
            shown_seconds(failure.at), failure.kind.what, who);
-    if (const Failure& original = of_.original.failure; names(of_.original) != names(of_.small) && original.a.valid())
+    if (const Failure& original = of_.original.failure;
+        names_of_bodies(of_.original) != names_of_bodies(of_.small) && original.a.valid())
       say("In the run itself it is {}: the smallest case fails in the same way, but with others.",
-          fmt::join(names(of_.original), " and "));
+          fmt::join(names_of_bodies(of_.original), " and "));
     std::vector<std::string> doings;
     for (std::size_t i = 0; i < std::min(involved().size(), of_.doing.size()); ++i)
       doings.push_back(fmt::format("{} {}", name_of_body(scenario_, involved()[i]), past_of(of_.doing[i])));
@@ -203,8 +204,12 @@ class Words {
     if (delivery.copied) say("That message arrived twice.");
     if (delivery.delay >= kNotable) say("That message was {:.2f} s late.", to_seconds(delivery.delay));
     said_with(delivery);
-    if (key.asked.empty()) say("{} had heard nothing of {} when it sent it.", from, name);
-    for (const Question& asked : key.asked) question(is, asked, name, from);
+    if (key.answered) {
+      answered(*key.answered, name, from);
+    } else {
+      if (key.asked.empty()) say("{} had heard nothing of {} when it sent it.", from, name);
+      for (const Question& asked : key.asked) question(is, asked, name, from);
+    }
     if (!key.sender_drive || std::ranges::count(involved(), delivery.sender) == 0) return;
     const auto& map = *scenario_.map;
     say_at(key.sender_drive->at, "{} had last set off from {} for {} then, at {:.3f} s{}.", from,
@@ -212,6 +217,21 @@ class Words {
            shown_seconds(key.sender_drive->at),
            key.is_last_drive ? "; it was on that drive, or behind it, when it failed" : "");
     faults_between(delivery.sender, key.sender_drive->at - kStart, delivery.sent, "between that and the message");
+  }
+
+  // As the agents name their requests.
+  void answered(const Answered& is, const std::string& name, const std::string& from) {
+    if (is.asked) {
+      say_at(kStart + is.asked->delivery.sent, "It answers message {} ({}, {:.3f} s) of {}.", is.asked->number,
+             words_of(*is.asked), shown_seconds(is.asked->delivery.sent), name);
+    } else {
+      say("It answers a request (\"{}\") of {} that had not reached {} by then.", is.request, name, from);
+    }
+    if (is.asked_new)
+      say_at(
+          kStart + is.asked_new->delivery.sent,
+          "Before that drive or turn, {} had asked something else: message {} ({}, {:.3f} s). It is no answer to that.",
+          name, is.asked_new->number, words_of(*is.asked_new), shown_seconds(is.asked_new->delivery.sent));
   }
 
   void question(const SetOff& is, const Question& asked, const std::string& name, const std::string& from) {
@@ -289,6 +309,7 @@ class Words {
     if (of_.shares.empty()) return;
     const Share& base = of_.shares.front();
     say("With other draws, the run fails in the same way in {} of {}.", base.failing(), base.of).share = 1;
+    if (base.failing() == 0) return;  // changed runs that do not fail either tell nothing
     for (std::size_t i = 1; i < of_.shares.size(); ++i) {
       const Share& share = of_.shares[i];
       Sentence& sentence = say("If {}: {} of {}{}.", share.what, share.failing(), share.of, verdict(share, base));

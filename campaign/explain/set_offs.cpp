@@ -131,7 +131,7 @@ class Inquiry {
       Leave& leave = *std::ranges::find(leaves, message.delivery.sender, &Leave::from);
       if (leave.keys.size() == kMostKeys) continue;
       Without alone = without({message}, *runs[i], message_text(failing_.scenario, message));
-      GoAhead key{message, std::move(alone.claim), questions_before(message), {}, false};
+      GoAhead key{message, std::move(alone.claim), questions_before(message), {}, false, answered_by(message)};
       add_sender_drive(key);
       leave.keys.push_back(std::move(key));
     }
@@ -161,6 +161,24 @@ class Inquiry {
       questions.push_back({m, again.size(), again.empty() ? std::nullopt : std::optional(again.back())});
     }
     return questions;
+  }
+
+  // As the agents name their requests. Several answers in one message: that to a request of the AGV.
+  std::optional<Answered> answered_by(const MessageDelivery& answer) const {
+    if (answer.answers.empty()) return std::nullopt;
+    std::optional<Answered> found;
+    for (const MessageDelivery& m : all_) {
+      const bool is_of_agv = m.delivery.sender == drive_.agv && kStart + m.delivery.sent <= drive_.at;
+      if (!is_of_agv || m.asks.empty()) continue;
+      const bool is_answered = has_answer(answer.answers, m.asks);
+      if (is_answered && !found) found = Answered{m.asks, {}, {}};
+      if (!found) continue;
+      const bool had_reached_it = m.delivery.receiver == answer.delivery.sender && !m.delivery.lost &&
+                                  m.arrives() <= kStart + answer.delivery.sent && m.number < answer.number;
+      if (is_answered && had_reached_it) found->asked = m;
+      if (!is_answered && !found->asked_new) found->asked_new = m;
+    }
+    return found;
   }
 
   void add_sender_drive(GoAhead& key) const {

@@ -15,6 +15,13 @@ struct Question {
   std::optional<MessageDelivery> last_again;  // the last of them
 };
 
+// What a message answers, as its agent says: a message of the AGV that asks this, the last that had reached the sender.
+struct Answered {
+  std::string request;                       // its name
+  std::optional<MessageDelivery> asked;      // absent: no such message had reached the sender
+  std::optional<MessageDelivery> asked_new;  // before the drive, the AGV had asked something else: the first time
+};
+
 // A message that held the key to a drive: without it alone, the AGV does not set off then.
 struct GoAhead {
   MessageDelivery message;
@@ -22,6 +29,7 @@ struct GoAhead {
   std::vector<Question> asked;  // of the AGV, one for each kind, the latest first; empty: the sender had heard nothing
   std::optional<Departure> sender_drive;  // the last of its sender before it was sent
   bool is_last_drive = false;             // and before the failure
+  std::optional<Answered> answered{};     // absent: its agent does not say what it answers
 };
 
 // What an AGV that set off had from one other AGV.

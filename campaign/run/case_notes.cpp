@@ -40,7 +40,7 @@ void NoteKeeper::record(const TraceRecord& record, std::string_view text) {
     case TraceKind::Received: {
       const auto received = read<traced::Reception>(record);
       const Message& message = messages_[received.number];
-      const auto [kind, content] = message_words(message.text);
+      const auto [kind, content, asks, answers, about] = message_words(message.text);
       heard_.push_back({record.entity, received.sender, received.number, std::string(kind), std::string(content),
                         message.sent, record.at});
       return;

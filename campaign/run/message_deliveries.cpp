@@ -41,8 +41,12 @@ void DeliveryKeeper::decided(const TraceRecord& record) {
     message.delivery.delay = delay;
     message.on_its_way = due_after;
   }
-  message.kind = message_words(text_).kind;
-  message.content = message_words(text_).content;
+  const MessageWords words = message_words(text_);
+  message.kind = words.kind;
+  message.content = words.content;
+  message.asks = words.asks;
+  message.answers = words.answers;
+  message.about = words.about;
   message.number = number;
   first_of_.emplace(number, deliveries_.size());
   deliveries_.push_back(std::move(message));

@@ -13,10 +13,11 @@ namespace fleetproof {
 // A message at one receiver, and what became of it.
 struct MessageDelivery {
   GivenDelivery delivery;
-  std::string kind;          // as its sender describes it; empty if it does not
-  std::uint32_t number = 0;  // of the message in its run
-  std::string content{};     // what it says, as its sender describes it; may be empty
-  Duration on_its_way{};     // until it arrives, also on a perfect radio; of a lost one: zero
+  std::string kind;                        // as its sender describes it; empty if it does not
+  std::uint32_t number = 0;                // of the message in its run
+  std::string content{};                   // what it says, as its sender describes it; may be empty
+  std::string asks{}, answers{}, about{};  // as fp_message_fields has them; may be empty
+  Duration on_its_way{};                   // until it arrives, also on a perfect radio; of a lost one: zero
 
   SimTime arrives() const { return kStart + delivery.sent + on_its_way; }  // requires: it is not lost
   // Lost, or later than the air takes, or twice.

@@ -54,7 +54,7 @@ void TraceContext::note(const TraceRecord& record, std::string_view text) {
   const auto sent = read<traced::Sent>(record);
   const auto known = described_.find(sent.message_hash);
   const std::string described = known == described_.end() ? first_bytes(text) : known->second;
-  const auto [kind, content] = message_words(described);
+  const auto [kind, content, asks, answers, about] = message_words(described);
   messages_[sent.number] = {sent.number, record.entity,     sent.receiver,       record.at,
                             sent.bytes,  std::string(kind), std::string(content)};
 }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "core/agents/shapes.hpp"
 #include "core/sdk/fleetproof/agent.h"
@@ -103,6 +106,19 @@ class Controller {
   // Notes for people who look at a trace. A host of an older minor version takes none.
   void describe(const char* kind) {
     if (takes_notes()) host_.describe(handle_, kind);
+  }
+  // Of a message that is described as "KIND: content", with the requests that it makes and answers.
+  void describe(const char* kind_and_content, const char* asks, const char* answers, const char* about = nullptr) {
+    if (host_.abi_minor < 7) return describe(kind_and_content);
+    const char* content = std::strstr(kind_and_content, ": ");
+    const std::string_view kind(kind_and_content, content == nullptr
+                                                      ? std::strlen(kind_and_content)
+                                                      : static_cast<std::size_t>(content - kind_and_content));
+    std::array<char, 32> word{};
+    kind.copy(word.data(), word.size() - 1);
+    const fp_message_fields fields{
+        sizeof(fp_message_fields), word.data(), content == nullptr ? "" : content + 2, asks, answers, about};
+    host_.describe_message(handle_, &fields);
   }
   // `state` is a constant.
   void declare_state(const char* state) {

@@ -21,7 +21,7 @@ class LockMessages {
   LockMessages(const MapView& map, Controller& controller, std::uint32_t boot, Neighbours& neighbours,
                const Claim& claim, Blocker& blocker, bool asks_again)
       : controller_(controller),
-        transmitter_(map, controller, boot),
+        transmitter_(map, controller, neighbours.self(), boot),
         neighbours_(neighbours),
         claim_(claim),
         blocker_(blocker),

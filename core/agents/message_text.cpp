@@ -171,4 +171,30 @@ MessageText::MessageText(const Message& message, const MapView& map) {
   pen.at[-2] = '\0';
 }
 
+namespace {
+
+Pen put_request(Pen pen, std::uint32_t agv, Epoch epoch) {
+  pen = put(put(put(pen, agv), "/"), static_cast<std::uint32_t>(number_of(epoch) / kAttempts));
+  return boot_of(epoch) == 0 ? pen : put(put(pen, " of boot "), boot_of(epoch));
+}
+
+}  // namespace
+
+RequestNames::RequestNames(const Message& message, std::uint32_t self, std::uint32_t receiver) {
+  constexpr std::size_t kLongest = sizeof ",4294967295/4294967295 of boot 4294967295";
+  Pen pen{asks_.data(), asks_.data() + asks_.size()};
+  if (message.has_request()) pen = put_request(pen, self, message.status.epoch);
+  *pen.at = '\0';
+  pen = {answers_.data(), answers_.data() + answers_.size()};
+  const bool is_answer = message.kind == MessageKind::Grant || message.kind == MessageKind::Defer;
+  if (is_answer && receiver != FP_NONE) pen = put_request(pen, receiver, message.echo);
+  if (message.kind == MessageKind::State) {
+    for (std::uint32_t i = 0; i < message.answers.count && pen.room() > kLongest; ++i) {
+      if (i > 0) pen = put(pen, ",");
+      pen = put_request(pen, message.answers.list[i].agv, message.answers.list[i].echo);
+    }
+  }
+  *pen.at = '\0';
+}
+
 }  // namespace fleetproof::agents

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/agents/map_view.hpp"
 #include "core/agents/protocol_messages.hpp"
@@ -22,6 +23,20 @@ class MessageText {
 
  private:
   std::array<char, 128> text_;
+};
+
+// The requests that a message makes and answers, as fp_message_fields has them: "2/3" is the 3rd request of AGV 2, with
+// all its attempts; after a restart "2/3 of boot 1". Either may be empty.
+class RequestNames {
+ public:
+  // `self` sends the message to `receiver`; FP_NONE: to all.
+  RequestNames(const Message& message, std::uint32_t self, std::uint32_t receiver);
+  const char* asks() const { return asks_.data(); }
+  const char* answers() const { return answers_.data(); }
+
+ private:
+  std::array<char, 48> asks_;
+  std::array<char, 128> answers_;
 };
 
 }  // namespace fleetproof::agents

@@ -35,7 +35,8 @@ std::uint32_t Transmitter::begin_new_stamp() {
 }
 
 void Transmitter::send(const Message& message, std::uint32_t receiver) {
-  controller_.describe(MessageText(message, map_).c_str());
+  const RequestNames requests(message, self_, receiver);
+  controller_.describe(MessageText(message, map_).c_str(), requests.asks(), requests.answers());
   if (receiver == FP_NONE) {
     controller_.broadcast(WireMessage(message).bytes());
   } else {

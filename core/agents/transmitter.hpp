@@ -11,9 +11,9 @@ namespace fleetproof::agents {
 // Sends messages of the lock protocol, with what each of them says about the AGV itself.
 class Transmitter {
  public:
-  // `boot`: of the computer. Requires: the map outlives the object.
-  Transmitter(const MapView& map, Controller& controller, std::uint32_t boot)
-      : map_(map), controller_(controller), boot_(boot) {}
+  // `self`: the AGV; `boot`: of its computer. Requires: the map outlives the object.
+  Transmitter(const MapView& map, Controller& controller, std::uint32_t self, std::uint32_t boot)
+      : map_(map), controller_(controller), self_(self), boot_(boot) {}
 
   // The state of the AGV that the next messages contain.
   void describe(bool waiting, bool idle, bool out_of_order);
@@ -34,7 +34,7 @@ class Transmitter {
  private:
   const MapView& map_;
   Controller& controller_;
-  std::uint32_t boot_;
+  std::uint32_t self_, boot_;
   std::uint32_t first_unused_ms_ = 0;  // by a former self; 0: not known yet
   bool waiting_ = true, idle_ = true, out_of_order_ = false;
   Vec position_m_;

@@ -10,6 +10,7 @@ inline constexpr std::uint32_t kServicesMax = 10'000'000;  // calls of random an
 
 // What a trace and a tape keep of the notes of one activation.
 inline constexpr std::uint32_t kNotesMax = 1'000;
-inline constexpr std::uint32_t kNoteBytesMax = 64;  // of each text
+inline constexpr std::uint32_t kNoteBytesMax = 64;          // of each text
+inline constexpr std::uint32_t kDescriptionBytesMax = 200;  // of all fields of a message
 
 }  // namespace fleetproof

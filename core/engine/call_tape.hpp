@@ -60,6 +60,7 @@ enum class TapeItem : std::uint8_t {
   Keep,  // number and size of the record, and its hash in place of its bytes: nobody reads them in a played run
   WorksOn,
   DeclareWaiting,
+  DescribeMessage,  // a note: all fields as one text
 };
 
 inline constexpr std::uint8_t kTapeVersion = 1;

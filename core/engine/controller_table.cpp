@@ -239,6 +239,13 @@ void describe(fp_controller* controller, const char* kind) {
     controller->part->ports().declarations.describe(controller->agv, *text);
 }
 
+void describe_message(fp_controller* controller, const fp_message_fields* fields) {
+  if (!controller->hears_notes) return;
+  const auto text = noted(fields);
+  if (text && controller->part->admit_note(controller->agv))
+    controller->part->ports().declarations.describe(controller->agv, *text);
+}
+
 void declare_state(fp_controller* controller, const char* state) {
   if (!controller->hears_notes) return;
   const auto text = noted(state);
@@ -294,6 +301,7 @@ const fp_host kHost = {
     declare_waiting,
     fail,
     perceive,
+    describe_message,
 };
 
 }  // namespace fleetproof

@@ -60,6 +60,10 @@ void record(CallTape& tape, TapeItem item, const char* text) {
   tape.controller_call(item, std::string_view(text));
 }
 
+void record(CallTape& tape, TapeItem item, const fp_message_fields* fields) {
+  if (const auto kept = noted(fields)) tape.note(item, std::string_view(*kept));
+}
+
 // A record that cannot be kept is refused, whatever is in it.
 void record(CallTape& tape, TapeItem item, std::uint32_t number, const void* bytes, std::uint32_t size) {
   if (size > FP_DISK_BYTES || (bytes == nullptr && size > 0)) return tape.controller_call(TapeItem::NoEffect);
@@ -158,6 +162,7 @@ const fp_host kForeignHost = {
     guarded<&fp_host::declare_waiting, TapeItem::DeclareWaiting>,
     guarded<&fp_host::fail, TapeItem::NoEffect>,
     guarded<&fp_host::perceive, TapeItem::NoEffect>,
+    guarded<&fp_host::describe_message, TapeItem::DescribeMessage>,
 };
 
 }  // namespace fleetproof

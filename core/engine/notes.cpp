@@ -33,6 +33,43 @@ std::optional<NotedPose> noted(const fp_pose* where) {
                    heading_units(where->heading_y)};
 }
 
+namespace {
+
+// A field without what parts fields.
+std::string field_of(const char* text, std::size_t most) {
+  if (text == nullptr) return {};
+  std::string field(text, ::strnlen(text, most));
+  std::ranges::replace(field, kFieldEnd, ' ');
+  return field;
+}
+
+}  // namespace
+
+std::optional<std::string> noted(const fp_message_fields* fields) {
+  if (fields == nullptr || fields->struct_size < sizeof(fp_message_fields) || fields->kind == nullptr)
+    return std::nullopt;
+  std::size_t room = kDescriptionBytesMax;
+  const auto take = [&](const char* text) {
+    std::string field = field_of(text, std::min<std::size_t>(room, kNoteBytesMax));
+    room -= field.size();
+    return field;
+  };
+  const std::string given_kind = take(fields->kind);
+  const std::string kind(message_words(given_kind).kind);
+  const std::string asks = take(fields->asks), answers = take(fields->answers), about = take(fields->about);
+  std::string content = take(fields->content);
+  if (fields->content == nullptr) {
+    for (const auto& [word, field] : {std::pair("answers ", answers), std::pair("asks ", asks), std::pair("", about)}) {
+      if (!field.empty()) content += (content.empty() ? "" : ", ") + (word + field);
+    }
+  }
+  std::string text = kind;
+  if (!content.empty()) text += ": " + content;
+  if (!(asks + answers + about).empty())
+    for (const std::string& field : {asks, answers, about}) text += kFieldEnd + field;
+  return text;
+}
+
 fp_pose as_given(const NotedPose& pose) {
   return {pose.x_mm / 1e3, pose.y_mm / 1e3, pose.heading_x / NotedPose::kHeadingUnits,
           pose.heading_y / NotedPose::kHeadingUnits};

@@ -113,6 +113,7 @@ void TapePlayer::play_controller_call(TapeItem item, fp_controller* c) {
       return void(note(c, std::string(text()).c_str()));
     }
     case TapeItem::Describe:
+    case TapeItem::DescribeMessage:
     case TapeItem::DeclareState:
     case TapeItem::Believe:
     case TapeItem::NotesLeftOut:
@@ -173,6 +174,9 @@ void TapePlayer::play_note(TapeItem item, fp_controller* c) {
     where.heading_y = static_cast<std::int16_t>(time_ns());
     const fp_pose pose = as_given(where);
     kHost.believe(c, about, &pose, time_ns());
+  } else if (item == TapeItem::DescribeMessage) {
+    const std::string words(text());
+    if (c->hears_notes && c->part->admit_note(c->agv)) c->part->ports().declarations.describe(c->agv, words);
   } else {
     const std::string words(text());
     (item == TapeItem::Describe ? kHost.describe : kHost.declare_state)(c, words.c_str());

@@ -7,16 +7,45 @@
 
 namespace fleetproof {
 
+// Between the fields of a description: "KIND: content", and then, if the agent gives them, what the message asks, what
+// it answers and what it is about.
+inline constexpr char kFieldEnd = '\x1f';
+
 // What an agent says of a message, "KIND" or "KIND: content": messages are counted and sought by their kind, and a
-// reader sees the content, too. Without a kind it is all kind.
+// reader sees the content, too. Without a kind it is all kind. Requests are named by texts of the agent.
 struct MessageWords {
-  std::string_view kind, content;
+  std::string_view kind, content, asks{}, answers{}, about{};
 };
 constexpr MessageWords message_words(std::string_view described) {
   constexpr std::string_view kBetween = ": ";
-  const std::size_t end = described.find(kBetween);
-  if (end == described.npos || end == 0) return {described, {}};
-  return {described.substr(0, end), described.substr(end + kBetween.size())};
+  const auto take = [&] {
+    const std::size_t end = described.find(kFieldEnd);
+    const std::string_view field = described.substr(0, end);
+    described = end == described.npos ? std::string_view() : described.substr(end + 1);
+    return field;
+  };
+  MessageWords words;
+  const std::string_view first = take();
+  words.asks = take();
+  words.answers = take();
+  words.about = take();
+  const std::size_t end = first.find(kBetween);
+  const bool is_all_kind = end == first.npos || end == 0;
+  words.kind = is_all_kind ? first : first.substr(0, end);
+  words.content = is_all_kind ? std::string_view() : first.substr(end + kBetween.size());
+  return words;
+}
+// Whether a list of answers, "3.0, 4.1", has this request.
+constexpr bool has_answer(std::string_view answers, std::string_view request) {
+  while (!answers.empty() && !request.empty()) {
+    const std::size_t comma = answers.find(',');
+    std::string_view one = answers.substr(0, comma);
+    answers = comma == answers.npos ? std::string_view() : answers.substr(comma + 1);
+    while (one.starts_with(' ')) one.remove_prefix(1);
+    while (one.ends_with(' ')) one.remove_suffix(1);
+    if (one == request) return true;
+  }
+  return false;
 }
 
 // A place as notes keep it.

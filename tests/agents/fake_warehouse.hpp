@@ -321,6 +321,7 @@ inline void FakeWarehouse::add_later_calls(fp_host& host) {
     return FP_OK;
   };
   host.describe = [](fp_controller*, const char*) {};
+  host.describe_message = [](fp_controller*, const fp_message_fields*) {};
   host.declare_state = [](fp_controller*, const char*) {};
   host.believe = [](fp_controller*, std::uint32_t, const fp_pose*, std::int64_t) {};
   host.cannot_start = [](fp_controller*, const char*) -> std::int32_t { return FP_OK; };

@@ -49,6 +49,25 @@ Message request(const Row& row, std::uint32_t held_from = 1) {
   return message;
 }
 
+TEST(RequestNames, NameTheAgvThatAsks) {
+  const Row row;
+  const RequestNames asked(request(row), 2, FP_NONE);
+  EXPECT_STREQ(asked.asks(), "2/3") << "all attempts are one request";
+  EXPECT_STREQ(asked.answers(), "");
+  Message grant;
+  grant.kind = MessageKind::Grant;
+  grant.echo = first_epoch(1) + 4 * kAttempts + 2;
+  EXPECT_STREQ(RequestNames(grant, 5, 2).answers(), "2/4 of boot 1");
+  EXPECT_STREQ(RequestNames(grant, 5, 2).asks(), "");
+  Message state;
+  state.kind = MessageKind::State;
+  state.answers.count = 0;
+  state.status.requesting = false;
+  for (std::uint32_t agv = 0; agv < Answers::kMax; ++agv) state.answers.add({agv, 7 * kAttempts, true});
+  EXPECT_THAT(std::string(RequestNames(state, 5, FP_NONE).answers()), StartsWith("0/7,1/7,2/7,3/7,"));
+  EXPECT_LT(std::string(RequestNames(state, 5, FP_NONE).answers()).size(), 128U);
+}
+
 TEST(MessageText, SaysWhatIsAskedFor) {
   const Row row;
   EXPECT_EQ(row.text(request(row)), "REQUEST: asks with 3.0 for C4 to C14");

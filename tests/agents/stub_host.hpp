@@ -86,6 +86,7 @@ struct StubHost {
     table.declare_waiting = [](fp_controller*, std::uint32_t, std::uint32_t) -> std::int32_t { return FP_OK; };
     table.get_load = [](fp_controller*, std::uint32_t* out) -> std::int32_t { return *out = FP_NONE, FP_OK; };
     table.describe = [](fp_controller*, const char*) {};
+    table.describe_message = [](fp_controller*, const fp_message_fields*) {};
     table.declare_state = [](fp_controller* c, const char* text) { of(c).state = text; };
     table.keep = keep;
     table.recall = recall;

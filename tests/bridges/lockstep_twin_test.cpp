@@ -64,6 +64,8 @@ struct Twin {
     const std::string said = look();
     read();
     const std::string sent = said + std::string("\xff\0\"\\", 4);
+    const fp_message_fields fields{sizeof fields, "SAID", "all", "7", nullptr, "\xc3\xa9"};
+    host.describe_message(c, &fields);
     host.send_broadcast(c, sent.data(), static_cast<std::uint32_t>(sent.size()));
     host.sometimes(c, "woke");
     host.set_timer(c, 1, event.now_ns + 700'000'000);

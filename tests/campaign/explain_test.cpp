@@ -157,9 +157,51 @@ TEST(Explain, TheSentencesTellWhatLetItSetOff) {
                    "3.000 s)."));
   EXPECT_TRUE(says("The restart of " + name(agv) + " at 1.500 s was after it had sent that."));
   EXPECT_EQ(claims_of(is).size(), 3U);
+  // If its agent says what it answers, nothing is supposed.
+  last.asks = "8";
+  is.set_offs.front().leaves.front().keys.front().answered = Answered{"7", asked, last};
+  EXPECT_THAT(sentences_of(is),
+              testing::IsSupersetOf({"It answers message 5 (REQUEST, 1.000 s) of " + name(agv) + ".",
+                                     "Before that drive or turn, " + name(agv) +
+                                         " had asked something else: message 6 (REQUEST: asks with 8, "
+                                         "3.000 s). It is no answer to that."}));
+  EXPECT_THAT(sentences_of(is), testing::Not(testing::Contains(testing::HasSubstr("to reach it of"))));
+  is.set_offs.front().leaves.front().keys.front().answered = Answered{"7", {}, {}};
+  EXPECT_THAT(sentences_of(is), testing::Contains("It answers a request (\"7\") of " + name(agv) +
+                                                  " that had not reached " + name(other) + " by then."));
   is.set_offs.front().drive.to = drive.from;
   EXPECT_THAT(sentences_of(is), testing::Contains(testing::HasSubstr(" began to turn at ")));
   EXPECT_THAT(sentences_of(is), testing::Contains(testing::HasSubstr(", it does not turn then")));
+}
+
+// The agents say which request an answer is for. What the AGV had asked anew until it set off, it had not answered.
+TEST(Explain, AnAnswerBelongsToTheRequestThatItNames) {
+  std::size_t answers = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    Explained explained("timeout-grant", seed);
+    const auto all = explained.host(explained.is.small.scenario, Deliveries::Kept).deliveries;
+    for (const SetOff& drive : explained.is.set_offs) {
+      for (const Leave& leave : drive.leaves) {
+        for (const GoAhead& key : leave.keys) {
+          if (!key.answered) continue;
+          ++answers;
+          const std::string& list = key.message.answers;
+          EXPECT_TRUE(has_answer(list, key.answered->request));
+          EXPECT_TRUE(!key.answered->asked || has_answer(list, key.answered->asked->asks));
+          bool has_asked = false;
+          const MessageDelivery* other = nullptr;
+          for (const MessageDelivery& m : all) {
+            if (m.delivery.sender != drive.agv || kStart + m.delivery.sent > drive.drive.at || m.asks.empty()) continue;
+            has_asked = has_asked || has_answer(list, m.asks);
+            if (has_asked && !has_answer(list, m.asks) && other == nullptr) other = &m;
+          }
+          ASSERT_EQ(key.answered->asked_new.has_value(), other != nullptr);
+          EXPECT_TRUE(other == nullptr || key.answered->asked_new->number == other->number);
+        }
+      }
+    }
+  }
+  EXPECT_GT(answers, 0U) << "hull-lock says what it answers";
 }
 
 TEST(Explain, TheSentencesNameTheFault) {

@@ -53,7 +53,9 @@ Handler busy_agent(bool notes) {
     if (e.kind == FP_EVENT_START || e.kind == FP_EVENT_TIMER) host.set_timer(c, 0, e.now_ns + 1'000'000'000);
     const fp_pose where{-1.25, 2e3, 0.6, -0.8};
     if (notes) host.believe(c, 1 - b.self, &where, e.now_ns - 5);
-    if (notes) host.describe(c, "HELLO");
+    const fp_message_fields fields{sizeof fields, "HELLO", "", nullptr, nullptr, nullptr};
+    if (notes && b.self == 0) host.describe_message(c, &fields);
+    if (notes && b.self != 0) host.describe(c, "HELLO");
     if (e.kind == FP_EVENT_TIMER) host.send_broadcast(c, &e.now_ns, sizeof e.now_ns);
     fp_message message{};
     message.struct_size = sizeof message;
@@ -215,6 +217,45 @@ TEST(Notes, OfAMessageAreItsKindAndItsContent) {
     EXPECT_EQ(message_words(described).kind, kind) << described;
     EXPECT_EQ(message_words(described).content, content) << described;
   }
+}
+
+// What a message asks and answers, in fields. Both forms give one kind.
+TEST(Notes, OfAMessageMayHaveFields) {
+  const auto described = [](const fp_message_fields& fields) {
+    const auto words = notes_of([&](const fp_host& host, fp_controller* c) {
+                         host.describe_message(c, &fields);
+                         host.send_broadcast(c, "m", 1);
+                       }).words_of(TraceKind::Described);
+    return words.empty() ? std::string("none") : words.front();
+  };
+  const auto size = static_cast<std::uint32_t>(sizeof(fp_message_fields));
+  const std::string all = described({size, "GRANT: 7", "holds C2", "4.0", "3.0, 3.1", "C2 to C4"});
+  const MessageWords words = message_words(all);
+  EXPECT_EQ(words.kind, "GRANT");
+  EXPECT_EQ(words.content, "holds C2");
+  EXPECT_EQ(words.asks, "4.0");
+  EXPECT_EQ(words.answers, "3.0, 3.1");
+  EXPECT_EQ(words.about, "C2 to C4");
+  EXPECT_EQ(described({size, "GRANT", "holds C2", nullptr, nullptr, nullptr}), "GRANT: holds C2") << "as of `describe`";
+  EXPECT_EQ(described({size, "GRANT", "", nullptr, nullptr, nullptr}), "GRANT");
+  EXPECT_EQ(message_words(described({size, "GRANT", nullptr, "4.0", "3.0", "C2"})).content,
+            "answers 3.0, asks 4.0, C2");
+  EXPECT_EQ(message_words(described({size, "A\x1f", "b\x1f", "c\x1f", "d\x1f", nullptr})).answers, "d ");
+  EXPECT_EQ(described({size, nullptr, "holds C2", nullptr, nullptr, nullptr}), "none");
+  EXPECT_EQ(described({size - 1, "GRANT", nullptr, nullptr, nullptr, nullptr}), "none");
+  const std::string text(1000, 'x');
+  const std::string longest = described({size, text.c_str(), text.c_str(), text.c_str(), text.c_str(), text.c_str()});
+  EXPECT_EQ(std::ranges::count(longest, 'x'), 200) << "the content has no room";
+  EXPECT_EQ(message_words(longest).answers.size(), 64U);
+  EXPECT_EQ(message_words(longest).content, "");
+}
+
+TEST(Notes, AListOfAnswersHasWholeRequests) {
+  EXPECT_TRUE(has_answer("3.0, 13.0", "13.0"));
+  EXPECT_TRUE(has_answer("3.0,13.0", "3.0"));
+  EXPECT_FALSE(has_answer("13.0", "3.0"));
+  EXPECT_FALSE(has_answer("", ""));
+  EXPECT_FALSE(has_answer("3.0", ""));
 }
 
 // ---- tapes

@@ -47,6 +47,7 @@ class Calls(Callbacks[Agv]):
         print("on_start prints")
         agv.broadcast(b"\x00\xff")
         agv.describe("HI")
+        agv.describe("HI", content="for q", asks="1.0")
         agv.send(b"", 1)
         agv.set_timer(3, agv.now_ns + 5)
         agv.declare_cost(0.001)

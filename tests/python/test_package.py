@@ -114,6 +114,7 @@ class Package(unittest.TestCase):
             [
                 ["send_broadcast", "\u0000\u00ff"],
                 ["describe", "HI"],
+                ["describe", {"kind": "HI", "content": "for q", "asks": "1.0"}],
                 ["send_unicast", "", 1],
                 ["set_timer", 3, 1_000_000_005],
                 ["declare_cost_ns", 1_000_000],

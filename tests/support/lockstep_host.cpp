@@ -222,6 +222,18 @@ fp_host controller_functions() {
   };
   host.recall = recall, host.conflict = conflict;
   host.describe = [](C* c, const char* kind) { of(c).call({"describe", kind}); };
+  host.describe_message = [](C* c, const fp_message_fields* fields) {
+    Json given;
+    for (const auto& [name, text] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"kind", fields->kind},
+                                                                    {"content", fields->content},
+                                                                    {"asks", fields->asks},
+                                                                    {"answers", fields->answers},
+                                                                    {"about", fields->about}}) {
+      if (text != nullptr) given[name] = text;
+    }
+    of(c).call({"describe", given});
+  };
   host.declare_state = [](C* c, const char* state) { of(c).call({"declare_state", state}); };
   host.believe = [](C* c, U32 agv, const fp_pose* at, std::int64_t as_of_ns) {
     of(c).call({"believe", agv, {at->x_m, at->y_m, at->heading_x, at->heading_y}, as_of_ns});

@@ -82,6 +82,10 @@ void look_at_later_members(const Agent& self, uint32_t order) {
   seen.struct_size = sizeof seen;
   if (self.host->perceive(self.agv, &seen) != FP_OK || seen.battery_level <= 0.0) log(self, "perceive", order);
 #endif
+#if FP_ABI_MINOR >= 7
+  const fp_message_fields fields{sizeof fields, "LOOK", nullptr, "1", nullptr, nullptr};
+  self.host->describe_message(self.agv, &fields);
+#endif
   (void)self, (void)order;
 }
 

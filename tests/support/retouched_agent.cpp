@@ -18,6 +18,7 @@ struct Retouched {
 };
 
 void (*describe)(fp_controller*, const char*) = nullptr;
+void (*describe_message)(fp_controller*, const fp_message_fields*) = nullptr;
 std::uint64_t described = 0;
 
 // The first word is the kind.
@@ -27,12 +28,21 @@ void describe_with_number(fp_controller* controller, const char* text) {
   describe(controller, numbered.c_str());
 }
 
-// The host of the process, with another `describe`.
+void describe_message_with_number(fp_controller* controller, const fp_message_fields* fields) {
+  const std::string numbered = fields->kind + std::to_string(described++);
+  fp_message_fields changed = *fields;
+  changed.kind = numbered.c_str();
+  describe_message(controller, &changed);
+}
+
+// The host of the process, with other notes of messages.
 const fp_host* numbering(const fp_host* host) {
   static const fp_host copy = [&] {
     describe = host->describe;
+    describe_message = host->describe_message;
     fp_host changed = *host;
     changed.describe = describe_with_number;
+    changed.describe_message = describe_message_with_number;
     return changed;
   }();
   return &copy;

@@ -247,7 +247,7 @@ class Follower : public Program {
     for (std::size_t i = orders_told_; i < orders_.size() && state.orders.size() < kMostOrdersInAMessage; ++i)
       state.orders.push_back(orders_[i].order);
     const std::string text = "STATE: " + std::to_string(way_.done) + " of " + std::to_string(way_.known) + " steps";
-    controller_.describe(text.c_str());
+    controller_.describe(text.c_str(), way_.way.name().c_str(), nullptr);
     controller_.send(encode(state), server());
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/agents/byte_fields.hpp"
@@ -32,6 +33,8 @@ struct WayNumber {
   std::uint32_t server_boot = 0, agv_boot = 0;
   friend bool operator==(const WayNumber&, const WayNumber&) = default;
   void fields(auto& io) { io(server_boot, agv_boot); }
+  // "way 1.2": for people who read a trace.
+  std::string name() const { return "way " + std::to_string(server_boot) + "." + std::to_string(agv_boot); }
 };
 
 // From a follower. All numbers of steps and orders count from the beginning of its way.

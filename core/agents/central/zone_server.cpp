@@ -170,7 +170,8 @@ class ZoneServer : public Program {
     told.owes = false;
     told.steps = std::max(told.steps, last);
     const std::string steps = "steps " + std::to_string(grant.first + 1) + " to " + std::to_string(last);
-    controller_.describe(("GRANT: " + (grant.steps.empty() ? "nothing new" : steps)).c_str());
+    controller_.describe(("GRANT: " + (grant.steps.empty() ? "nothing new" : steps)).c_str(), nullptr,
+                         grant.way.name().c_str());
     controller_.send(encode(grant), agv);
   }
 

@@ -45,6 +45,14 @@ class Arguments {
     if (!at(place).is_string()) refuse(place, "is no text");
     return at(place).get_ref<const std::string&>();
   }
+  bool is_object(std::size_t place) const { return at(place).is_object(); }
+  // Of an object; empty: it has no such field.
+  std::string field(std::size_t place, const char* name) const {
+    const auto found = at(place).find(name);
+    if (found == at(place).end() || found->is_null()) return {};
+    if (!found->is_string()) refuse(place, "has a field that is no text");
+    return found->get<std::string>();
+  }
   std::uint64_t bits(std::size_t place) const {
     if (at(place).is_number_unsigned()) return at(place).get<std::uint64_t>();
     const std::string& digits = text(place);
@@ -153,6 +161,19 @@ CallResult with_text(const Controller& c, const Arguments& given, LineWriter& ou
 template <auto kMember>
 CallResult note(const Controller& c, const Arguments& given, LineWriter& out) {
   (c.host->*kMember)(c.handle, given.text(1).c_str());
+  answer_result(out, FP_OK);
+  return {FP_OK, true};
+}
+
+// "GRANT: answers 7", or {"kind": "GRANT", "answers": "7"}.
+CallResult describe(const Controller& c, const Arguments& given, LineWriter& out) {
+  if (!given.is_object(1)) return note<&fp_host::describe>(c, given, out);
+  const std::string kind = given.field(1, "kind"), content = given.field(1, "content"), asks = given.field(1, "asks"),
+                    answers = given.field(1, "answers"), about = given.field(1, "about");
+  const auto or_null = [](const std::string& text) { return text.empty() ? nullptr : text.c_str(); };
+  const fp_message_fields fields{sizeof(fp_message_fields), kind.c_str(),  or_null(content), or_null(asks),
+                                 or_null(answers),          or_null(about)};
+  c.host->describe_message(c.handle, &fields);
   answer_result(out, FP_OK);
   return {FP_OK, true};
 }
@@ -337,7 +358,7 @@ constexpr std::array kCalls{Call{"move", on_segment<&fp_host::move>},
                             Call{"log", with_text<&fp_host::log>},
                             Call{"keep", keep},
                             Call{"fail", fail},
-                            Call{"describe", note<&fp_host::describe>},
+                            Call{"describe", describe},
                             Call{"declare_state", note<&fp_host::declare_state>},
                             Call{"believe", believe},
                             Call{"get_position", get_position},

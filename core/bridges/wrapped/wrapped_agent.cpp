@@ -187,6 +187,7 @@ const fp_host kHostInside = {
     PassedOn<&fp_host::declare_waiting>::call,
     PassedOn<&fp_host::fail>::call,
     perceive,
+    PassedOn<&fp_host::describe_message>::call,
 };
 
 }  // namespace fleetproof::wrapped

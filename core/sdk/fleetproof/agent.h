@@ -52,7 +52,7 @@ extern "C" {
 #endif
 
 #define FP_ABI_MAJOR 1u
-#define FP_ABI_MINOR 6u
+#define FP_ABI_MINOR 7u
 
 #define FP_NONE 0xffffffffu /* no station, no segment, no AGV, no computer, no order */
 #define FP_HERE FP_NONE     /* as the segment of pick, drop, park and charge: where the AGV stands, without driving */
@@ -221,6 +221,18 @@ typedef struct fp_record {
   const void* bytes; /* valid until the next `keep` or the end of the activation */
 } fp_record;
 
+/* Since minor 7. What `describe_message` says of a message. Any text but the kind may be null. Requests are named by
+   texts of the agent's own, the same in the message that asks and in its answers: "3.0". An answer to several has
+   commas between them. */
+typedef struct fp_message_fields {
+  uint32_t struct_size;
+  const char* kind;    /* "GRANT" */
+  const char* content; /* what it says, for readers; null: its other fields */
+  const char* asks;    /* the request that it makes or repeats */
+  const char* answers; /* the requests that it answers */
+  const char* about;   /* what it is about: a way, a station, an order, as in "C12 to C14" */
+} fp_message_fields;
+
 /* Since minor 6. What `perceive` finds, as of the beginning of the activation. Of a computer, all that only an AGV has
  * is 0, and order_id is FP_NONE. */
 typedef struct fp_perceived {
@@ -355,6 +367,10 @@ typedef struct fp_host {
      out->struct_size first. */
   int32_t (*fail)(fp_controller*, uint32_t hang, const char* text);
   int32_t (*perceive)(fp_controller*, fp_perceived* out);
+
+  /* Since minor 7. A note, as `describe`: the next message of this activation, with what programs that look for causes
+     want to know of it. Both give one kind. A trace keeps 200 bytes of all fields of a message. */
+  void (*describe_message)(fp_controller*, const fp_message_fields* fields);
 } fp_host;
 
 /* ---- the agent ------------------------------------------------------------------------------------------- */

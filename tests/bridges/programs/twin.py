@@ -29,7 +29,8 @@ def activation(world, at, told):
     for message in told["messages"]:
         calls.append(["get_message"])
         calls.append(["log", "%d %s" % (message["sender"], message["bytes"].encode("latin-1").hex())])
-    calls += [["get_message"], ["send_broadcast", said + "\u00ff\u0000\"\\"], ["sometimes", "woke"]]
+    calls += [["get_message"], ["describe", {"kind": "SAID", "content": "all", "asks": "7", "about": "\u00e9"}]]
+    calls += [["send_broadcast", said + "\u00ff\u0000\"\\"], ["sometimes", "woke"]]
     calls += [["set_timer", 1, told["now_ns"] + 700000000], ["declare_state", "wandering"], ["get_action"]]
     calls.append(["keep", 7, said])
     if told["event"] == "order":

@@ -90,9 +90,14 @@ class Participant:
         first = self._unread.popleft()
         return Message(first["sender"], first["bytes"].encode("latin-1"))
 
-    def describe(self, kind: str) -> None:
-        """For people who look at a trace: the kind and content of the next message, as in ``"GRANT: answers 3"``."""
-        self._call("describe", kind)
+    def describe(self, kind: str, *, content: str = "", asks: str = "", answers: str = "", about: str = "") -> None:
+        """For people who look at a trace: the kind and content of the next message, as in ``"GRANT: answers 3"``.
+
+        With fields, ``explain`` knows which request (``asks``) the message makes, and which (``answers``) it answers.
+        """
+        fields = {"kind": kind, "content": content, "asks": asks, "answers": answers, "about": about}
+        given = {name: text for name, text in fields.items() if text}
+        self._call("describe", kind if len(given) < 2 else given)
 
     # ---- services of the computer
 
