@@ -308,10 +308,22 @@ class Words {
   void shares() {
     if (of_.shares.empty()) return;
     const Share& base = of_.shares.front();
-    say("With other draws, the run fails in the same way in {} of {}.", base.failing(), base.of).share = 1;
+    if (base.of == 1) {
+      say("Other draws change nothing: this run always fails so.").share = 1;
+    } else {
+      say("With other draws, the run fails in the same way in {} of {}.", base.failing(), base.of).share = 1;
+    }
     if (base.failing() == 0) return;  // changed runs that do not fail either tell nothing
     for (std::size_t i = 1; i < of_.shares.size(); ++i) {
       const Share& share = of_.shares[i];
+      if (share.of == 1) {
+        const char* what = share.failing() > 0         ? "it fails in the same way"
+                           : share.smallest_case_fails ? "it does not fail so: the run needs this to be otherwise, the "
+                                                         "smallest case does not"
+                                                       : "it does not fail so";
+        say("If {}, {}; other draws change nothing then.", share.what, what).share = i + 1;
+        continue;
+      }
       Sentence& sentence = say("If {}: {} of {}{}.", share.what, share.failing(), share.of, verdict(share, base));
       sentence.share = i + 1;
       if (base.failing() < kEnoughFailing || share.failing() > 0 || share.smallest_case_fails) continue;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <set>
 #include <utility>
 
 #include "campaign/shrink/adverse_deliveries.hpp"
@@ -105,7 +106,10 @@ void add_shares(CaseHost& host, const FailingCase& failing, const FailingCase& s
     const auto runs = all_runs(host, {kRunsPerShare, [&](std::size_t rank) {
                                         return std::optional(with_other_draws(share.run, draw(rank)));
                                       }});
-    for (std::size_t rank = 0; rank < runs.size(); ++rank) {
+    std::set<std::uint64_t> digests;
+    for (const auto& run : runs) digests.insert(run->outcome.digest);
+    if (digests.size() == 1) share.of = 1;
+    for (std::size_t rank = 0; rank < share.of; ++rank) {
       if (pattern.match(*runs[rank])) share.failing_draws.push_back(draw(rank));
     }
     if (share.failing_draws.empty()) share.smallest_case_fails = fails_with(host, small, change, pattern);

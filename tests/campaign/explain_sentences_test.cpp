@@ -113,11 +113,19 @@ TEST(Explain, WhatTheSmallestCaseDoesWithoutIsNoNeedOfTheFailure) {
   is.original = original;
   is.small = small;
   add_shares(host, original, small, pattern_of(host, original), is.shares);
-  EXPECT_THAT(sentences_of(is),
-              testing::Contains(testing::StartsWith("If speeds are a tenth lower: 0 of 59 (below 5 %, 95 % sure): the "
-                                                    "run needs this to be otherwise, the smallest case does not")));
+  EXPECT_THAT(sentences_of(is), testing::Contains("Other draws change nothing: this run always fails so [share 1]."));
+  EXPECT_THAT(sentences_of(is), testing::Contains(testing::StartsWith(
+                                    "If speeds are a tenth lower, it does not fail so: the run needs this "
+                                    "to be otherwise, the smallest case does not; other draws change "
+                                    "nothing then [share ")));
   is.shares.clear();
   add_shares(host, original, original, pattern_of(host, original), is.shares);
+  EXPECT_THAT(sentences_of(is),
+              testing::Contains(testing::StartsWith("If speeds are a tenth lower, it does not fail so; "
+                                                    "other draws change nothing then [share ")));
+  // Where the radio draws, a share is one of many runs.
+  for (Share& share : is.shares) share.of = kRunsPerShare;
+  is.shares.front().failing_draws.resize(kRunsPerShare);
   EXPECT_THAT(sentences_of(is), testing::Contains(testing::HasSubstr("tenth lower: 0 of 59 (below 5 %, 95 % sure): the "
                                                                      "failure needs this to be otherwise")));
 }
