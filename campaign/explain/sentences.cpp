@@ -123,8 +123,9 @@ class Words {
   void things() {
     for (const Claim& claim : of_.things) {
       Sentence& sentence = shown_by(1, say("It {}.", claim.sentence));
-      if (!claim.avoids) continue;
-      if (claim.tells_why) sentence.decides = kByThing;
+      // Without an AGV or its work, words are missing anyway.
+      if (!claim.avoids || !claim.tells_why) continue;
+      sentence.decides = kByThing;
       avoiding_.push_back(claim_);
       said_when_avoided_.insert(claim.words.begin(), claim.words.end());
     }
@@ -379,7 +380,8 @@ class Words {
   const Scenario& scenario_;
   std::vector<Sentence> lines_;
   std::size_t claim_ = 0;
-  std::vector<std::size_t> avoiding_;  // runs without a thing that avoid the failure, and all that is said in them
+  // Runs without a fault or a property that avoid the failure, and all that is said in them.
+  std::vector<std::size_t> avoiding_;
   std::set<std::string> said_when_avoided_;
 };
 
