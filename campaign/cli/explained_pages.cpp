@@ -116,7 +116,8 @@ void keep_explained(const std::string& path, const web::ExplainedRun& run) {
   try {
     write_whole({path, "explain", OutputKind::FoundExplanation}, web::explained_text(run));
   } catch (const InputError& error) {  // what was found is printed all the same
-    talk("note: not kept beside the results file: {}\n", error.what());
+    const std::string_view why = error.what();
+    talk("note: not kept beside the results file: {}\n", why.substr(0, why.find("; choose another path")));
   }
 }
 

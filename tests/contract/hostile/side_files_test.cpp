@@ -121,6 +121,8 @@ TEST_F(SideFiles, BesideAResultsFile) {
                               {"findings.toml", "findings a.db --max-failures 1 --file findings.toml", kRefused},
                               {"findings.toml", "retest findings.toml --agent hull-lock", kRefused},
                               {"case.json.trials", "shrink a.db 1 -o case.json --max-trials 3", kEither},
+                              {"a.run-1.explained.json", "replay a.db 1 --html r.html", kVerdict},
+                              {"a.run-1.explained.json", "explain a.db 1 --max-trials 3", kEither},
                               {"a.worker-0.log", "report a.db", kVerdict}};
   for (const Reading& reading : readings) expect_answers(reading);
   expect_small();
