@@ -87,8 +87,18 @@ void put_line(const Retested& retested) {
   put("{}  {}\n  {}\n  {}\n", finding.id, name_of(result.verdict), finding.mechanism,
       reason(result, finding.neighbours));
   // Beside each verdict: software may fail otherwise and no longer as it did.
-  put("  {} of {} neighbours end as the case did; in {}, where it was found, {} of {}\n", result.now.alike,
-      result.now.of, finding.found_in, finding.neighbours.alike, finding.neighbours.of);
+  put("  {} of {} neighbours end as the case did{}; in {}, where it was found, {} of {}\n", result.now.alike,
+      result.now.of,
+      result.now.alike == 0 ? fmt::format(" (below {:.2f} %, 95 % sure)", 100.0 * result.upper_bound) : "",
+      finding.found_in, finding.neighbours.alike, finding.neighbours.of);
+  if (result.looked_at > 0)
+    put("  {} of them were looked at: {} fail as it did, {} do not, of {} that is not known\n", result.looked_at,
+        result.known_kept, result.known_other, result.looked_at - result.known_kept - result.known_other);
+  for (const auto& [end, count] : result.now.otherwise) {
+    const auto then = finding.neighbours.otherwise.find(end);
+    put("  {} of {} end otherwise, with {}; {} of {} there\n", count, result.now.of, end,
+        then == finding.neighbours.otherwise.end() ? 0 : then->second, finding.neighbours.of);
+  }
   if (result.whole_runs.of > 0)
     put("  of runs of its campaign with other draws, {} of {} end so, {} of {} before\n", result.whole_runs.alike,
         result.whole_runs.of, finding.whole.counts.alike, finding.whole.counts.of);
@@ -115,6 +125,9 @@ void put_json(const std::vector<Retested>& all) {
                                 {"neighbours", result.now.of},
                                 {"failing", result.now.alike},
                                 {"upper_bound", result.upper_bound},
+                                {"looked_at", result.looked_at},
+                                {"known_as_before", result.known_kept},
+                                {"known_otherwise", result.known_other},
                                 {"otherwise", result.now.otherwise},
                                 {"new_kind", result.new_kind},
                                 {"hardly_drives", result.standing},

@@ -87,7 +87,7 @@ KeptFailure with_words(KeptFailure kept, const std::vector<std::string>& words) 
 // What neighbours need that fail with the same end, if no failure that was known is among them, or cannot be most of
 // them. Empty: it is.
 std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const std::vector<OtherKind>& others_known,
-                            const Neighbourhood& neighbourhood, const NeighbourCounts& now) {
+                            const Neighbourhood& neighbourhood, const NeighbourCounts& now, Retest& result) {
   if (now.alike < kFewestNew) return "";
   const auto first = needs_of_neighbours(host, neighbourhood, now.first_alike);
   const auto is_kept = [&](const FailureNeeds& found) {
@@ -98,7 +98,12 @@ std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const std::
     return !found.is_rare && !is_kept(found) && !may_be(kept, found);
   };
   const auto others = static_cast<std::size_t>(std::ranges::count_if(first, is_other));
-  if (2 * others > first.size()) return text_of_new(kept, *std::ranges::find_if(first, is_other));
+  result.looked_at = first.size();
+  result.known_other = others;
+  result.known_kept = static_cast<std::size_t>(
+      std::ranges::count_if(first, [&](const FailureNeeds& found) { return is_one_of(kept, found); }));
+  const auto known = static_cast<std::size_t>(std::ranges::count_if(first, is_kept));
+  if (2 * others > first.size() || others > known) return text_of_new(kept, *std::ranges::find_if(first, is_other));
   return std::ranges::any_of(first, is_kept) ? "" : text_of_new(kept, first.front());
 }
 
@@ -267,7 +272,7 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
     result.new_kind = text_of_new(kept, *of_case);
     result.verdict = RetestVerdict::NewKind;
   } else if (now.alike > 0) {
-    result.new_kind = other_mechanism(host, kept, known.others, neighbourhood, now);
+    result.new_kind = other_mechanism(host, kept, known.others, neighbourhood, now, result);
     result.verdict = !result.new_kind.empty() ? RetestVerdict::NewKind
                      : is_rarer(now, before)  ? RetestVerdict::StillThere
                                               : RetestVerdict::Dodged;

@@ -305,10 +305,16 @@ TEST(Retest, TheFirstNeighboursSayOfWhatKindTheyAre) {
   known.before.said.always.clear();
   const auto verdict = [&](std::vector<std::string> way) {
     known.kept.ways = {std::move(way)};
-    return retest(bench.host, known.kept, known.before, kSome).verdict;
+    return retest(bench.host, known.kept, known.before, kSome);
   };
-  EXPECT_NE(verdict({"lost messages"}), RetestVerdict::NewKind);
-  EXPECT_EQ(verdict({"lost messages", "restart"}), RetestVerdict::NewKind);
+  const Retest kept = verdict({"lost messages"}), other = verdict({"lost messages", "restart"});
+  EXPECT_NE(kept.verdict, RetestVerdict::NewKind);
+  EXPECT_EQ(other.verdict, RetestVerdict::NewKind);
+  // Both facts: how many fail as before, and how many do not.
+  EXPECT_GT(kept.known_kept, kept.known_other);
+  EXPECT_EQ(other.known_kept, 0U);
+  EXPECT_EQ(other.looked_at, kept.looked_at);
+  EXPECT_GT(other.looked_at, 0U);
 }
 
 }  // namespace

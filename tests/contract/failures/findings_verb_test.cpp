@@ -101,8 +101,10 @@ TEST_F(FindingsVerb, OtherSoftwareIsRetested) {
   EXPECT_EQ(sound.exit_code, 0) << sound.out << sound.err;
   EXPECT_THAT(sound.out, HasSubstr("  fixed\n"));
   EXPECT_THAT(sound.out, HasSubstr("neither the case nor any of 100 neighbours fails so (below 2.95 %, 95 % sure)"));
-  EXPECT_THAT(sound.out,
-              HasSubstr("  0 of 100 neighbours end as the case did; in timeout-grant, where it was found, "));
+  EXPECT_THAT(
+      sound.out,
+      HasSubstr("  0 of 100 neighbours end as the case did (below 2.95 %, 95 % sure); in timeout-grant, where it was "
+                "found, "));
   const auto faulty = run("retest findings.toml --agent timeout-grant --neighbours 100 --bisect");
   EXPECT_EQ(faulty.exit_code, 1);
   EXPECT_THAT(faulty.out, HasSubstr("  still there\n"));
