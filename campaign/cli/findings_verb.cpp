@@ -1,8 +1,10 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <set>
 
@@ -17,6 +19,7 @@
 #include "campaign/explain/sentences.hpp"
 #include "campaign/findings/failure_analysis.hpp"
 #include "campaign/findings/findings_file.hpp"
+#include "campaign/findings/refuted_needs.hpp"
 #include "campaign/findings/survey.hpp"
 #include "campaign/plan/plan_text.hpp"
 #include "campaign/plan/scenario_source.hpp"
@@ -38,7 +41,7 @@ constexpr std::chrono::seconds kKeepEvery{2};
 struct FindingsWords {
   std::string archive, file, out, failure, max_time;
   std::vector<std::string> plugins;
-  std::optional<std::uint64_t> most, jobs, trials;
+  std::optional<std::uint64_t> most, jobs, trials, need_trials;
   bool add = false, json = false;
 };
 
@@ -71,6 +74,7 @@ class FindingsOfCampaign {
       progress.say(fmt::format("looking at {} of {}, with up to {} runs for each of their failures",
                                runs_.looked_at.size(), count_text(runs_.all, "failing run"), kReplaysPerFailure));
       look(hosts, progress);
+      refute(hosts, progress);
       if (words_.add) add_new(hosts, progress);
     }
     if (words_.json) {
@@ -108,6 +112,39 @@ class FindingsOfCampaign {
     findings_ = findings_of(survey_.failures);
     write_found();
   }
+  // A need that is told is one that was looked for in vain in runs without it.
+  void refute(AgentHosts& hosts, WorkProgress& progress) {
+    progress.begin("looking for runs that fail without what their finding needs");
+    const ScenarioSource scenarios(plan_);
+    for (Finding& finding : findings_) {
+      const KnownIssue* known = kept(finding);
+      if (known != nullptr) finding.refuted = known->refuted;
+      if (finding.members.size() < 2) continue;  // of one failure, no needs are told
+      const KnownFailure& simplest = representative(finding);
+      try {
+        CaseHost host = hosts.of(finding.agent).looking_at(simplest.choice).within(limit_);
+        const std::vector<Scenario> smaller = known == nullptr ? std::vector<Scenario>() : cases_of(*known);
+        add_refuted_needs(host, finding, survey_.failures,
+                          {smaller, scenarios.scenario(simplest.run), words_.need_trials.value_or(kTrialsPerNeed)},
+                          finding.refuted);
+      } catch (const GivenUp&) {
+        ++not_searched_;
+      }
+    }
+    write_found();
+  }
+  // Those that are kept of it. A file that is missing costs a note.
+  std::vector<Scenario> cases_of(const KnownIssue& known) const {
+    try {
+      KeptFailure failure = file_.failure(known);
+      std::vector<Scenario> cases{std::move(failure.smallest), std::move(failure.world)};
+      std::ranges::move(failure.other_worlds, std::back_inserter(cases));
+      return cases;
+    } catch (const InputError& missing) {
+      talk("note: {}: {}\n", known.id, missing.what());
+      return {};
+    }
+  }
   void write_found() const { write_whole({out_, "--output", OutputKind::FoundFindings}, findings_text(record())); }
 
   int tell_end() const {
@@ -116,6 +153,9 @@ class FindingsOfCampaign {
            is_interrupted() ? "interrupted" : "the time is over", survey_.looked_at, runs_.looked_at.size());
       if (words_.add) talk("{} of {} new findings were added\n", added_, new_);
     }
+    if (not_searched_ > 0)
+      talk("the time is over: of {}, not all needs were looked for in runs without them\n",
+           count_text(not_searched_, "finding"));
     if (is_interrupted()) return exit_code_of_signal(interrupted());
     const auto is_open = [&](const Finding& f) { return needs_attention(kept(f), today()); };
     const bool all_seen = words_.add && added_ == new_;
@@ -125,8 +165,11 @@ class FindingsOfCampaign {
 
   void add_new(AgentHosts& hosts, WorkProgress& progress) {
     std::string text = read_text_file_if_there(words_.file).value_or("# findings: what is known about failures\n");
-    for (const Finding& finding : findings_) {
-      if (kept(finding) != nullptr) continue;
+    for (Finding& finding : findings_) {
+      if (const KnownIssue* known = kept(finding)) {
+        if (finding.refuted != known->refuted) text = with_refuted(std::move(text), *known, finding.refuted);
+        continue;
+      }
       ++new_;
       if (limit_.is_over()) continue;
       progress.say(fmt::format("{}: looking for its smallest case", finding.id()));
@@ -143,7 +186,7 @@ class FindingsOfCampaign {
   void write_file(const std::string& text) const { write_whole({words_.file, "--file", OutputKind::Findings}, text); }
 
   // What is not complete is not kept.
-  std::optional<KnownIssue> keep_unless_over(CaseHost& host, const Finding& finding) const {
+  std::optional<KnownIssue> keep_unless_over(CaseHost& host, Finding& finding) const {
     try {
       return keep(host, finding);
     } catch (const GivenUp&) {
@@ -152,10 +195,12 @@ class FindingsOfCampaign {
   }
 
   // Writes its scenarios and its explanation beside the findings file.
-  KnownIssue keep(CaseHost& host, const Finding& finding) const {
+  KnownIssue keep(CaseHost& host, Finding& finding) const {
     const std::string id = finding.id();
     const FailureAnalysis record =
         analysis_of(host, finding, representative(finding).needs, trials(), worlds_of(finding));
+    const std::vector<Scenario> smallest{record.kept.smallest};
+    add_refuted_needs(host, finding, survey_.failures, {smallest, record.kept.world, 0}, finding.refuted);
     const AgentFactor& agent = plan_.agent_of_cell(representative(finding).run);
     const auto write_case = [&](const Scenario& world, const std::string& name) {
       Scenario scenario = played_by(case_agent(plan_, agent), world);
@@ -163,11 +208,12 @@ class FindingsOfCampaign {
       write_beside(name, OutputKind::Scenario, printable_json(to_text(scenario)));
     };
     KnownIssue kept{.id = id,
-                    .mechanism = finding.mechanism.text(),
+                    .mechanism = finding.text(),
                     .until = {},
                     .reason = {},
                     .end = finding.mechanism.end,
                     .choice = representative(finding).choice,
+                    .refuted = finding.refuted,
                     .ways = record.kept.ways,
                     .doings = record.kept.doings,
                     .says = record.kept.says,
@@ -224,7 +270,7 @@ class FindingsOfCampaign {
     for (const Finding& finding : findings_) {
       put("\n{}  {}  {} of {}\n", finding.id(), standing_of(kept(finding), today()),
           count_text(finding.members.size(), "failure"), finding.agent);
-      put("  {}\n", finding.mechanism.text());
+      put("  {}\n", finding.text());
       const auto& end_point = representative(finding).end_point;
       put("  fleetproof explain {} {}{}\n", shell_word(words_.archive), representative(finding).run,
           end_point ? fmt::format(" --failure {}", name_of(*end_point)) : "");
@@ -258,9 +304,10 @@ class FindingsOfCampaign {
     record.not_again = survey_.not_again;
     for (const Finding& finding : findings_) {
       FailureMechanism& found = record.findings.emplace_back(
-          FailureMechanism{finding.id(), finding.agent, finding.mechanism.text(), standing_of(kept(finding), today()),
+          FailureMechanism{finding.id(), finding.agent, finding.text(), standing_of(kept(finding), today()),
                            needs_attention(kept(finding), today()), representative(finding).run});
       for (const std::size_t member : finding.members) found.runs.push_back(survey_.failures[member].run);
+      found.refuted = finding.refuted;
     }
     return record;
   }
@@ -276,6 +323,7 @@ class FindingsOfCampaign {
   SurveyedRuns runs_;
   Survey survey_;
   std::vector<Finding> findings_;
+  std::size_t not_searched_ = 0;     // findings of which not all needs were tried to be refuted
   std::size_t new_ = 0, added_ = 0;  // of the findings: not in the findings file, and added to it
 };
 
@@ -299,6 +347,8 @@ Action prepare_findings(Options& options) {
   add_failure_option(options, words->failure);
   options.option("--max-time", words->max_time, "end after this time with what was found, as in 90, 45m or 5h30m");
   options.option("--max-trials", words->trials, "of each smallest case, at most (default: 4000)");
+  options.option("--need-trials", words->need_trials,
+                 "try so many runs without each need of a finding before it is told (default: 1000)");
   options.option(
       "--plugin", words->plugins,
       "shared object or \"lockstep:COMMAND\" of an agent (default: what the campaign used); may be repeated");

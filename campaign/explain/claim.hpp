@@ -16,7 +16,8 @@ struct Claim {
   ExpectedOutcome outcome;           // what the run shows
   bool avoids = false;               // the failure
   std::vector<std::string> words{};  // all that the fleet declared in the run, sorted; of runs without a thing only
-  bool tells_why = false;  // of a run without a thing: it is a fault or a property, not one who only took part
+  // Of a run without a thing: it is a fault or a shape, not one who only took part or made them meet.
+  bool tells_why = false;
 };
 
 // How often a changed scenario fails in the same way with other draws: with_other_draws, by its numbers from 1 on.

@@ -133,15 +133,12 @@ void add_properties(const Scenario& scenario, std::vector<Without>& things) {
                                               Scenario less = s;
                                               for (AgvSetup& agv : less.agvs) agv.sensing = {};
                                               return less;
-                                            },
-                                            true},
-                                           {"low batteries",
-                                            [](const Scenario& s) {
+                                            }},
+                                           {"low batteries", [](const Scenario& s) {
                                               Scenario less = s;
                                               for (AgvSetup& agv : less.agvs) agv.battery = 1.0;
                                               return less;
-                                            },
-                                            true}};
+                                            }}};
   const std::uint64_t digest = scenario_digest(scenario);
   std::ranges::copy_if(properties, std::back_inserter(things),
                        [&](const Without& property) { return scenario_digest(property.edit(scenario)) != digest; });

@@ -335,6 +335,23 @@ std::string Mechanism::text() const {
   return text;
 }
 
+std::string Finding::text() const {
+  Mechanism shown = mechanism;
+  const bool is_single = members.size() == 1;
+  const auto is_untold = [&](const std::string& need) { return is_single || names_all(refuted, {need}); };
+  const bool had_needs = !shown.needs.empty();
+  std::erase_if(shown.needs, is_untold);
+  std::erase_if(shown.traits, [&](const std::string& trait) { return trait == kThirdAgvTrait && is_untold(trait); });
+  if (is_single && had_needs) {
+    std::string text = shown.text();
+    const std::string nothing = "; needs nothing";
+    return text.replace(text.find(nothing), nothing.size(), "; one failure does not tell what it needs");
+  }
+  std::vector<std::string> names;
+  for (const std::string& need : refuted) names.push_back(need == kThirdAgvTrait ? "a third AGV" : need);
+  return names.empty() ? shown.text() : fmt::format("{} (fails without {}, too)", shown.text(), fmt::join(names, ", "));
+}
+
 std::string Finding::id() const {
   const Mechanism named{mechanism.end, mechanism.needs, mechanism.doing, mechanism.words, {}};
   return fmt::format("F-{:08x}", name_hash(agent + ": " + named.text()) >> 32);

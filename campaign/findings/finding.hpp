@@ -36,9 +36,13 @@ struct KnownFailure {
 struct Finding {
   std::string agent;
   Mechanism mechanism;
-  std::vector<std::size_t> members;  // places in the list of failures, in its order
-  std::size_t representative = 0;    // one of them: the simplest
+  std::vector<std::size_t> members;    // places in the list of failures, in its order
+  std::size_t representative = 0;      // one of them: the simplest
+  std::vector<std::string> refuted{};  // needs, a third AGV among them, without which a run fails, too
 
+  // The mechanism in words, without what is refuted. Of a single failure it names no needs: other runs may fail so
+  // without them.
+  std::string text() const;
   // "F-1c2d3e4f": the same for equal agent, end, needs, doing and words on any machine, in any campaign.
   std::string id() const;
 };

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <utility>
 
+#include "campaign/findings/ingredients.hpp"
 #include "campaign/plan/plan_fields.hpp"
 #include "campaign/plan/toml_table.hpp"
 #include "core/base/catalogue.hpp"
@@ -256,6 +257,7 @@ KnownIssue read_finding(TomlTable& table) {
         "a waiver has a last day, one of the calendar, and a reason: until = \"2027-01-31\" and reason = \"...\"");
   finding.end = needed(table, "end");
   finding.choice = read_choice(table);
+  finding.refuted = texts(table, "refuted");
   finding.ways = lists(table, "ways");
   finding.doings = texts(table, "doings");
   finding.says = texts(table, "says");
@@ -301,6 +303,13 @@ KeptFailure FindingsFile::failure(const KnownIssue& finding) const {
                    finding.ways,
                    finding.doings,
                    finding.says};
+  // A failure that needs less is this one, too.
+  for (std::size_t i = 0, count = kept.ways.size(); i < count; ++i) {
+    std::vector<std::string> left = kept.ways[i];
+    std::erase_if(left, [&](const std::string& need) { return names_all(finding.refuted, {need}); });
+    if (std::ranges::count(kept.ways, left) == 0) kept.ways.push_back(std::move(left));
+  }
+  std::erase_if(kept.doings, [&](const std::string& doing) { return names_all(finding.refuted, {doing}); });
   for (const std::string& world : finding.other_worlds) kept.other_worlds.push_back(read_scenario(path_beside(world)));
   for (const std::string& run : finding.whole.files) kept.runs.push_back(read_scenario(path_beside(run)));
   return kept;
@@ -325,6 +334,7 @@ KnownRuns FindingsFile::known_runs(const KnownIssue& finding) const {
 std::string toml_of(const KnownIssue& finding) {
   std::string text = fmt::format("\n[[finding]]\nid = {}\nmechanism = {}\nstatus = \"{}\"\n", toml_text(finding.id),
                                  toml_text(finding.mechanism), name_of(finding.status));
+  if (!finding.refuted.empty()) text += fmt::format("refuted = {}\n", list_of(finding.refuted));
   text += text_of_choice(finding.choice);
   if (!finding.doings.empty()) text += fmt::format("doings = {}\n", list_of(finding.doings));
   if (!finding.says.empty()) text += fmt::format("says = {}\n", list_of(finding.says));
@@ -341,6 +351,17 @@ std::string toml_of(const KnownIssue& finding) {
       finding.neighbours.driven_elsewhere_m);
   return text + text_of_words("", finding.neighbours) + text_of_ends("neighbours_otherwise", finding.neighbours) +
          text_of_circumstances("circumstances", finding.neighbours.circumstances) + text_of_whole_runs(finding);
+}
+
+// The user may have written into the file: all else stays as it is.
+std::string with_refuted(std::string text, const KnownIssue& finding, const std::vector<std::string>& refuted) {
+  const std::string line = fmt::format("refuted = {}\n", list_of(refuted));
+  const std::size_t id = text.find("\"" + finding.id + "\"");
+  if (id == std::string::npos) return text;
+  const std::size_t end = std::min(text.find("[[finding]]", id), text.size());
+  const std::size_t old = text.find("\nrefuted = ", id);
+  if (old < end) return text.replace(old + 1, text.find('\n', old + 1) - old, line);
+  return text.insert(std::min(text.find('\n', id), text.size() - 1) + 1, line);
 }
 
 std::string standing_of(const KnownIssue* kept, std::string_view today) {

@@ -40,6 +40,7 @@ struct KnownIssue {
   std::string until, reason;  // of a waiver: "2027-01-31", its last day
   std::string end;
   FailureChoice choice{};                      // with which its failure is found in a run; none: it leads the run
+  std::vector<std::string> refuted{};          // needs of the mechanism without which a run fails, too
   std::vector<std::vector<std::string>> ways;  // as KeptFailure has them; the first is the mechanism's
   std::vector<std::string> doings, says;       // as KeptFailure has them
   std::string found_in;                        // the agent that failed so
@@ -71,6 +72,9 @@ class FindingsFile {
 
 // Appended to a findings file, it is one more finding.
 std::string toml_of(const KnownIssue& finding);
+
+// The text of a findings file in which these needs of a finding are struck, too. Its id stays what it is.
+std::string with_refuted(std::string text, const KnownIssue& finding, const std::vector<std::string>& refuted);
 
 // What a finding of a campaign is to the user, on a day ("2026-11-23"): "new", "known", "waived until 2027-01-31",
 // "known (waived until 2026-10-31)", "back".

@@ -41,8 +41,8 @@ struct Retest {
   double upper_bound = 1.0;    // of the share of neighbours that fail so, 95 % sure
   // Of the first neighbours that end as the case did: looked at, known to be the kept failure, and known not to be it.
   std::size_t looked_at = 0, known_kept = 0, known_other = 0;
-  std::string new_kind;        // how else it fails: an end, and what that needs
-  std::string standing;        // how little the fleets drive there, if less than half as far as before
+  std::string new_kind;  // how else it fails: an end, and what that needs
+  std::string standing;  // how little the fleets drive there, if less than half as far as before
 };
 
 // As many whole runs as neighbours are tried, if they decide, and kWholeRuns at most.

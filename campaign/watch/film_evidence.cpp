@@ -204,7 +204,8 @@ std::string FilmEvidence::faults(const std::vector<std::size_t>& bodies, SimTime
   std::vector<std::string> found;
   for (const web::Happening& h : film_.happenings) {
     if (!h.is_fault || h.at_us > at_us || h.at_us < at_us - kFaultsBefore_us) continue;
-    if (std::ranges::find(bodies, h.body) == bodies.end()) continue;
+    // A computer may have decided for any of them.
+    if (std::ranges::find(bodies, h.body) == bodies.end() && !film_.is_computer(h.body)) continue;
     if (h.details.empty()) {  // no injected fault
       found.push_back(fmt::format("{}: {} {:.3f} s before ({:.3f} s)", name(EntityId{h.body}), h.what,
                                   in_seconds(at_us - h.at_us), in_seconds(h.at_us)));

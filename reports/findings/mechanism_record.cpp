@@ -21,6 +21,7 @@ Json json_of(const FailureMechanism& finding) {
   return {{"id", finding.id},
           {"agent", finding.agent},
           {"mechanism", finding.mechanism},
+          {"refuted", finding.refuted},
           {"standing", finding.standing},
           {"needs_attention", finding.needs_attention},
           {"failures", finding.runs.size()},
@@ -33,6 +34,7 @@ FailureMechanism finding_from(const Json& json) {
   finding.id = json.at("id");
   finding.agent = json.at("agent");
   finding.mechanism = json.at("mechanism");
+  finding.refuted = json.value("refuted", std::vector<std::string>());
   finding.standing = json.at("standing");
   finding.needs_attention = json.at("needs_attention");
   finding.run = json.at("run");

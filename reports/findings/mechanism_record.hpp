@@ -13,11 +13,12 @@ namespace fleetproof {
 // The failures of one agent that come about in one way.
 struct FailureMechanism {
   std::string id, agent;
-  std::string mechanism;              // in words
-  std::string standing;               // to the user: "new", "known", "back", "waived until 2027-01-31"
-  bool needs_attention = true;        // someone has to look at it
-  std::uint64_t run = 0;              // the simplest of its failures
-  std::vector<std::uint64_t> runs{};  // all of them that were looked at, in order
+  std::string mechanism;               // in words
+  std::string standing;                // to the user: "new", "known", "back", "waived until 2027-01-31"
+  bool needs_attention = true;         // someone has to look at it
+  std::uint64_t run = 0;               // the simplest of its failures
+  std::vector<std::uint64_t> runs{};   // all of them that were looked at, in order
+  std::vector<std::string> refuted{};  // needs without which a run fails, too; `mechanism` says so
 
   friend bool operator==(const FailureMechanism&, const FailureMechanism&) = default;
 };

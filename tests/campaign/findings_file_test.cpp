@@ -38,6 +38,7 @@ class FindingsFiles : public testing::Test {
     finding.mechanism = "too close; says \"a\\b\"";
     finding.end = "too close";
     finding.choice = {bit_of(EndPoint::Contact) | bit_of(EndPoint::Deadlock)};
+    finding.refuted = {"restart", "the \"x\" messages"};
     finding.ways = {{"lost messages", "the \"x\" messages"}, {}};
     finding.found_in = "a\tb";
     finding.laws_left_out = {"progress"};
@@ -80,6 +81,7 @@ TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   ASSERT_NE(read, nullptr);
   EXPECT_EQ(toml_of(*read), toml_of(odd()));
   EXPECT_EQ(read->ways, odd().ways);
+  EXPECT_EQ(read->refuted, odd().refuted);
   EXPECT_EQ(read->choice, odd().choice);
   EXPECT_EQ(std::pair(read->doings, read->says), std::pair(odd().doings, odd().says));
   EXPECT_EQ(read->other_worlds, odd().other_worlds);
@@ -101,6 +103,24 @@ TEST_F(FindingsFiles, WhatIsWrittenIsRead) {
   EXPECT_EQ(read->whole.counts.circumstances, odd().whole.counts.circumstances);
   EXPECT_EQ(file.find("F-00000002"), nullptr);
   EXPECT_TRUE(FindingsFile((folder_ / "none.toml").string()).findings().empty());
+}
+
+// What a user has written into the file stays.
+TEST_F(FindingsFiles, ARefutedNeedIsStruckInItsPlace) {
+  KnownIssue first = odd(), second = odd();
+  first.refuted.clear();
+  second.id = "F-00000002";
+  second.refuted = {"restart"};
+  const std::string text = "# mine\n" + toml_of(first) + "# yours\n" + toml_of(second);
+  std::string changed = with_refuted(text, first, {"late messages"});
+  changed = with_refuted(changed, second, {"restart", "lost messages"});
+  const FindingsFile file(written(changed));
+  EXPECT_EQ(file.find(first.id)->refuted, std::vector<std::string>{"late messages"});
+  EXPECT_EQ(file.find(second.id)->refuted, (std::vector<std::string>{"restart", "lost messages"}));
+  EXPECT_EQ(file.find(first.id)->ways, first.ways) << "all else is as it was";
+  EXPECT_THAT(changed, HasSubstr("# mine\n"));
+  EXPECT_THAT(changed, HasSubstr("# yours\n"));
+  EXPECT_EQ(with_refuted(changed, second, {"restart"}), with_refuted(text, first, {"late messages"}));
 }
 
 TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {

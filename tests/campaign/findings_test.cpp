@@ -6,6 +6,7 @@
 
 #include "campaign/findings/finding.hpp"
 #include "campaign/findings/ingredients.hpp"
+#include "campaign/findings/refuted_needs.hpp"
 #include "core/scenario/canonical_bytes.hpp"
 #include "generators/scenario_file/scenario_text.hpp"
 #include "tests/support/case_bench.hpp"
@@ -337,6 +338,81 @@ TEST(Findings, AWordThatTellsWhereverItIsSaidPartsAndNames) {
   EXPECT_NE(findings[0].id(), findings[1].id());
   add(failures, times(5, saying));
   EXPECT_EQ(findings_of(failures).size(), 1U) << "the word is said where it does not tell";
+}
+
+// ---- needs that are none
+
+TEST(Findings, TellNoNeedThatIsRefuted) {
+  Finding finding;
+  finding.agent = "a";
+  finding.mechanism = {"too close, two AGVs", {"restart", "lost messages"}, "one turns", {}, {kThirdAgvTrait}};
+  finding.members = {0, 1};
+  const std::string id = finding.id();
+  EXPECT_EQ(finding.text(), finding.mechanism.text());
+  finding.refuted = {"restart", kThirdAgvTrait};
+  EXPECT_EQ(finding.text(),
+            "too close, two AGVs; needs lost messages; one turns (fails without restart, a third AGV, too)");
+  EXPECT_EQ(finding.id(), id) << "it is the same finding";
+  finding.members = {0};
+  EXPECT_EQ(finding.text(), "too close, two AGVs; one failure does not tell what it needs; one turns");
+}
+
+// Two AGVs that drive as they like touch without any third AGV, lost message or restart.
+TEST(Refutation, ARunWithoutItRefutesANeed) {
+  Bench reckless("reckless"), timeout("timeout-grant");
+  const auto refuted = [](Bench& bench, std::vector<std::string> needs, std::vector<std::string> traits,
+                          std::uint64_t trials, std::vector<Scenario> smaller = {}) {
+    KnownFailure failure;
+    const Scenario run = bench.failing(125);
+    failure.needs = *needs_of(bench.host, run);
+    failure.needs.needs = needs;  // as if it had needed these
+    Finding finding;
+    finding.mechanism = {failure.needs.end, needs, "", {}, traits};
+    finding.members = {0};
+    failure.needs.reduced = {run, *failure_of(bench.host(run)), 0};
+    std::vector<std::string> found;
+    add_refuted_needs(bench.host, finding, {&failure, 1}, {smaller, run, trials}, found);
+    return found;
+  };
+  EXPECT_THAT(refuted(reckless, {"restart", kLostMessages}, {kThirdAgvTrait}, 100),
+              ElementsAre("restart", kLostMessages, kThirdAgvTrait));
+  EXPECT_THAT(refuted(reckless, {"restart"}, {}, 0), testing::IsEmpty()) << "nothing was tried";
+  EXPECT_THAT(refuted(reckless, {"restart"}, {}, 0, {reckless.failing(125)}), ElementsAre("restart"))
+      << "a smaller case is enough";
+  // Silence that is taken for consent takes lost or late messages.
+  EXPECT_THAT(refuted(timeout, {"restart", kLostMessages}, {}, 300), Contains("restart"));
+}
+
+TEST(Refutation, IsTheSameForAnyNumberOfWorkers) {
+  std::vector<std::vector<std::string>> found;
+  for (const int workers : {1, 4}) {
+    Bench bench("timeout-grant", workers);
+    const Scenario run = bench.failing(125);
+    KnownFailure failure;
+    failure.needs = *needs_of(bench.host, run);
+    Finding finding;
+    finding.mechanism = {failure.needs.end, failure.needs.needs, "", {}, failure.needs.traits};
+    finding.members = {0};
+    add_refuted_needs(bench.host, finding, {&failure, 1}, {{}, run, 200}, found.emplace_back());
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
+// A need of which one failure of the finding did without is none, whatever was tried.
+TEST(Refutation, AFailureThatDidWithoutRefutes) {
+  Bench bench("reckless");
+  std::vector<KnownFailure> failures{failure("reckless", {"restart"}), failure("reckless", {})};
+  Finding finding;
+  finding.mechanism = {"too close, two AGVs", {"restart"}, "", {}, {}};
+  finding.members = {0, 1};
+  std::vector<std::string> found;
+  add_refuted_needs(bench.host, finding, failures, {{}, bad_night(1), 0}, found);
+  EXPECT_THAT(found, ElementsAre("restart"));
+  failures[1].needs.is_rare = true;
+  found.clear();
+  failures[0].needs.reduced.scenario = bad_night(1);
+  add_refuted_needs(bench.host, finding, failures, {{}, bad_night(1), 0}, found);
+  EXPECT_THAT(found, testing::IsEmpty()) << "what a rare one needs is not known";
 }
 
 TEST(Findings, EachAgentHasItsOwn) {

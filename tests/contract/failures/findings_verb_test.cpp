@@ -49,6 +49,8 @@ TEST_F(FindingsVerb, WhatIsNewIsAddedAndKnownFromThenOn) {
   EXPECT_EQ(first.exit_code, 1);
   EXPECT_THAT(first.out, HasSubstr("  new  "));
   EXPECT_THAT(first.out, HasSubstr("of timeout-grant\n  too close, two AGVs; needs"));
+  EXPECT_THAT(first.out, HasSubstr(" (fails without lost messages, too)\n")) << "late ones do";
+  EXPECT_THAT(run("findings a.db --need-trials 0").out, HasSubstr("; needs lost messages"));
   EXPECT_THAT(first.out, HasSubstr("fleetproof explain a.db "));
   EXPECT_FALSE(std::filesystem::exists(path("known")));
 
