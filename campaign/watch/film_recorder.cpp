@@ -150,6 +150,7 @@ void FilmRecorder::note_message(const TraceRecord& record) {
     message.kind = printable(traced.kind, kLongestText);
     message.content = printable(traced.content, kLongestText);
     message.order = order_;
+    message.is_described = traced.is_described();
     return;
   }
   note_arrival(record, film_.messages[message_of_.at(traced.number)]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/tolerances.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::size_t kBytesShown = 8;
 
-std::string first_bytes(std::string_view bytes) {
+std::string hexadecimal(std::string_view bytes) {
   std::string text = "0x";
   for (const char byte : bytes.substr(0, kBytesShown)) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
   return text + (bytes.size() > kBytesShown ? "..." : "");
@@ -42,6 +43,7 @@ Piece with_curve_of(const LogicalMap& map, const Piece& piece) {
 }
 
 std::string TracedMessage::text() const {
+  if (!is_described()) return fmt::format("#{} {}, {}", number, kind, first_bytes);
   return fmt::format("#{} {}{}{} ({} bytes)", number, kind, content.empty() ? "" : ": ", content, bytes);
 }
 
@@ -53,10 +55,17 @@ void TraceContext::note(const TraceRecord& record, std::string_view text) {
   if (record.kind != TraceKind::Sent) return;
   const auto sent = read<traced::Sent>(record);
   const auto known = described_.find(sent.message_hash);
-  const std::string described = known == described_.end() ? first_bytes(text) : known->second;
-  const auto [kind, content, asks, answers, about] = message_words(described);
-  messages_[sent.number] = {sent.number, record.entity,     sent.receiver,       record.at,
-                            sent.bytes,  std::string(kind), std::string(content)};
+  TracedMessage message{sent.number, record.entity, sent.receiver, record.at, sent.bytes, {}, {}, {}};
+  if (known == described_.end()) {
+    // Bytes name no kind: often they begin with a number that no other message has.
+    message.kind = fmt::format("{} byte{}", sent.bytes, sent.bytes == 1 ? "" : "s");
+    message.first_bytes = hexadecimal(text);
+  } else {
+    const MessageWords words = message_words(known->second);
+    message.kind = words.kind;
+    message.content = words.content;
+  }
+  messages_[sent.number] = std::move(message);
 }
 
 void TraceContext::note(const Piece& started) {

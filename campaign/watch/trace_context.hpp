@@ -19,10 +19,12 @@ struct TracedMessage {
   AgvId sender, receiver;    // no receiver: all AGVs in range
   SimTime sent{};
   std::uint32_t bytes = 0;
-  std::string kind;     // what its agent calls it; else its first bytes in hexadecimal digits
-  std::string content;  // in the words of its agent; may be empty
+  std::string kind;         // what its agent calls it; else its size, "34 bytes"
+  std::string content;      // in the words of its agent; may be empty
+  std::string first_bytes;  // in hexadecimal digits, if its agent does not describe it
 
-  std::string text() const;  // "#118 GRANT: answers 7 (48 bytes)"
+  bool is_described() const { return first_bytes.empty(); }
+  std::string text() const;  // "#118 GRANT: answers 7 (48 bytes)", "#119 34 bytes, 0x0000002a474f0000..."
 };
 
 // How a body moves at an instant.

@@ -38,6 +38,7 @@ Json json_of(const TracedMessage& message, const Scenario& scenario, SimTime now
   return {{"number", message.number},
           {"kind", message.kind},
           {"content", message.content.empty() ? Json(nullptr) : Json(message.content)},
+          {"described", message.is_described()},
           {"bytes", message.bytes},
           {"sender", body_name(scenario, message.sender)},
           {"receiver", message.receiver.valid() ? Json(body_name(scenario, message.receiver)) : Json(nullptr)},
@@ -75,7 +76,13 @@ void TracePrinter::record(const TraceRecord& record, std::string_view text) {
   print(line);
 }
 
-void TracePrinter::finish() { print_distances(kForever); }
+void TracePrinter::finish() {
+  print_distances(kForever);
+  if (has_undescribed_ && format_ == TraceFormat::Text)
+    print_(
+        "Messages named by their size are not described. To give one a kind, call describe before it is sent: "
+        "host->describe(controller, \"GRANT: lane 3\"), in lockstep [\"describe\", \"GRANT: lane 3\"].\n");
+}
 
 // A line that falls on the instant of a record comes after it.
 void TracePrinter::print_distances(SimTime until) {
@@ -93,6 +100,7 @@ bool TracePrinter::passes(const Line& line) const {
 
 void TracePrinter::print(const Line& line) {
   if (!passes(line)) return;
+  has_undescribed_ = has_undescribed_ || (line.message && !line.message->is_described());
   const Scenario& scenario = context_.scenario();
   const auto motion = context_.motion_of(line.body, line.at);
   if (format_ == TraceFormat::Text) {

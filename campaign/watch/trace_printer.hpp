@@ -55,6 +55,7 @@ class TracePrinter final : public TraceSink {
   TraceFilter filter_;
   std::vector<Line> distances_;  // the first last
   Print print_;
+  bool has_undescribed_ = false;  // messages among the lines printed
 };
 
 // The words that TraceFilter::kinds may hold.

@@ -120,6 +120,7 @@ struct Message {
   std::string content;  // in the words of its sender; may be empty
   std::vector<Arrival> arrivals;
   std::uint64_t order = 0;
+  bool is_described = true;  // else its kind is its size
 };
 
 // Where an agent believes another AGV to have been at `as_of_us`, from `at_us` on.

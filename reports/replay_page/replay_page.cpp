@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "reports/markup/section_tables.hpp"
 #include "reports/replay_page/assets.hpp"
@@ -98,6 +99,37 @@ Element left_out_part(const Film& film) {
   return part.add(html::paragraph("The option --trace of the command above prints everything."));
 }
 
+// How one's own software says what its messages are, where it does not.
+Element undescribed_part(const Film& film) {
+  std::set<std::string> kinds, senders;
+  for (const Message& message : film.messages) {
+    if (message.is_described) continue;
+    kinds.insert(message.kind);
+    senders.insert(film.bodies[message.sender].name);
+  }
+  Element part("div", {{"id", "undescribed"}});
+  const auto some = [](const std::set<std::string>& all) {
+    constexpr std::size_t kMost = 4;
+    std::string text;
+    for (std::size_t i = 0; const std::string& one : all) {
+      if (i == kMost && all.size() > kMost + 1) return text + fmt::format(" and {} more", all.size() - i);
+      text += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + one;
+      ++i;
+    }
+    return text;
+  };
+  part.add(
+      html::paragraph(fmt::format("The messages of {} are not described: each is named by its size ({}). To give a "
+                                  "message a kind and a content, call "
+                                  "describe before it is sent, in the same activation. It changes no result.",
+                                  some(senders), some(kinds))));
+  constexpr const char* kCalls =
+      "host->describe(controller, \"GRANT: lane 3\");   // C, C++: then host->send_unicast(...)\n"
+      "[\"describe\", \"GRANT: lane 3\"]               // lockstep: then [\"send_unicast\", ...]\n"
+      "agv.describe(\"GRANT: lane 3\")                 # Python: then agv.send(...)";
+  return part.add(Element("pre").add(Element("code").lines(kCalls)));
+}
+
 Element words_part(const Film& film) {
   Element part = titled("Words of this page"), list("dl", {{"class", "words"}});
   const auto add = [&](const std::string& word, const std::string& meaning) {
@@ -110,7 +142,9 @@ Element words_part(const Film& film) {
   for (const auto& [word, meaning] : film.glossary) add(word, meaning);
   if (!film.glossary.empty())
     part.add(html::paragraph("Words of agents are explained as the agents of this project use them."));
-  return part.add(list);
+  part.add(list);
+  const bool all_described = std::ranges::all_of(film.messages, &Message::is_described);
+  return all_described ? part : part.add(undescribed_part(film));
 }
 
 // Found in the smallest case, in which other AGVs may fail.

@@ -1,6 +1,7 @@
 // An agent that says and does what its parameters list, whatever it hears. A call is "AGV MILLISECOND WHAT ARGUMENT",
-// calls are separated by ";": `all KIND` and `to0 KIND` send a message of a kind to all or to AGV 0, `say WORD`
-// declares a state, `move SEGMENT` drives the segment of that number.
+// calls are separated by ";": `all KIND` and `to0 KIND` send a message of a kind to all or to AGV 0, `plain TEXT`
+// sends to all what it does not describe, with a number in front, `say WORD` declares a state, `move SEGMENT` drives
+// the segment of that number.
 #include <algorithm>
 #include <cstdint>
 #include <sstream>
@@ -28,6 +29,13 @@ struct Talker {
     if (call.what == "say") return host->declare_state(controller, call.argument.c_str());
     if (call.what == "move") {
       host->move(controller, static_cast<std::uint32_t>(std::stoul(call.argument)));
+      return;
+    }
+    if (call.what == "plain") {
+      const auto number = static_cast<std::uint32_t>(next);
+      std::string bytes(reinterpret_cast<const char*>(&number), sizeof number);
+      bytes += call.argument;
+      host->send_broadcast(controller, bytes.data(), static_cast<std::uint32_t>(bytes.size()));
       return;
     }
     host->describe(controller, call.argument.c_str());
