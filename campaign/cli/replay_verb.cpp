@@ -33,7 +33,7 @@ struct ReplayVerbWords {
   std::uint64_t run = 0;
   std::vector<std::string> plugins;
   ObserverWords observed;
-  bool json = false, in_process = false;
+  bool json = false, in_process = false, is_quiet = false;
 };
 
 constexpr std::size_t kMostPrinted = 40;  // lines of the agents that are told: a stack has up to 32
@@ -189,7 +189,9 @@ int replay_run(const ReplayVerbWords& words) {
   if (!words.scenario_out.empty())
     write_whole({words.scenario_out, "--scenario", OutputKind::Scenario}, printable_json(to_text(scenario)));
   const PrintedLines printed = last_printed(beside(words.archive, ""), words.run, kMostPrinted);
-  if (words.json) {
+  if (words.is_quiet) {
+    // the page says it all
+  } else if (words.json) {
     print_json(result, cell, printed);
   } else {
     print_text(result, cell, scenario);
@@ -211,6 +213,15 @@ int replay_run(const ReplayVerbWords& words) {
 }
 
 }  // namespace
+
+void write_case_page(const std::string& archive_path, std::uint64_t run, const std::string& path) {
+  ReplayVerbWords words;
+  words.archive = archive_path;
+  words.run = run;
+  words.observed.html = path;
+  words.is_quiet = true;
+  replay_run(words);
+}
 
 Action prepare_replay(Options& options) {
   auto words = std::make_shared<ReplayVerbWords>();

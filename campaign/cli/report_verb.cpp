@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -25,6 +26,7 @@ namespace {
 
 struct ReportWords {
   std::string archive, format = "text", out, html, baseline, ledger, evidence;
+  std::optional<std::uint64_t> cases;
   bool json = false, digest = false, exit_zero = false, no_film = false;
 };
 
@@ -72,7 +74,41 @@ void show_history(ReportInput& input, const ReportWords& words) {
   add_history(input, words.ledger);
 }
 
+constexpr std::uint64_t kMostCases = 100;
+
+void check_cases(const ReportWords& words) {
+  if (!words.cases) return;
+  if (words.html.empty()) throw InputError("--cases", "stand beside a page; name their folder with --html");
+  if (*words.cases < 1 || *words.cases > kMostCases)
+    throw InputError("--cases", fmt::format("is {}; it is 1 to {}", *words.cases, kMostCases));
+  std::error_code error;  // a folder that is there is none
+  std::filesystem::create_directory(words.html, error);
+  if (!std::filesystem::is_directory(words.html))
+    throw InputError("--html", fmt::format("{} is no folder{}; with --cases it names the folder of all pages",
+                                           words.html, error ? " and cannot be made" : ""));
+}
+
+std::string in_folder(const ReportWords& words, const std::string& name) {
+  return (std::filesystem::path(words.html) / name).string();
+}
+
+// A run whose software is gone, for instance, gets no page, and the others do.
+void write_cases(HtmlInput& input, const ReportWords& words) {
+  const auto groups = input.report.failures.list(input.report.evidence.plan());
+  for (const std::uint64_t run : runs_to_show(groups, *words.cases)) {
+    try {
+      write_case_page(words.archive, run, in_folder(words, case_page_name(run)));
+      input.cases.insert(run);
+    } catch (const InputError& error) {
+      talk("run {} has no page: {}\n", run, error.what());
+    } catch (const EngineError& error) {
+      talk("run {} has no page: {}\n", run, error.what());
+    }
+  }
+}
+
 int html_report(const ArchiveReader& archive, const ReportWords& words) {
+  check_cases(words);
   if (!words.out.empty() || words.json || words.format != "text")
     throw InputError(words.html.empty() ? "--evidence" : "--html",
                      "writes files of its own; leave out --output, --json and --format, or call report twice");
@@ -84,8 +120,10 @@ int html_report(const ArchiveReader& archive, const ReportWords& words) {
   show_history(input.report, words);
   add_baseline(input.report, archive, words);
   if (!words.no_film) input.strips = film_strips(archive, words.archive, input.report.failures);
-  if (!words.html.empty()) write_whole({words.html, "--html", OutputKind::Report}, render_html(input));
   if (!words.evidence.empty()) write_evidence_set(words.evidence, archive, input);
+  if (words.cases) write_cases(input, words);
+  const std::string page = words.cases ? in_folder(words, "report.html") : words.html;
+  if (!page.empty()) write_whole({page, "--html", OutputKind::Report}, render_html(input));
   return told_to_ci(input.report, words);
 }
 
@@ -95,7 +133,7 @@ int report(const ReportWords& words) {
     print_digest(archive, words.json);
     return kDemonstrated;
   }
-  if (!words.html.empty() || !words.evidence.empty()) return html_report(archive, words);
+  if (!words.html.empty() || !words.evidence.empty() || words.cases) return html_report(archive, words);
   const bool is_page = !words.json && (words.format == "text" || words.format == "markdown");
   if (!words.baseline.empty() && !is_page)
     throw InputError("--baseline",
@@ -124,6 +162,8 @@ Action prepare_report(Options& options) {
   options.option("--format", words->format, "text (default), markdown, junit, json or summary");
   options.option("-o,--output", words->out, "write the report to this file instead of standard output");
   options.option("--html", words->html, "write one self-contained HTML page with maps and charts to this file");
+  options.option("--cases", words->cases,
+                 "also write the pages of so many failing runs: --html then names the folder of all pages");
   options.option("--baseline", words->baseline, "also say what changed since this results file");
   options.flag("--no-film", words->no_film, "leave out the film strips, which simulate up to ten runs again");
   options.option("--evidence", words->evidence,

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include "campaign/cli/command_line.hpp"
 
 // Each verb has one file with its options and its action.
@@ -26,5 +29,8 @@ Action prepare_compare(Options& options);
 Action prepare_sensitivity(Options& options);
 Action prepare_new(Options& options);
 Action prepare_list(Options& options);
+
+// Writes the page of a run, as `replay DB RUN --html FILE` does, and prints nothing. Throws what that command reports.
+void write_case_page(const std::string& archive_path, std::uint64_t run, const std::string& path);
 
 }  // namespace fleetproof::cli

@@ -25,6 +25,7 @@ using html::text_element;
 using html::titled;
 
 constexpr std::size_t kMostPageRows = 300, kMostFailureGroups = 50, kMostPlanBytes = 100'000;
+constexpr std::size_t kMostInHead = 6;  // groups of failing runs at the top of the page
 
 Element head_of(const Page& page) {
   Element head("head");
@@ -36,7 +37,7 @@ Element head_of(const Page& page) {
   head.add(Element("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}}));
   head.add(Element("meta", {{"name", "generator"}, {"content", "fleetproof report"}}));
   head.add(text_element("title", page.title));
-  return head.add(Element("style").literal(html::style_sheet()));
+  return head.add(Element("style").literal(html::part_styles()).literal(html::style_sheet()));
 }
 
 Element facts_of(const std::vector<Fact>& facts) {
@@ -103,13 +104,59 @@ Element assumptions_part() {
        "People are not modelled. Without the safety scanner, only the software keeps the distance."});
 }
 
-Element worst_of_group(const HtmlInput& input, const FailureGroup& group) {
-  Element block("div", {{"class", "case"}});
+std::string place_of_group(std::size_t number) { return fmt::format("group-{}", number + 1); }
+
+// To the page of the run, else to where this page says more of its group.
+Element link_to_run(const HtmlInput& input, std::uint64_t run_index, std::size_t group, const std::string& text) {
+  if (input.cases.contains(run_index)) return Element::link_to_page(case_page_name(run_index), "", text);
+  return Element::link_to(place_of_group(group), text);
+}
+
+std::vector<std::uint64_t> other_cases(const HtmlInput& input, const FailureGroup& group) {
+  std::vector<std::uint64_t> runs;
+  for (const FailingRun& run : group.first) {
+    if (run.run_index != group.worst.run_index && input.cases.contains(run.run_index)) runs.push_back(run.run_index);
+  }
+  return runs;
+}
+
+// The worst run of each group, in a line each.
+Element failing_list(const HtmlInput& input, const std::vector<FailureGroup>& groups) {
+  Element block("div", {{"class", "failing"}});
+  block.add(paragraph("Runs in which something went wrong, of each kind the worst:"));
+  Element list("ul");
+  for (std::size_t i = 0; i < std::min(groups.size(), kMostInHead); ++i) {
+    const FailureGroup& group = groups[i];
+    Element item("li");
+    item.add(link_to_run(input, group.worst.run_index, i, fmt::format("run {}", group.worst.run_index)));
+    item.text(fmt::format(": {}, {}{}", printable(group.agent, 40), printable(group.first_cause, 80),
+                          group.runs > 1 ? fmt::format(" (one of {} runs)", group.runs) : ""));
+    for (const std::uint64_t run : other_cases(input, group))
+      item.text(", ").add(link_to_run(input, run, i, fmt::format("run {}", run)));
+    list.add(item);
+  }
+  if (groups.size() > kMostInHead) {
+    Element more("li");
+    list.add(
+        more.add(Element::link_to(html::id_of(kFailuresTitle), count_text(groups.size() - kMostInHead, "more kind"))));
+  }
+  return block.add(list);
+}
+
+Element worst_of_group(const HtmlInput& input, const FailureGroup& group, std::size_t number) {
+  Element block("div", {{"class", "case"}, {"id", place_of_group(number)}});
   block.add(text_element("h3", fmt::format("{}: {}; leading failure: {}; before it: {}", printable(group.agent, 40),
                                            group.end_point, printable(group.first_cause, 80), name_of(group.before))));
   const Remark remark = worst_of(input.report, group);
   block.add(paragraph(remark.text));
   if (!remark.command.empty()) block.add(Element("pre").add(text_element("code", remark.command)));
+  if (input.cases.contains(group.worst.run_index)) {
+    Element links("p");
+    links.add(link_to_run(input, group.worst.run_index, number, "The page of this run"));
+    for (const std::uint64_t run : other_cases(input, group))
+      links.text(", ").add(link_to_run(input, run, number, fmt::format("run {}", run)));
+    block.add(links);
+  }
   if (const auto strip = input.strips.find(group.worst.run_index); strip != input.strips.end())
     block.add(html::draw(strip->second));
   return block;
@@ -134,7 +181,7 @@ Element failure_part(const HtmlInput& input) {
         "AGVs in orange are those that went wrong; the dark wedge points to the front, the dashed line is the safety "
         "distance, lanes are grey."));
   }
-  for (const FailureGroup& group : groups) part.add(worst_of_group(input, group));
+  for (std::size_t i = 0; i < groups.size(); ++i) part.add(worst_of_group(input, groups[i], i));
   if (all > kMostFailureGroups)
     part.add(paragraph(fmt::format("{} more groups are left out here.", all - kMostFailureGroups)));
   return part;
@@ -198,11 +245,16 @@ HtmlInput read_html_input(const ArchiveReader& archive, std::string archive_path
   return {std::move(report), std::move(figures)};
 }
 
+std::string case_page_name(std::uint64_t run_index) { return fmt::format("case-{}.html", run_index); }
+
 std::string render_html(const HtmlInput& input) {
   const Page page = build_page(input.report, kMostPageRows);
   Element main("main");
   main.add(text_element("h1", page.title));
-  for (const Headline& headline : page.headlines) main.add(html::headline_of(headline));
+  const auto groups = input.report.failures.list(input.report.evidence.plan());
+  const Element failing = failing_list(input, groups);
+  for (std::size_t i = 0; i < page.headlines.size(); ++i)
+    main.add(html::headline_of(page.headlines[i], i == 0 && !groups.empty() ? &failing : nullptr));
   const std::vector<Element> parts = parts_of(input, page);
   main.add(contents_of(parts)).add(words_part());
   for (const Element& part : parts) main.add(part);

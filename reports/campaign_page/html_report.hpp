@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 
 #include "reports/campaign_page/campaign_figures.hpp"
@@ -15,7 +16,11 @@ struct HtmlInput {
   ReportInput report;
   html::CampaignFigures figures;
   std::map<std::uint64_t, html::FilmStrip> strips{};  // of failing runs, if the caller has simulated them again
+  std::set<std::uint64_t> cases{};                    // failing runs with a page of their own beside this one
 };
+
+// The page of a failing run: "case-7.html".
+std::string case_page_name(std::uint64_t run_index);
 
 // Reads all runs of the archive, once. Throws as read_report_input does.
 HtmlInput read_html_input(const ArchiveReader& archive, std::string archive_path);

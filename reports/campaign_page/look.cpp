@@ -55,6 +55,18 @@ pre { width: fit-content; max-width: 100%; margin: 4px 0 8px; padding: 5px 12px;
   font: 13px/1.5 ui-monospace, "DejaVu Sans Mono", Consolas, monospace; }
 details { margin: 0 0 12px; } summary { cursor: pointer; font-weight: 600; color: var(--accent); }
 pre code { user-select: all; } ul.legend { list-style: none; padding: 0; font-size: 14px; }
+@media (max-width: 1320px) { th, td { padding: 6px 8px; } }
+@media (max-width: 600px) { main { padding: 20px 14px 48px; } h2 { font-size: 19px; } .headline p { font-size: 16px; }
+  table.facts th { width: 110px; } pre { white-space: pre-wrap; overflow-wrap: anywhere; } }
+@media print { body { font-size: 11pt; } main { width: auto; padding: 0; } input.filter, nav { display: none; }
+  .scroll td, th { white-space: normal; padding: 3px 5px; } .scroll { overflow: visible; }
+  figure, .headline, tr { break-inside: avoid; } pre { white-space: pre-wrap; } }
+)css";
+}
+
+// Of the bar of sections, of lists, drawings and cases.
+Literal part_styles() {
+  return R"css(
 svg.chart { max-width: 100%; height: auto; } figure { margin: 0 0 12px; overflow-x: auto; }
 figcaption { max-width: 110ch; font-size: 14px; color: var(--soft); margin: 0 0 6px; }
 .maps { display: flex; flex-wrap: wrap; gap: 12px 32px; } .maps figure { min-width: 0; max-width: 100%; }
@@ -64,12 +76,10 @@ figcaption { max-width: 110ch; font-size: 14px; color: var(--soft); margin: 0 0 
 .key, .words { font-size: 14px; color: var(--soft); } .words { max-width: 110ch; margin-top: 14px; }
 nav ul { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; padding: 0; margin: 18px 0 0; }
 nav a { color: var(--accent); font-size: 14px; text-decoration: none; } nav a:hover { text-decoration: underline; }
-@media (max-width: 1320px) { th, td { padding: 6px 8px; } }
-@media (max-width: 600px) { main { padding: 20px 14px 48px; } h2 { font-size: 19px; } .headline p { font-size: 16px; }
-  table.facts th { width: 110px; } pre { white-space: pre-wrap; overflow-wrap: anywhere; } }
-@media print { body { font-size: 11pt; } main { width: auto; padding: 0; } input.filter, nav { display: none; }
-  .scroll td, th { white-space: normal; padding: 3px 5px; } .scroll { overflow: visible; }
-  figure, .headline, tr { break-inside: avoid; } pre { white-space: pre-wrap; } }
+.headline .failing p { margin: 8px 0 4px; font-size: 15px; font-weight: 600; }
+.headline .failing ul { margin: 0 0 10px; }
+.headline .failing li { margin: 0 0 3px; color: var(--ink); }
+a { color: var(--accent); }
 )css";
 }
 

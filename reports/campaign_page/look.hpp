@@ -5,6 +5,7 @@
 namespace fleetproof::html {
 
 // Colours and spacing. The page can be read without them.
+Literal part_styles();  // stands before the other
 Literal style_sheet();
 // Sorting of tables by a click on a column's head, and a filter above long tables. The page can do without them.
 Literal script();

@@ -53,6 +53,7 @@ std::optional<FailingRun> FailingRun::of(const RunRecord& run) {
   failing.min_clearance_um = run.outcome.min_clearance_um;
   failing.violations = run.outcome.violations.size();
   failing.message = run.outcome.message;
+  failing.digest = run.outcome.digest;
   const auto cause = first_cause(run.outcome);
   ensure(cause.has_value(), "what failed has a first cause");
   failing.cause = *cause;
@@ -85,6 +86,7 @@ bool more_serious(const FailingRun& a, const FailingRun& b) {
 }
 
 void WorstRuns::add(const FailingRun& run) {
+  if (list_.size() == capacity_ && (list_.empty() || !more_serious(run, list_.back()))) return;
   list_.insert(std::ranges::upper_bound(list_, run, more_serious), run);
   if (list_.size() > capacity_) list_.pop_back();
 }

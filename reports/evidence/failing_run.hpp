@@ -22,6 +22,7 @@ struct FailingRun {
   std::optional<Incident> incident;  // the one that leads, else the first that a gate may be put on
   FirstCause cause;
   std::string message;
+  std::uint64_t digest = 0;  // of its trace
 
   // Absent if nothing went wrong in the run.
   static std::optional<FailingRun> of(const RunRecord& run);

@@ -20,7 +20,11 @@ struct FailureGroup {
   std::uint64_t runs = 0, distinct = 0;  // distinct: runs with the same trace digest count once
   bool at_least = false;                 // `distinct` is a lower bound: too many digests to keep
   FailingRun worst;
+  std::vector<FailingRun> first;  // the most serious ones with the worst among them; no trace twice
 };
+
+// Of these groups at most so many runs to look at: one of each group before a second one of any.
+std::vector<std::uint64_t> runs_to_show(const std::vector<FailureGroup>& groups, std::size_t most);
 
 // Groups the failing runs of a campaign in one pass. Memory does not grow with the number of runs. Threads: one.
 class FailureGroups {
@@ -33,6 +37,7 @@ class FailureGroups {
  private:
   struct Group {
     FailureGroup shown;
+    WorstRuns first;
     std::unordered_set<std::uint64_t> digests{};
   };
   std::map<std::tuple<std::string, OutcomeClass, std::string, CameBefore>, Group> groups_;

@@ -89,7 +89,7 @@ Element folded_section_of(const Section& section, const std::string& summary) {
   return section_of({section.title, section.table, {}}).add(details);
 }
 
-Element headline_of(const Headline& headline) {
+Element headline_of(const Headline& headline, const Element* inside) {
   std::string kind = "warning";
   if (headline.word == "demonstrated") kind = "demonstrated";
   if (headline.word == "violated" || headline.word == "violation" || headline.word == "engine error") kind = "violated";
@@ -97,6 +97,7 @@ Element headline_of(const Headline& headline) {
   Element block("div", {{"class", "headline " + kind}});
   block.add(text_element("strong", headline.word, {{"class", "word"}}));
   block.add(paragraph(headline.text));
+  if (inside != nullptr) block.add(*inside);
   if (headline.details.empty()) return block;
   Element list("ul");
   for (const Remark& detail : headline.details) list.add(item_of(detail));

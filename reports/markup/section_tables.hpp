@@ -21,6 +21,7 @@ Element item_of(const Remark& remark);
 Element section_of(const Section& section);
 // The same, with more than a few remarks folded away under `summary`.
 Element folded_section_of(const Section& section, const std::string& summary);
-Element headline_of(const Headline& headline);
+// `inside`: what stands between the sentence of the headline and its details, if anything does.
+Element headline_of(const Headline& headline, const Element* inside = nullptr);
 
 }  // namespace fleetproof::html

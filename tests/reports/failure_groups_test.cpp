@@ -52,6 +52,33 @@ TEST(FailureGroups, CountRunsAndEachTraceOnceAndShowTheWorst) {
   EXPECT_EQ(list[0].worst.run_index, 2U);
 }
 
+TEST(FailureGroups, ShowOneRunOfEachBeforeASecondOfAnyAndNoTraceTwice) {
+  FailureGroups groups;
+  groups.add(failing(0, 1, 50'000), "sound");
+  groups.add(failing(1, 1, 50'000), "sound");
+  groups.add(failing(2, 2, 60'000), "sound");
+  groups.add(failing(3, 3, 0, true), "sound");
+  groups.add(failing(4, 4, 70'000), "sound");
+  const auto list = groups.list({});
+  EXPECT_THAT(runs_to_show(list, 3), ElementsAre(3, 0, 2));
+  EXPECT_THAT(runs_to_show(list, 9), ElementsAre(3, 0, 2, 4));
+  EXPECT_THAT(runs_to_show(list, 1), ElementsAre(3));
+  EXPECT_THAT(runs_to_show({}, 3), ElementsAre());
+}
+
+TEST(FailureGroups, KeepTheHundredMostSeriousRunsInAnyOrder) {
+  FailureGroups up, down;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    up.add(failing(i, i, static_cast<std::int64_t>(50'000 - i)), "sound");
+    down.add(failing(299 - i, 299 - i, static_cast<std::int64_t>(50'000 - (299 - i))), "sound");
+  }
+  const auto runs = runs_to_show(up.list({}), 1000);
+  ASSERT_EQ(runs.size(), 100U);
+  EXPECT_EQ(runs.front(), 299U);
+  EXPECT_EQ(runs.back(), 200U);
+  EXPECT_EQ(runs_to_show(down.list({}), 1000), runs);
+}
+
 TEST(FailureGroups, DifferByAgentEndPointFirstCauseAndWhatCameBefore) {
   FailureGroups groups;
   groups.add(failing(0, 1), "sound");
