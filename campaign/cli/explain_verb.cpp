@@ -7,6 +7,7 @@
 
 #include "campaign/cli/campaign_words.hpp"
 #include "campaign/cli/case_source.hpp"
+#include "campaign/cli/explain_run.hpp"
 #include "campaign/cli/explained_pages.hpp"
 #include "campaign/cli/interrupts.hpp"
 #include "campaign/cli/output_file.hpp"
@@ -24,8 +25,6 @@
 
 namespace fleetproof::cli {
 namespace {
-
-constexpr double kShareOfPages = 0.15;  // of the time
 
 struct ExplainWords {
   CaseWords from;
@@ -151,51 +150,6 @@ void put_curve(const NoReturn& curve) {
   }
 }
 
-// The smallest case takes half of the time at most: what can be said of it matters more than how small it is.
-ShrinkResult search(const ExplainWords& words, const CaseHost& host, const CaseSource& source, const WorkTime& time,
-                    const FailingCase& original, const FailurePattern& pattern) {
-  TrialCache cache;
-  ShrinkResult small;
-  {
-    const TimeLimit limit(time.half_of_rest(), is_interrupted);
-    CaseHost searching = host.within(limit);
-    small = shrink(searching, cache, original, pattern, {words.trials}, [](const FailingCase&, std::string_view) {});
-  }
-  const TimeLimit limit(time.end_before(0.0), is_interrupted);
-  if (scenario_digest(small.best.scenario) != scenario_digest(original.scenario))
-    require_steady(host.within(limit), source, small.best, pattern);
-  return small;
-}
-
-Explanation explained(const ExplainWords& words, const CaseHost& host, const CaseSource& source, const WorkTime& time,
-                      const FailingCase& original, WorkProgress& progress) {
-  const double for_pages_s = words.html.empty() ? 0.0 : kShareOfPages * time.allowed_s();
-  const TimeLimit limit(time.end_before(for_pages_s), is_interrupted);
-  CaseHost within = host.within(limit);
-  ShrinkResult small;
-  small.best = original;
-  small.ended = true;
-  FailurePattern pattern{original.failure.kind};
-  try {
-    progress.begin("learning what its agents say when nothing fails");
-    pattern = pattern_of(within, original);
-    progress.begin("looking for the smallest case");
-    small = search(words, host, source, time, original, pattern);
-  } catch (const GivenUp&) {  // then the case is the run itself
-  }
-  return explain(within, original, small, pattern, [&](std::string_view question) { progress.begin(question); });
-}
-
-// Beside the results file, if it is a run of one.
-void keep_for_page(const ExplainWords& words, const CaseSource& source, const Explanation& explanation) {
-  if (words.from.run.empty() || !source.stored || is_interrupted()) return;
-  const ArchiveReader archive(words.from.source, Checksums::Ignore);
-  const auto run = std::stoull(words.from.run);
-  keep_explained(
-      explained_path(words.from.source, run, words.from.failure),
-      explained_run(explanation, explained_name(archive.campaign(), run, *source.stored, words.from.failure)));
-}
-
 int explain_case(const ExplainWords& words) {
   const WorkTime time(words.max_time);
   AgentPrograms programs;
@@ -208,7 +162,8 @@ int explain_case(const ExplainWords& words) {
         "explain", [&] { return host.simulated(); }, time.allowed_s());
     progress.begin("simulating the run again");
     examined = failing_case(host, source, time);
-    explanation = explained(words, host.looking_at(examined.choice), source, time, examined.failing, progress);
+    explanation = explained({words.trials, !words.html.empty()}, host.looking_at(examined.choice), source, time,
+                            examined.failing, progress);
     explanation.shapes = shapes_of(explanation.small, source.agent, programs);
     if (!words.html.empty()) {
       progress.begin("writing the pages");
@@ -216,7 +171,7 @@ int explain_case(const ExplainWords& words) {
       write_pages(words.html, source, programs, explanation, [&] { return limit.is_over(); });
     }
   }
-  keep_for_page(words, source, explanation);
+  keep_for_page(words.from, source, explanation);
   save_runs(words, source, explanation);
   if (words.json) {
     Json json = to_json(explanation);

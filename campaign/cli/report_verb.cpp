@@ -8,6 +8,7 @@
 #include "campaign/cli/campaign_end.hpp"
 #include "campaign/cli/ci_summary.hpp"
 #include "campaign/cli/evidence_set.hpp"
+#include "campaign/cli/explain_run.hpp"
 #include "campaign/cli/film_maker.hpp"
 #include "campaign/cli/output_file.hpp"
 #include "campaign/cli/progress.hpp"
@@ -97,6 +98,7 @@ void write_cases(HtmlInput& input, const ReportWords& words) {
   const auto groups = input.report.failures.list(input.report.evidence.plan());
   for (const std::uint64_t run : runs_to_show(groups, *words.cases)) {
     try {
+      explain_unless_kept(words.archive, run);
       write_case_page(words.archive, run, in_folder(words, case_page_name(run)));
       input.cases.insert(run);
     } catch (const InputError& error) {
@@ -162,8 +164,10 @@ Action prepare_report(Options& options) {
   options.option("--format", words->format, "text (default), markdown, junit, json or summary");
   options.option("-o,--output", words->out, "write the report to this file instead of standard output");
   options.option("--html", words->html, "write one self-contained HTML page with maps and charts to this file");
-  options.option("--cases", words->cases,
-                 "also write the pages of so many failing runs: --html then names the folder of all pages");
+  options.option(
+      "--cases", words->cases,
+      "also write the pages of so many failing runs, and find out why each failed, in up to 20 s of CPU time: "
+      "--html then names the folder of all pages");
   options.option("--baseline", words->baseline, "also say what changed since this results file");
   options.flag("--no-film", words->no_film, "leave out the film strips, which simulate up to ten runs again");
   options.option("--evidence", words->evidence,

@@ -54,6 +54,7 @@ TEST_F(CasePages, StandInAFolderWithTheReportThatLinksToThem) {
     const std::string number = name.substr(5, name.size() - 10);
     ASSERT_TRUE(test::has_verdict(run("replay c.db " + number + " --html one.html")));
     EXPECT_EQ(read(path("pages/" + name)), read(path("one.html"))) << "what replay writes";
+    EXPECT_THAT(read(path("one.html")), testing::HasSubstr("Why it failed</h3>")) << "it was found out for the page";
   }
   ASSERT_TRUE(test::has_verdict(run("report c.db --html pages --cases 1"))) << "the pages may be replaced";
 }
