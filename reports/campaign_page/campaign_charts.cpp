@@ -135,14 +135,17 @@ Element map_part(const ReportInput& input, const CampaignFigures& figures) {
   if (!counts_only) part.add(draw_ramp(Ramp::Risk, "bound 0.01 %", "bound 100 %"));
   if (list.empty()) part.add(paragraph("The campaign has no cell (test condition)."));
   for (const auto& maps : list) {
-    part.add(text_element("h3", maps.title));
+    // The maps of the first agent, which is under test if any is, show at once.
+    Element agent = &maps == &list.front() ? Element("div") : fold(maps.title);
+    if (&maps == &list.front()) agent.add(text_element("h3", maps.title));
     Element row("div", {{"class", "maps"}});
     row.add(figure_of(risk_caption(input.evidence), draw(maps.risk)));
     row.add(figure_of("Transports (orders) done per AGV-hour", draw(maps.throughput)));
     row.add(figure_of("Share of time in safe mode", draw(maps.safe_mode)));
     if (maps.envelope) row.add(figure_of("Guaranteed envelope: bounds that hold together", draw(maps.envelope->map)));
-    part.add(row);
-    if (maps.envelope) part.add(paragraph(maps.envelope->sentence));
+    agent.add(row);
+    if (maps.envelope) agent.add(paragraph(maps.envelope->sentence));
+    part.add(agent);
   }
   std::size_t shown = 0;
   for (const auto& maps : list) shown += maps.risk.fields.size();
@@ -178,15 +181,17 @@ Element clearance_part(const ReportInput& input, const CampaignFigures& figures)
     }
   }
   if (tail.rows.empty()) return part.add(paragraph("There are no runs yet."));
-  part.add(row);
-  return part.add(text_element("h3", "The lower tail: runs that came closer than ...")).add(table_of(tail));
+  Element drawings = fold("One chart for each agent, within the contract and beyond it").add(row);
+  part.add(text_element("h3", "The lower tail: runs that came closer than ...")).add(table_of(tail));
+  return part.add(drawings);
 }
 
 Element effort_part(const ReportInput& input, const CampaignFigures& figures) {
   Element part = titled("Would more runs tell more?");
   if (input.evidence.runs() == 0) return part.add(paragraph("There are no runs yet."));
+  Element drawings = fold("Charts of bounds, failures and situations against the number of runs");
   if (const auto bounds = bound_chart(input, figures); !bounds.curves.empty())
-    part.add(chart_with_legend(
+    drawings.add(chart_with_legend(
         "The upper bound of each gate (acceptance criterion) as the campaign went on. It holds "
         "at every number of replicates at once. Lines on each other take turns; their numbers stand at the "
         "end.",
@@ -196,7 +201,7 @@ Element effort_part(const ReportInput& input, const CampaignFigures& figures) {
       chart_with_legend("New kinds of failures: end point and leading failure", discovery_chart(input, figures, true)));
   row.add(chart_with_legend("New situations (probes): the names in the table of what the runs met",
                             discovery_chart(input, figures, false)));
-  return part.add(row);
+  return part.add(drawings.add(row));
 }
 
 }  // namespace fleetproof::html

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <iterator>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,7 +27,28 @@ using html::text_element;
 using html::titled;
 
 constexpr std::size_t kMostPageRows = 300, kMostFailureGroups = 50, kMostPlanBytes = 100'000;
-constexpr std::size_t kMostInHead = 6;  // groups of failing runs at the top of the page
+constexpr std::size_t kMostInHead = 6;      // groups of failing runs at the top of the page
+constexpr std::size_t kStripsUnfolded = 3;  // of the first groups of failing runs
+
+// What the bar at the top calls a section, by the beginning of its title; others have their title there.
+constexpr std::pair<std::string_view, std::string_view> kShortTitles[] = {{"Gates", "Gates"},
+                                                                          {kFailuresTitle, "Failing runs"},
+                                                                          {"Failures, throughput", "Maps"},
+                                                                          {"How close", "Clearances"},
+                                                                          {"Would more runs", "More runs?"},
+                                                                          {"What the runs met", "Met"},
+                                                                          {"What the other laws", "Other laws"},
+                                                                          {"Which planted faults", "Planted faults"},
+                                                                          {"How to read the tables", "Columns"},
+                                                                          {"Worst case", "Worst case"},
+                                                                          {"Contract region", "Contract"},
+                                                                          {"Outside the contract", "Outside"},
+                                                                          {"Can the runs", "Repeated?"},
+                                                                          {"Weak points", "Weak points"},
+                                                                          {"Attempts", "Attempts"},
+                                                                          {"How to read this", "Method"},
+                                                                          {"Assumptions", "Model"},
+                                                                          {"What this page", "Limits"}};
 
 Element head_of(const Page& page) {
   Element head("head");
@@ -51,57 +74,62 @@ Element facts_of(const std::vector<Fact>& facts) {
 }
 
 Element words_part() {
-  return text_element(
-      "p",
-      "Words of this page. Run: one simulation of one agent, the control software under test. Cell (test condition): "
-      "one "
-      "combination of agent, layout, fleet size and radio quality. World (replicate): one draw of all that is random, "
-      "run in every cell. Law (monitor): watches each run and files what must not happen. Gate (acceptance criterion): "
-      "a requirement that was fixed before the first run. Transport (order): a load to be brought from one station "
-      "(node) to another. Hull (envelope): the floor that an AGV locks before it drives; agents such as hull-lock are "
-      "named after it.",
-      {{"class", "words"}});
+  return html::fold("Words of this page")
+      .add(text_element(
+          "p",
+          "Words of this page. Run: one simulation of one agent, the control software under test. Cell (test "
+          "condition): "
+          "one "
+          "combination of agent, layout, fleet size and radio quality. World (replicate): one draw of all that is "
+          "random, "
+          "run in every cell. Law (monitor): watches each run and files what must not happen. Gate (acceptance "
+          "criterion): "
+          "a requirement that was fixed before the first run. Transport (order): a load to be brought from one station "
+          "(node) to another. Hull (envelope): the floor that an AGV locks before it drives; agents such as hull-lock "
+          "are "
+          "named after it.",
+          {{"class", "words"}}));
 }
 
-Element listed(const std::string& title, std::initializer_list<const char*> items) {
-  Element part = titled(title);
+Element listed(std::initializer_list<const char*> items) {
   Element list("ul");
   for (const char* item : items) list.add(text_element("li", item));
-  return part.add(list);
+  return list;
 }
 
 static_assert(kContractLoss == 0.4 && kContractDelay_s == 2.0, "the last sentence says it in words");
 
 Element limits_part() {
-  return listed(
-      "What this page does not say",
-      {"That the software is safe, or that no collision is possible. A claim says how rare failures are under the "
-       "conditions above, with a stated confidence. A search only counts them.",
-       "A performance level, a safety integrity level, a rate of dangerous failures of a safety function, or "
-       "conformity with a standard such as ISO 3691-4.",
-       "Anything about other layouts, fleets, loads or radio than those sampled, about another version of "
-       "the software, about hardware faults that were not injected, or about attacks.",
-       "Anything about real vehicles beyond what the simulator was validated for. It does not look at the "
-       "safety of people.",
-       "That the release is safe with 95 % probability: 95 % is how often this procedure is right in the "
-       "long run. Very small rates, such as one in a billion hours, are out of reach of testing alone.",
-       "What a typical site will see: 40 % loss and 2 s delay are stress, not typical radio."});
+  return titled("What this page does not say")
+      .add(listed(
+          {"That the software is safe, or that no collision is possible. A claim says how rare failures are under the "
+           "conditions above, with a stated confidence. A search only counts them.",
+           "A performance level, a safety integrity level, a rate of dangerous failures of a safety function, or "
+           "conformity with a standard such as ISO 3691-4.",
+           "Anything about other layouts, fleets, loads or radio than those sampled, about another version of "
+           "the software, about hardware faults that were not injected, or about attacks.",
+           "Anything about real vehicles beyond what the simulator was validated for. It does not look at the "
+           "safety of people.",
+           "That the release is safe with 95 % probability: 95 % is how often this procedure is right in the "
+           "long run. Very small rates, such as one in a billion hours, are out of reach of testing alone.",
+           "What a typical site will see: 40 % loss and 2 s delay are stress, not typical radio."}));
 }
 
 Element assumptions_part() {
-  return listed(
-      "Assumptions and known gaps of the model",
-      {"Vehicles, loads and obstacles are rigid shapes in a plane. Height, tilt and wheel slip are not "
-       "modelled.",
-       "Motion follows the speed and acceleration of the vehicle type exactly, apart from the deviations "
-       "that the plan draws. Sideways travel, doors and lifts are not modelled.",
-       "Clearances are computed to a micrometre and rounded down. Curves are followed as the layout defines them. What "
-       "is built to the safety distance keeps it: a micrometre less is allowed, and ten more for each of the two "
-       "vehicles that drives a curve.",
-       "The radio loses and delays messages by the models that the plan names. They stand for walls, racks and "
-       "other senders; no propagation of waves is computed.",
-       "Position and battery are known to the agent without error unless the plan says otherwise.",
-       "People are not modelled. Without the safety scanner, only the software keeps the distance."});
+  const std::initializer_list<const char*> items = {
+      "Vehicles, loads and obstacles are rigid shapes in a plane. Height, tilt and wheel slip are not "
+      "modelled.",
+      "Motion follows the speed and acceleration of the vehicle type exactly, apart from the deviations "
+      "that the plan draws. Sideways travel, doors and lifts are not modelled.",
+      "Clearances are computed to a micrometre and rounded down. Curves are followed as the layout defines them. What "
+      "is built to the safety distance keeps it: a micrometre less is allowed, and ten more for each of the two "
+      "vehicles that drives a curve.",
+      "The radio loses and delays messages by the models that the plan names. They stand for walls, racks and "
+      "other senders; no propagation of waves is computed.",
+      "Position and battery are known to the agent without error unless the plan says otherwise.",
+      "People are not modelled. Without the safety scanner, only the software keeps the distance."};
+  Element fold = html::fold(count_text(items.size(), "sentence"));
+  return titled("Assumptions and known gaps of the model").add(fold.add(listed(items)));
 }
 
 std::string place_of_group(std::size_t number) { return fmt::format("group-{}", number + 1); }
@@ -158,7 +186,8 @@ Element worst_of_group(const HtmlInput& input, const FailureGroup& group, std::s
     block.add(links);
   }
   if (const auto strip = input.strips.find(group.worst.run_index); strip != input.strips.end())
-    block.add(html::draw(strip->second));
+    block.add(number < kStripsUnfolded ? html::draw(strip->second)
+                                       : html::fold("Film strip").add(html::draw(strip->second)));
   return block;
 }
 
@@ -188,7 +217,7 @@ Element failure_part(const HtmlInput& input) {
 }
 
 Element plan_part(const ReportInput& input) {
-  Element details("details");
+  Element details("details", {{"class", "plan"}});
   details.add(text_element("summary", "The resolved plan"));
   const auto plan = plan_listing(input.campaign.plan_json, kMostPlanBytes);
   if (plan.empty()) return details.add(paragraph("The results file holds no plan text."));
@@ -201,7 +230,7 @@ std::vector<Element> parts_of(const HtmlInput& input, const Page& page) {
   const auto add = [&](std::initializer_list<SectionTopic> topics) {
     for (const SectionTopic topic : topics) {
       for (const Section& section : page.sections) {
-        if (section.topic == topic) parts.push_back(html::section_of(section));
+        if (section.topic == topic) parts.push_back(html::part_of(section));
       }
     }
   };
@@ -209,13 +238,15 @@ std::vector<Element> parts_of(const HtmlInput& input, const Page& page) {
     if (section.topic == SectionTopic::Gates)
       parts.push_back(html::folded_section_of(section, "Figures and reason of each gate (acceptance criterion)"));
   }
-  parts.push_back(titled("Conditions").add(facts_of(campaign_conditions(input.report))));
+  // The worst run of each group stands there: a list of the worst runs would be one failure many times.
+  parts.push_back(failure_part(input));
+  const auto conditions = campaign_conditions(input.report);
+  parts.push_back(
+      titled("Conditions").add(html::fold(count_text(conditions.size(), "fact")).add(facts_of(conditions))));
   parts.push_back(html::map_part(input.report, input.figures));
   add({SectionTopic::Groups});
   parts.push_back(html::clearance_part(input.report, input.figures));
   parts.push_back(html::effort_part(input.report, input.figures));
-  // The worst run of each group stands there: a list of the worst runs would be one failure many times.
-  parts.push_back(failure_part(input));
   add({SectionTopic::Comparison, SectionTopic::Coverage, SectionTopic::Sensitivity, SectionTopic::Conditions,
        SectionTopic::Audit, SectionTopic::WeakPoints, SectionTopic::Attempts, SectionTopic::Provenance});
   parts.push_back(plan_part(input.report));
@@ -225,12 +256,19 @@ std::vector<Element> parts_of(const HtmlInput& input, const Page& page) {
   return parts;
 }
 
+std::string_view short_title(std::string_view title) {
+  const auto known =
+      std::ranges::find_if(kShortTitles, [&](const auto& entry) { return title.starts_with(entry.first); });
+  return known == std::end(kShortTitles) ? title : known->second;
+}
+
+// The bar at the top of the page.
 Element contents_of(const std::vector<Element>& parts) {
   Element list("ul");
   for (const Element& part : parts) {
     if (part.title().empty()) continue;
     Element item("li");
-    list.add(item.add(Element::link_to(html::id_of(part.title()), part.title())));
+    list.add(item.add(Element::link_to(html::id_of(part.title()), short_title(part.title()))));
   }
   return Element("nav", {{"aria-label", "contents"}}).add(list);
 }
@@ -250,13 +288,13 @@ std::string case_page_name(std::uint64_t run_index) { return fmt::format("case-{
 std::string render_html(const HtmlInput& input) {
   const Page page = build_page(input.report, kMostPageRows);
   Element main("main");
-  main.add(text_element("h1", page.title));
+  const std::vector<Element> parts = parts_of(input, page);
+  main.add(contents_of(parts)).add(text_element("h1", page.title));
   const auto groups = input.report.failures.list(input.report.evidence.plan());
   const Element failing = failing_list(input, groups);
   for (std::size_t i = 0; i < page.headlines.size(); ++i)
     main.add(html::headline_of(page.headlines[i], i == 0 && !groups.empty() ? &failing : nullptr));
-  const std::vector<Element> parts = parts_of(input, page);
-  main.add(contents_of(parts)).add(words_part());
+  main.add(words_part());
   for (const Element& part : parts) main.add(part);
   Element root("html", {{"lang", "en"}});
   root.add(head_of(page)).add(Element("body").add(main).add(Element("script").literal(html::script())));

@@ -15,13 +15,13 @@ Literal style_sheet() {
 body { margin: 0; background: var(--paper); color: var(--ink);
   font: 16px/1.55 system-ui, -apple-system, "Segoe UI", Roboto, sans-serif; }
 /* As wide as the widest table, up to the window. What wraps anyway asks for no width. */
-main { width: fit-content; min-width: min(100%, 1220px); max-width: 100%; margin: 0 auto; padding: 32px 28px 80px;
+main { width: fit-content; min-width: min(100%, 1220px); max-width: 100%; margin: 0 auto; padding: 0 28px 80px;
   overflow-wrap: break-word; }
 h1, h2, h3, nav, details, .headline, .maps, .case { contain: inline-size; }
 h1 { font-size: 20px; font-weight: 600; margin: 0 0 20px; color: var(--soft); }
-h2 { font-size: 22px; line-height: 1.3; font-weight: 650; margin: 0 0 12px; }
+h2 { font-size: 22px; line-height: 1.3; font-weight: 650; margin: 0 0 8px; }
 h3 { font-size: 16px; font-weight: 650; margin: 24px 0 8px; }
-section { margin-top: 48px; padding-top: 20px; border-top: 1px solid var(--line); }
+section { margin-top: 26px; padding-top: 14px; border-top: 1px solid var(--line); }
 p { margin: 0 0 12px; max-width: 78ch; }
 ul { margin: 0 0 12px; padding-left: 20px; }
 li { margin: 0 0 6px; max-width: 96ch; }
@@ -56,7 +56,7 @@ pre { width: fit-content; max-width: 100%; margin: 4px 0 8px; padding: 5px 12px;
 details { margin: 0 0 12px; } summary { cursor: pointer; font-weight: 600; color: var(--accent); }
 pre code { user-select: all; } ul.legend { list-style: none; padding: 0; font-size: 14px; }
 @media (max-width: 1320px) { th, td { padding: 6px 8px; } }
-@media (max-width: 600px) { main { padding: 20px 14px 48px; } h2 { font-size: 19px; } .headline p { font-size: 16px; }
+@media (max-width: 600px) { main { padding: 0 14px 48px; } h2 { font-size: 19px; } .headline p { font-size: 16px; }
   table.facts th { width: 110px; } pre { white-space: pre-wrap; overflow-wrap: anywhere; } }
 @media print { body { font-size: 11pt; } main { width: auto; padding: 0; } input.filter, nav { display: none; }
   .scroll td, th { white-space: normal; padding: 3px 5px; } .scroll { overflow: visible; }
@@ -74,12 +74,17 @@ figcaption { max-width: 110ch; font-size: 14px; color: var(--soft); margin: 0 0 
 .film { display: flex; flex-wrap: wrap; gap: 8px 7px; margin: 8px 0 0; } .film svg.frame { flex: none;
   max-width: 46%; height: auto; }
 .key, .words { font-size: 14px; color: var(--soft); } .words { max-width: 110ch; margin-top: 14px; }
-nav ul { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; padding: 0; margin: 18px 0 0; }
+/* It stays at the top; what a link leads to stops below it. */
+nav { position: sticky; top: 0; z-index: 2; overflow-x: auto; background: var(--paper);
+  border-bottom: 1px solid var(--line); margin: 0 0 18px; }
+nav ul { list-style: none; display: flex; gap: 2px 16px; padding: 9px 0; margin: 0; white-space: nowrap; }
+nav li { margin: 0; } [id] { scroll-margin-top: 62px; }
 nav a { color: var(--accent); font-size: 14px; text-decoration: none; } nav a:hover { text-decoration: underline; }
 .headline .failing p { margin: 8px 0 4px; font-size: 15px; font-weight: 600; }
 .headline .failing ul { margin: 0 0 10px; }
 .headline .failing li { margin: 0 0 3px; color: var(--ink); }
 a { color: var(--accent); }
+@media (min-width: 1000px) { nav ul { flex-wrap: wrap; } [id] { scroll-margin-top: 78px; } }
 )css";
 }
 
@@ -87,8 +92,16 @@ Literal script() {
   return R"js(
 'use strict';
 addEventListener('beforeprint', () => {
-  for (const details of document.querySelectorAll('details.reasons')) details.open = true;
+  for (const details of document.querySelectorAll('details:not(.plan)')) details.open = true;
 });
+// A link to a section unfolds it.
+const unfold = () => {
+  const section = location.hash ? document.getElementById(location.hash.slice(1)) : null;
+  const details = section ? section.querySelector('details') : null;
+  if (details) details.open = true;
+};
+addEventListener('hashchange', unfold);
+unfold();
 const figure = text => {
   const found = text.replace(/(\d) (?=\d{3}\b)/g, '$1').match(/-?\d+(\.\d+)?(e-?\d+)?/);
   return found ? parseFloat(found[0]) : NaN;

@@ -82,10 +82,23 @@ Element section_of(const Section& section) {
   return section.remarks.empty() ? element : element.add(list_of(section.remarks));
 }
 
+Element fold(const std::string& summary) { return Element("details").add(text_element("summary", summary)); }
+
+Element part_of(const Section& section) {
+  const std::size_t rows = section.table.columns.empty() ? 0 : section.table.rows.size();
+  if (rows <= kShortTable && section.remarks.size() <= kFewRemarks) return section_of(section);
+  std::string summary = rows > 0 ? count_text(rows, "row") : "";
+  if (!section.remarks.empty())
+    summary += (rows > 0 ? ", " : "") + count_text(section.remarks.size(), rows > 0 ? "note" : "sentence");
+  Element details = fold(summary);
+  if (rows > 0) details.add(table_of(section.table));
+  if (!section.remarks.empty()) details.add(list_of(section.remarks));
+  return titled(section.title).add(details);
+}
+
 Element folded_section_of(const Section& section, const std::string& summary) {
   if (section.remarks.size() <= kFewRemarks) return section_of(section);
-  Element details("details", {{"class", "reasons"}});
-  details.add(text_element("summary", summary)).add(list_of(section.remarks));
+  Element details = fold(summary).add(list_of(section.remarks));
   return section_of({section.title, section.table, {}}).add(details);
 }
 

@@ -19,7 +19,11 @@ Element table_of(const Table& table);
 // A remark as an item of a list: its sentence, and its command as a line to copy.
 Element item_of(const Remark& remark);
 Element section_of(const Section& section);
-// The same, with more than a few remarks folded away under `summary`.
+// A fold: `summary` shows, a click on it shows what is added to it.
+Element fold(const std::string& summary);
+// The same as section_of, but a section with more than a few rows or remarks stands folded away below its title.
+Element part_of(const Section& section);
+// As section_of, with more than a few remarks folded away under `summary`.
 Element folded_section_of(const Section& section, const std::string& summary);
 // `inside`: what stands between the sentence of the headline and its details, if anything does.
 Element headline_of(const Headline& headline, const Element* inside = nullptr);

@@ -5,11 +5,18 @@ import xml.etree.ElementTree as xml
 
 class Section:
     def __init__(self):
-        self.tables, self.sentences, self.drawings = [], [], {}
+        self.tables, self.sentences, self.drawings, self.failing = [], [], {}, []
 
 
 def all_text(node):
     return "".join(node.itertext())
+
+
+def says_what_it_folds(summary, details):
+    """Whether a line such as "24 rows, 3 notes" counts what it hides."""
+    rows, items = len(details.findall(".//tbody/tr")), len(details.findall("ul/li"))
+    said = re.fullmatch(r"(?:([0-9]+) (?:row|fact)s?)?(?:, )?(?:([0-9]+) (?:note|sentence)s?)?", all_text(summary))
+    return said is not None and (int(said[1] or 0), int(said[2] or 0)) == (rows, items)
 
 
 def read_html(text):
@@ -26,6 +33,12 @@ def read_html(text):
         elif node.tag == "svg":
             texts = [all_text(each) for each in node.iter() if each.tag in ("text", "title")]
             section.drawings.setdefault(node.get("aria-label"), texts)
+        elif node.tag == "div" and node.get("class") == "failing":
+            section.failing = [all_text(each) for each in node.iter("li")]
+        elif node.tag == "details":
+            for child in node:
+                if child.tag != "summary" or not says_what_it_folds(child, node):
+                    visit(child, section)
         elif node.tag in ("p", "li", "h1", "h3", "figcaption", "strong", "summary"):
             whole = (node.text or "") + "".join(each.tail or "" for each in node)
             section.sentences.append(whole)

@@ -160,6 +160,7 @@ def check_html(archive, sections):
         close.tables[0][1:] = sorted(close.tables[0][1:])
         same_rows("html", "How close the bodies came", close, rows)
     failures = Failures(archive)
+    check_failing_head(failures, sections[""].failing)
     check_failures(failures, sections["Runs in which something went wrong, by the failure that leads"])
     legends = [plain(text) for text in sections["Would more runs tell more?"].sentences]
     for legend in discoveries(archive, failures) if archive.runs else []:
@@ -195,6 +196,17 @@ def check_failures(failures, section):
                 row[5] = expected[5]
     if failures.groups or section.tables:
         same_rows("html", "failing runs", section, failures.rows())
+
+
+def check_failing_head(failures, shown):
+    """The worst run of the first groups, at the top of the page."""
+    rows = failures.rows()
+    expected = [f"run {run}: {agent}, {cause}" + (f" (one of {runs} runs)" if runs != "1" else "")
+                for agent, _, cause, _, runs, _, run in rows[:6]]
+    if len(rows) > 6:
+        expected.append(f"{len(rows) - 6} more kind{'s' if len(rows) > 7 else ''}")
+    if shown != expected:
+        differ("html, failing runs of the head", expected, shown)
 
 
 def check_rest(archive, page, sections):
