@@ -26,6 +26,14 @@ std::vector<std::string> names_of_bodies(const FailingCase& of) {
   return names;
 }
 
+std::string past_of(const std::string& doing) {
+  if (doing == kTurning) return "turned";
+  if (doing == kOnABend) return "drove on a bend";
+  if (doing == kBackward) return "drove backward";
+  if (doing == kDriving) return "drove";
+  return doing == kTransferring ? "moved a load" : "stood";
+}
+
 class Words {
  public:
   explicit Words(const Explanation& of) : of_(of), scenario_(of.small.scenario) {}
@@ -40,6 +48,7 @@ class Words {
     for (const SetOff& drive : of_.set_offs) set_off(drive);
     for (const Departure& drive : of_.past_drives) past_drive(drive);
     if (of_.has_notes) std::ranges::for_each(involved(), [&](EntityId agv) { knowledge(agv); });
+    if (of_.has_notes) known_to_computers();
     shares();
     no_return();
     if (!of_.is_smallest)
@@ -92,14 +101,6 @@ class Words {
     for (std::size_t i = 0; i < std::min(involved().size(), of_.doing.size()); ++i)
       doings.push_back(fmt::format("{} {}", name_of_body(scenario_, involved()[i]), past_of(of_.doing[i])));
     if (!doings.empty()) say("Then {}.", fmt::join(doings, ", and "));
-  }
-
-  static std::string past_of(const std::string& doing) {
-    if (doing == kTurning) return "turned";
-    if (doing == kOnABend) return "drove on a bend";
-    if (doing == kBackward) return "drove backward";
-    if (doing == kDriving) return "drove";
-    return doing == kTransferring ? "moved a load" : "stood";
   }
 
   void message(const MessageNeed& need) {
@@ -286,13 +287,20 @@ class Words {
     }
   }
 
+  // How old what a server knew of them was.
+  void known_to_computers() {
+    for (std::size_t i = 0; i < scenario_.computers.size(); ++i) {
+      for (const EntityId agv : involved()) heard(EntityId{scenario_.agvs.size() + i}, agv);
+    }
+  }
+
   void heard(EntityId agv, EntityId other) {
     const std::string name = name_of_body(scenario_, agv), from = name_of_body(scenario_, other);
     const auto last =
         std::ranges::find_if(of_.notes.heard, [&](const Heard& h) { return h.by == agv && h.of == other; });
     if (last == of_.notes.heard.end()) {
       // In a central fleet, AGVs may never speak with each other.
-      if (scenario_.computers.empty()) say("{} had never heard {}.", name, from);
+      if (scenario_.computers.empty() || scenario_.is_computer(agv)) say("{} had never heard {}.", name, from);
     } else {
       say_at(last->sent,
              "The last that {} had heard of {} was message {}{}, sent at {:.3f} s: {:.2f} s old at the failure.", name,

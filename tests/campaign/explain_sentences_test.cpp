@@ -101,6 +101,24 @@ TEST(Explain, TheSentencesTellWhereWhoStandsHadDriven) {
                                  " was message 7 (STATE: holds R1), sent at 8.000 s: 1.00 s old at the failure."}));
 }
 
+// How old what the server knew of each of them was.
+TEST(Explain, TheSentencesTellWhatAServerHadHeard) {
+  MadeUp made;
+  made.is.small.scenario.computers.emplace_back().name = "server";
+  const EntityId server{made.is.small.scenario.agvs.size()};
+  const SimTime then = made.is.small.failure.at - std::chrono::seconds(3);
+  made.is.notes.heard = {{server, made.a, 7, "STATE", "", then, then}};
+  const auto sentences = sentences_of(made.is);
+  EXPECT_THAT(sentences,
+              testing::Contains(testing::StartsWith("The last that server had heard of " + made.name(made.a) +
+                                                    " was message 7 (STATE), sent at ")));
+  EXPECT_THAT(sentences, testing::Contains(testing::EndsWith(": 3.00 s old at the failure.")));
+  EXPECT_THAT(sentences, testing::Contains("server had never heard " + made.name(made.b) + "."));
+  EXPECT_THAT(sentences,
+              testing::Not(testing::Contains(made.name(made.a) + " had never heard " + made.name(made.b) + ".")))
+      << "AGVs of a central fleet need not speak with each other";
+}
+
 // At lower speeds, the run is over before they meet; the smaller case is not.
 TEST(Explain, WhatTheSmallestCaseDoesWithoutIsNoNeedOfTheFailure) {
   AgentPrograms programs;
