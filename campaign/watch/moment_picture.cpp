@@ -17,8 +17,9 @@ namespace fleetproof {
 namespace {
 
 constexpr double kLine_px = 18.0, kLegend_px = 30.0;
-constexpr double kNameInside_px = 16.0;  // of a body that is so wide
-constexpr double kLetter_px = 7.2;       // of a name
+constexpr double kNameInside_px = 16.0;                    // of a body that is so wide
+constexpr double kLetter_px = 7.2;                         // of a name
+constexpr double kNameHeight_px = 12.0, kMostLines = 4.0;  // so far from its body a name may stand
 // An activity perimeter, its border and its hull. Those of activities that conflict are warm.
 struct Tint {
   const char *border, *perimeter, *hull;
@@ -156,7 +157,8 @@ class MomentPicture {
     return {body.centre_m + 0.92 * body.half_length_m * body.heading, front[1], front[2]};
   }
 
-  // Inside the body, else below it, or above it if another name stands there.
+  // Inside the body, else below or above it where no other name stands. If there is no room near it, its name shows
+  // where a pointer rests on it.
   void label(const MomentBody& body, const std::string& name) {
     const OrientedRectangle& place = body.place;
     const auto letters = static_cast<double>(moment_name(scenario_, body.entity).size());
@@ -165,13 +167,20 @@ class MomentPicture {
     const double below_px = reach_px_ + 13.0 +
                             view_.scale() * (place.half_length_m * std::abs(place.heading.y()) +
                                              place.half_width_m * std::abs(place.heading.x()));
-    double y = at.y() + below_px;
-    if (narrow_px >= kNameInside_px && letters <= 3.0) y = at.y() + 4.5;
-    const auto is_taken = [&](const Written& other) {
-      return std::abs(other.at_px.y() - y) < 12.0 &&
-             std::abs(other.at_px.x() - at.x()) < kLetter_px / 2.0 * (letters + other.letters);
-    };
-    if (std::ranges::any_of(written_, is_taken)) y = at.y() - below_px + 8.0;
+    std::vector<double> places;
+    if (narrow_px >= kNameInside_px && letters <= 3.0) places.push_back(at.y() + 4.5);
+    for (double aside = 0.0; aside < kMostLines * kNameHeight_px; aside += kNameHeight_px) {
+      places.push_back(at.y() + below_px + aside);
+      places.push_back(at.y() - below_px + 8.0 - aside);
+    }
+    const auto free = std::ranges::find_if(places, [&](double y) {
+      return std::ranges::none_of(written_, [&](const Written& other) {
+        return std::abs(other.at_px.y() - y) < kNameHeight_px &&
+               std::abs(other.at_px.x() - at.x()) < kLetter_px / 2.0 * (letters + other.letters);
+      });
+    });
+    if (free == places.end()) return;
+    const double y = *free;
     written_.push_back({{at.x(), y}, letters});
     add(R"(<text x="{:.1f}" y="{:.1f}" font-size="12" font-weight="bold" text-anchor="middle" fill="#111111" )"
         R"(stroke="#ffffff" stroke-width="2.5" paint-order="stroke">{}</text>)",

@@ -195,23 +195,36 @@ class Names {
   void add(Element& svg, const FilmBody& body, bool above) {
     if (window_.side_m > kNamesUpTo_m || !window_.has(body.centre)) return;
     const double reach_m = std::hypot(body.length_m, body.width_m) / 2.0;
-    const double y = above ? window_.y(body.centre.y_m + reach_m) - 2.0 : window_.y(body.centre.y_m - reach_m) + 9.0;
+    const double over = window_.y(body.centre.y_m + reach_m) - 2.0;
+    const double under = window_.y(body.centre.y_m - reach_m) + kNameHeight_px;
     // Near an edge a name moves inwards, so that it is not cut.
     const double half_px = std::min(kNameLetter_px * static_cast<double>(body.name.size()), kSide_px) / 2.0;
     const double x =
         std::clamp(window_.x(body.centre.x_m), kFrameLeft_px + half_px, kFrameLeft_px + kSide_px - half_px);
-    const bool is_free = std::ranges::none_of(taken_, [&](const Place& place) {
-      return std::abs(place.x - x) < place.half_px + half_px && std::abs(place.y - y) < kNameHeight_px;
-    });
-    if (!is_free && !body.is_involved) return;
-    taken_.push_back({x, y, half_px});
-    svg.add(note_at(body.name, x, y, "middle", 9, body.is_involved ? "600" : "400"));
+    for (int line = 0; line < (body.is_involved ? kMostLines : 1); ++line) {
+      const double aside = kNameHeight_px * line;
+      for (const bool is_over : {above, !above}) {
+        const Place place{x, is_over ? over - aside : under + aside, half_px};
+        if ((is_over != above && !body.is_involved) || !is_free(place)) continue;
+        taken_.push_back(place);
+        svg.add(note_at(body.name, x, place.y, "middle", 9, body.is_involved ? "600" : "400"));
+        return;
+      }
+    }
   }
 
  private:
+  static constexpr int kMostLines = 6;  // that the name of a body involved may stand away from it
   struct Place {
     double x, y, half_px;
   };
+  bool is_free(const Place& wanted) const {
+    const bool is_inside = wanted.y - kNameHeight_px >= kFrameTop_px && wanted.y <= kBottomOfFloor_px;
+    return is_inside && std::ranges::none_of(taken_, [&](const Place& place) {
+             return std::abs(place.x - wanted.x) < place.half_px + wanted.half_px &&
+                    std::abs(place.y - wanted.y) < kNameHeight_px;
+           });
+  }
   const Window& window_;
   std::vector<Place> taken_;
 };

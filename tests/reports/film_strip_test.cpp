@@ -121,6 +121,49 @@ TEST(FilmStrip, a_frame_without_a_clearance_says_why) {
   EXPECT_THAT(document.select_node("//svg").node().attribute("aria-label").value(), HasSubstr("load not on the floor"));
 }
 
+// Of all names of a frame. A letter is about 5 px wide, a line 9 px high.
+struct NameBox {
+  std::string name;
+  double left, right, top, bottom;
+};
+std::vector<NameBox> name_boxes(const pugi::xml_document& document) {
+  std::vector<NameBox> boxes;
+  for (const auto& text : document.select_nodes("//svg/svg/text")) {
+    const std::string name = text.node().text().get();
+    const double x = text.node().attribute("x").as_double(), y = text.node().attribute("y").as_double();
+    const double half = 2.5 * static_cast<double>(name.size());
+    boxes.push_back({name, x - half, x + half, y - 9.0, y});
+  }
+  return boxes;
+}
+
+TEST(FilmStrip, names_do_not_lie_on_each_other_among_twenty_agvs) {
+  for (const std::size_t involved : {2U, 5U}) {
+    for (const double apart_m : {0.1, 0.6, 1.2}) {
+      auto strip = two_agvs();
+      auto& bodies = strip.frames[0].bodies;
+      FilmBody one = bodies[0];
+      bodies.clear();
+      for (std::size_t i = 0; i < 20; ++i) {
+        one.name = "AGV " + std::to_string(i);
+        one.centre = {10.0 + apart_m * static_cast<double>(i % 5), 10.0 + apart_m * static_cast<double>(i / 5)};
+        one.is_involved = i % 7 < 1 + involved / 5 && i / 7 < involved;
+        bodies.push_back(one);
+      }
+      strip.least_side_m = 12.0;
+      const auto boxes = name_boxes(parsed(draw(strip)));
+      EXPECT_GE(boxes.size(), 2U) << "those involved have their names";
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+          const bool apart = boxes[i].right <= boxes[k].left || boxes[k].right <= boxes[i].left ||
+                             boxes[i].bottom <= boxes[k].top || boxes[k].bottom <= boxes[i].top;
+          EXPECT_TRUE(apart) << boxes[i].name << " and " << boxes[k].name << ", bodies " << apart_m << " m apart";
+        }
+      }
+    }
+  }
+}
+
 // A letter is about 5 px wide.
 TEST(FilmStrip, names_near_an_edge_are_not_cut) {
   auto strip = two_agvs();

@@ -1,6 +1,7 @@
 // `simulate --at T --svg FILE` and `replay --at T --svg FILE`: the picture has the floor as it was at that instant.
 // Nothing here uses the product's geometry: places are read off the axes, as a reader does, and compared with closed
 // forms or with what --poses prints.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <array>
@@ -325,6 +326,39 @@ TEST_F(MomentPicture, TheHullOfATurnAndOfABendIsWhatTheBodySweeps) {
     EXPECT_LT(too_much_m, 2e-3) << title[0][1];
   }
   EXPECT_EQ(found, 2);
+}
+
+// Of bold letters of 12 px; their boxes touch at most.
+TEST_F(MomentPicture, NamesOfTwentyAgvsDoNotLieOnEachOther) {
+  std::string agvs, stations, segments;
+  for (int i = 0; i < 20; ++i) {
+    const std::string at = "[" + std::to_string(1.3 * (i % 5)) + ", " + std::to_string(1.3 * (i / 5)) + "]";
+    stations += fmt::format(R"({}{{"name": "s{}", "position_m": {}}})", i > 0 ? ", " : "", i, at);
+    agvs += fmt::format(R"({}{{"name": "carrier {}", "start": "s{}", "heading": [1, 0]}})", i > 0 ? ", " : "", i, i);
+    if (i > 0) segments += fmt::format(R"({}{{"from": "s{}", "to": "s{}"}})", i > 1 ? ", " : "", i - 1, i);
+  }
+  segments += R"(, {"from": "s19", "to": "s0"})";
+  write("crowd.json", R"({"version": 1, "name": "crowd", "horizon_s": 20,
+    "vehicle_types": [{"name": "cart", "length_m": 1, "width_m": 1}], "agvs": [)" +
+                          agvs + R"(], "layout": {"name": "crowd", "floor_low_m": [-30, -30], "floor_high_m": [60, 60],
+    "stations": [)" + stations +
+                          R"(], "segments": [)" + segments + "]}}");
+  const std::string svg = drawn("simulate crowd.json --agent reckless", 3.0);
+  struct NameBox {
+    std::string name;
+    double x, y, half;
+  };
+  std::vector<NameBox> boxes;
+  for (const auto& text : all(svg, "<text x=\"([0-9.]+)\" y=\"([0-9.]+)\"[^>]*>(carrier [0-9]+)</text>"))
+    boxes.push_back({text[3], std::stod(text[1]), std::stod(text[2]), 3.5 * static_cast<double>(text[3].size())});
+  EXPECT_GE(boxes.size(), 4U);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const bool apart = std::abs(boxes[i].x - boxes[k].x) >= boxes[i].half + boxes[k].half ||
+                         std::abs(boxes[i].y - boxes[k].y) >= 11.5;
+      EXPECT_TRUE(apart) << boxes[i].name << " and " << boxes[k].name;
+    }
+  }
 }
 
 TEST_F(MomentPicture, TheSameRunGivesTheSameBytesAndReplayDrawsWhatSimulateDraws) {
