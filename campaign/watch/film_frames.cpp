@@ -5,6 +5,7 @@
 
 #include "campaign/watch/run_text.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/base/shown_time.hpp"
 
 namespace fleetproof {
 namespace {
@@ -43,7 +44,7 @@ std::string absence_text(const Scenario& scenario, EntityId id) {
 
 html::FilmFrame frame_of(const Still& still, const StripSubject& subject, const Scenario& scenario) {
   html::FilmFrame frame;
-  frame.time_s = to_seconds(still.at);
+  frame.time_s = shown_seconds(still.at);
   frame.is_worst = still.at == subject.at;
   const StillBody *first = nullptr, *second = nullptr;
   for (const StillBody& body : still.bodies) {

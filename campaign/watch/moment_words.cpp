@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "campaign/watch/run_text.hpp"
 #include "campaign/watch/trace_context.hpp"
 #include "core/base/outside_text.hpp"
@@ -13,14 +15,15 @@ namespace {
 constexpr std::size_t kMostLetters = 135, kMostActivityLines = 8, kMostMeetings = 10;
 constexpr double kTouching_m = 1e-5;  // as near as the judge measures
 
-std::string interval_text(SimTime begin, SimTime end) {
-  return fmt::format("{:.2f} s to {:.2f} s", to_seconds(begin), to_seconds(end));
-}
+std::string interval_text(SimTime begin, SimTime end) { return instant_text(begin) + " to " + instant_text(end); }
 
 std::string clearance_text(const Meeting& meeting, const Scenario& scenario) {
   if (meeting.clearance_m <= kTouching_m) return "now they touch";
+  // Cut: what is below the safety distance never reads as if it were not. A sum of doubles may miss the micrometre.
+  constexpr double kLastDigits_um = 1e-5;
+  const double shown_m = std::floor((meeting.clearance_m * 1e6 + kLastDigits_um) / 1e3) / 1e3;
   return fmt::format(
-      "now {:.3f} m apart{}", meeting.clearance_m,
+      "now {:.3f} m apart{}", shown_m,
       meeting.is_too_close ? ", below the safety distance of " + distance_text(scenario.law.safety_distance_m) : "");
 }
 

@@ -10,6 +10,7 @@
 #include "core/base/json_text.hpp"
 #include "core/base/outside_text.hpp"
 #include "core/base/words.hpp"
+#include "reports/page/wording.hpp"
 
 namespace fleetproof {
 namespace {
@@ -53,8 +54,11 @@ TracePrinter::TracePrinter(const Scenario& scenario, TraceFormat format, TraceFi
     : context_(scenario), format_(format), filter_(std::move(filter)), print_(std::move(print)) {
   for (const Violation& v : violations) {
     const std::string other = body_name(scenario, v.b);
-    distances_.push_back(
-        {v.first, v.a, kDistance, fmt::format("to {} falls below {} m", other, scenario.law.safety_distance_m), {}});
+    distances_.push_back({v.first,
+                          v.a,
+                          kDistance,
+                          fmt::format("to {} falls below {}", other, distance_text(scenario.law.safety_distance_m)),
+                          {}});
     distances_.push_back(
         {v.closest_at,
          v.a,

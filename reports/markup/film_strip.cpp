@@ -269,7 +269,7 @@ Element floor_of(const FilmStrip& strip, const FilmFrame& frame, const Window& w
 }
 
 Element frame_of(const FilmStrip& strip, const FilmFrame& frame, const Window& window) {
-  const std::string time = fmt::format("{:.2f} s", frame.time_s), apart = clearance_line(frame);
+  const std::string time = fmt::format("{:.3f} s", frame.time_s), apart = clearance_line(frame);
   Element svg("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                       {"role", "img"},
                       {"aria-label", "at " + time + (apart.empty() ? "" : ", " + apart)},
@@ -321,7 +321,7 @@ Element draw(const FilmStrip& strip) {
   for (const FilmFrame* frame : kept) whole.add(frame_of(strip, *frame, window));
   if (kept.size() < strip.frames.size())
     whole.add(text_element("p",
-                           fmt::format("From {:.2f} s to {:.2f} s. While nothing moves here, there is no further "
+                           fmt::format("From {:.3f} s to {:.3f} s. While nothing moves here, there is no further "
                                        "picture.",
                                        strip.frames.front().time_s, strip.frames.back().time_s),
                            {{"class", "key"}}));

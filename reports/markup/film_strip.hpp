@@ -23,7 +23,7 @@ struct FilmBody {
 };
 
 struct FilmFrame {
-  double time_s = 0.0;
+  double time_s = 0.0;  // as shown_seconds has it
   bool is_worst = false;
   std::optional<double> clearance_m;  // between the two bodies involved; 0: they touch
   std::string without_clearance{};    // why there is none, in a few words; empty if only one body is involved

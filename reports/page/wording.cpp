@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/outside_text.hpp"
+#include "core/base/shown_time.hpp"
 
 namespace fleetproof {
 namespace {
@@ -22,6 +23,7 @@ std::string hundredths(double value) {
 
 std::string percent(double fraction) { return hundredths(fraction * 100.0) + " %"; }
 std::string seconds_text(double value_s) { return hundredths(value_s) + " s"; }
+std::string instant_text(SimTime t) { return fmt::format("{:.3f} s", shown_seconds(t)); }
 
 std::string factor_text(const FactorInfo& factor, double value) {
   return fmt::format("{}{}", hundredths(value * factor.scale), factor.sign);

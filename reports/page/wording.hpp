@@ -17,6 +17,7 @@ namespace fleetproof {
 // with a blank before the sign.
 std::string percent(double fraction);
 std::string seconds_text(double value_s);
+std::string instant_text(SimTime t);  // "12.345 s", as every page shows it (core/base/shown_time.hpp)
 // A value of a factor: "40 %". Between two bounds: "0 .. 40 %".
 std::string factor_text(const FactorInfo& factor, double value);
 std::string factor_span(const FactorInfo& factor, double from, double to);

@@ -127,16 +127,13 @@ Headline claim(const ReportInput& input) {
   return headline;
 }
 
-// Cut, not rounded: no digit differs from the archive.
-double hundredths_s(SimTime t) { return static_cast<double>((t - kStart).count() / 10'000'000) / 100.0; }
-
 using NameOfBody = std::function<std::string(EntityId)>;
 // The failure that leads, if it is something else, and what came before it.
 std::string cause_text(const FailingRun& run, const NameOfBody& name) {
   const FirstCause& cause = run.cause;
   std::string text;
   const bool leads = run.worst && run.worst->first == cause.at && run.worst->a == cause.a;
-  const std::string at = seconds_text(hundredths_s(cause.at));
+  const std::string at = instant_text(cause.at);
   if (run.end == OutcomeClass::Clean) {
     text = "; at " + at;
   } else if (!leads && cause.a.valid()) {
@@ -161,7 +158,7 @@ Remark describe(const ReportInput& input, const FailingRun& run) {
   }
   if (run.worst) {
     text += fmt::format(", {} at {} between {} and {}", metres_text(run.worst->min_clearance_um),
-                        seconds_text(hundredths_s(run.worst->closest_at)), name(run.worst->a), name(run.worst->b));
+                        instant_text(run.worst->closest_at), name(run.worst->a), name(run.worst->b));
     if (run.violations > 1) text += fmt::format(" (the worst of {})", run.violations);
   }
   text += fmt::format("; agent {}, layout {}, fleet of {}, {}", printable(cell.agent, 40), printable(cell.layout, 40),

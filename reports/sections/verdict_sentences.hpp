@@ -19,7 +19,7 @@ std::vector<Headline> verdicts(const ReportInput& input);
 // What the claim counts as unknown because of fallen loads and obstacles, by agent under test.
 std::vector<Headline> foreign_body_notes(const ReportInput& input);
 
-// "run 7: violation, 0.07 m at 12.34 s between AGV 1 and AGV 3; agent sound, layout ring, fleet of 5, loss
+// "run 7: violation, 0.07 m at 12.345 s between AGV 1 and AGV 3; agent sound, layout ring, fleet of 5, loss
 // 40 %, delay 2 s"
 Remark describe(const ReportInput& input, const FailingRun& run);
 

@@ -37,7 +37,7 @@ def run_sentence(archive, index):
         worst = violations[0]
         if worst["contact"] and worst["relative_speed_um_s"] > 300000:
             text += f" at hazardous speed ({worst['relative_speed_um_s'] // 100000 / 10:.1f} m/s)"
-        text += (f", {w.metres(worst['min_clearance_um'])} at {w.hundredths(worst['closest_at_ns'] // 10**7 / 100)} s between "
+        text += (f", {w.metres(worst['min_clearance_um'])} at {worst['closest_at_ns'] // 10**6 / 1000:.3f} s between "
                  f"{body(worst['entity_a'], run)} and {body(worst['entity_b'], run)}")
         if len(violations) > 1:
             text += f" (the worst of {len(violations)})"

@@ -81,7 +81,7 @@ TEST(FilmStrip, has_axes_in_metres_time_and_clearance) {
   const auto document = parsed(draw(two_agvs()));
   std::vector<std::string> texts;
   for (const auto& text : document.select_nodes("//svg/text")) texts.emplace_back(text.node().text().get());
-  EXPECT_THAT(texts, testing::IsSupersetOf({"12.35 s", "8.00 m apart", "m", "AGV 0", "AGV 1"}));
+  EXPECT_THAT(texts, testing::IsSupersetOf({"12.345 s", "8.00 m apart", "m", "AGV 0", "AGV 1"}));
   // The windows starts at x = 97, so the first round multiple of its step (2 m) is 98.
   EXPECT_THAT(texts, testing::Contains("98"));
 }
@@ -235,8 +235,8 @@ TEST(FilmStrip, frames_that_look_the_same_are_drawn_once) {
   const auto document = parsed(draw(strip));
   for (const auto& frame : document.select_nodes("//div/svg"))
     times.emplace_back(frame.node().attribute("aria-label").value());
-  EXPECT_THAT(times, testing::ElementsAre("at 2.00 s, 8.00 m apart", "at 4.00 s, 8.00 m apart"));
-  EXPECT_THAT(document.select_node("//p").node().text().get(), HasSubstr("From 1.00 s to 4.00 s"));
+  EXPECT_THAT(times, testing::ElementsAre("at 2.000 s, 8.00 m apart", "at 4.000 s, 8.00 m apart"));
+  EXPECT_THAT(document.select_node("//p").node().text().get(), HasSubstr("From 1.000 s to 4.000 s"));
 }
 
 TEST(FilmStrip, a_strip_of_nothing_is_drawn) {

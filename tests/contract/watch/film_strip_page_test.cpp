@@ -4,6 +4,7 @@
 
 #include <regex>
 
+#include "core/base/shown_time.hpp"
 #include "storage/archive_reader.hpp"
 #include "tests/contract/audits/audited_campaign.hpp"
 
@@ -55,7 +56,7 @@ TEST_F(FilmStripPage, ShowsTheWorstInstantOfEachGroup) {
   const auto closest = std::ranges::max_element(
       violations, {}, [](const Violation& v) { return v.contact ? v.relative_speed_um_s : -1; });
   EXPECT_EQ(frames_in(all[0]), 6u);
-  EXPECT_THAT(all[0], HasSubstr(fmt::format(">{:.2f} s</text>", to_seconds(closest->closest_at))));
+  EXPECT_THAT(all[0], HasSubstr(fmt::format(">{:.3f} s</text>", shown_seconds(closest->closest_at))));
   EXPECT_TRUE(strips("c.db --no-film").empty());
   ASSERT_TRUE(closest->contact);
   EXPECT_THAT(all[0], HasSubstr("they touch"));

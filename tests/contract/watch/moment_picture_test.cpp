@@ -111,11 +111,11 @@ struct Drive {
 };
 constexpr double kTop_m = 4.0 + 25.0 / 6.0;
 const std::array<Drive, 5> kDrives = {
-    {{"A", "A drives from 10 to 9, 2.00 s to 10.00 s", {0, 0}, {1, 0}, 10, 2, 10},
-     {"B", "B drives from 6 to 1, 4.00 s to 9.00 s", {0, 4}, {0, 1}, 25.0 / 6.0, 4, 9},
-     {"C", "C drives from 2 to 3, 7.00 s to 12.00 s", {1.39, kTop_m}, {1, 0}, 25.0 / 6.0, 7, 12},
-     {"D", "D drives from 8 to 7, 6.00 s to 9.00 s", {6.85, 2.39}, {0, -1}, 1.5, 6, 9},
-     {"E", "E drives from 4 to 5, 2.00 s to 5.00 s", {8, kTop_m}, {1, 0}, 1.5, 2, 5}}};
+    {{"A", "A drives from 10 to 9, 2.000 s to 10.000 s", {0, 0}, {1, 0}, 10, 2, 10},
+     {"B", "B drives from 6 to 1, 4.000 s to 9.000 s", {0, 4}, {0, 1}, 25.0 / 6.0, 4, 9},
+     {"C", "C drives from 2 to 3, 7.000 s to 12.000 s", {1.39, kTop_m}, {1, 0}, 25.0 / 6.0, 7, 12},
+     {"D", "D drives from 8 to 7, 6.000 s to 9.000 s", {6.85, 2.39}, {0, -1}, 1.5, 6, 9},
+     {"E", "E drives from 4 to 5, 2.000 s to 5.000 s", {8, kTop_m}, {1, 0}, 1.5, 2, 5}}};
 
 // Corners of the box from one place of the reference point to another, along an axis.
 struct Box {
@@ -179,7 +179,7 @@ TEST_F(MomentPicture, ConflictsAreThoseOfThePaper) {
   EXPECT_EQ(fill(Picture(at_3), 0), kCold);
   EXPECT_EQ(fill(Picture(at_3), 4), kCold);
   EXPECT_THAT(Picture(at_3).words(),
-              ElementsAre("A drives from 10 to 9, 2.00 s to 10.00 s; E drives from 4 to 5, 2.00 s to 5.00 s",
+              ElementsAre("A drives from 10 to 9, 2.000 s to 10.000 s; E drives from 4 to 5, 2.000 s to 5.000 s",
                           "No activity perimeter has another one or a body in it."));
   // A and E drive alone; C, which is to drive later, stands 0.09 m beside the hull of B.
   const std::string at_4 = drawn(figure4_, 4.5);
@@ -192,12 +192,12 @@ TEST_F(MomentPicture, ConflictsAreThoseOfThePaper) {
   EXPECT_EQ(all(at_8, kTooClose).size(), 2U) << "A and D";
   EXPECT_THAT(
       Picture(at_8).words(),
-      ElementsAre("A drives from 10 to 9, 2.00 s to 10.00 s; B drives from 6 to 1, 4.00 s to 9.00 s; "
-                  "C drives from 2 to 3, 7.00 s to 12.00 s",
-                  "D drives from 8 to 7, 6.00 s to 9.00 s",
-                  "A and D: activity perimeters overlap, both in progress 6.00 s to 9.00 s; now 0.015 m apart, "
+      ElementsAre("A drives from 10 to 9, 2.000 s to 10.000 s; B drives from 6 to 1, 4.000 s to 9.000 s; "
+                  "C drives from 2 to 3, 7.000 s to 12.000 s",
+                  "D drives from 8 to 7, 6.000 s to 9.000 s",
+                  "A and D: activity perimeters overlap, both in progress 6.000 s to 9.000 s; now 0.014 m apart, "
                   "below the safety distance of 0.10 m",
-                  "B and C: activity perimeters overlap, both in progress 7.00 s to 9.00 s; now 0.382 m apart"));
+                  "B and C: activity perimeters overlap, both in progress 7.000 s to 9.000 s; now 0.381 m apart"));
   EXPECT_THAT(at_8,
               HasSubstr("<title>Fig. 4 of the paper: A and D come too close, B and C nearly, T = 8.08 s</title>"));
 }
@@ -228,7 +228,7 @@ TEST_F(MomentPicture, PerimetersOverlapBelowTwiceTheSafetyDistance) {
                           stations + R"(], "segments": [)" + segments + "]}}");
   const auto words = Picture(drawn("simulate lanes.json", 3.0)).words();
   ASSERT_EQ(words.size(), 3U);
-  EXPECT_EQ(words[2], "P0 and P1: activity perimeters overlap, both in progress 1.00 s to 8.50 s; now 0.150 m apart");
+  EXPECT_EQ(words[2], "P0 and P1: activity perimeters overlap, both in progress 1.000 s to 8.500 s; now 0.150 m apart");
 }
 
 // The stroke around a hull is as wide as twice the safety distance: to scale.

@@ -83,7 +83,7 @@ TEST_F(ReadableTrace, LinesStandWhereTheDistanceBreaksAndWhereItIsClosest) {
   std::ranges::sort(expected_ns);
   EXPECT_EQ(told_ns, expected_ns);
   const std::string text = run("simulate s.json --trace --trace-kind distance").err;
-  EXPECT_THAT(text, HasSubstr("falls below 0.1 m"));
+  EXPECT_THAT(text, HasSubstr("falls below 0.10 m"));
   EXPECT_THAT(text, testing::ContainsRegex("^ +[0-9]+\\.[0-9]{9}  AGV"));
 }
 
