@@ -82,18 +82,20 @@ class ShapeStory {
     const auto kept = kept_in_piece_m([&](SimTime) { return Shapes{{stands, will_stand}}; });
     if (kept)
       told_.push_back(fmt::format(
-          "This needs the sweep of the turn on the spot of {}: with the heading before the turn, and with that "
+          "As they moved, it took the sweep of the turn on the spot of {}: with the heading before the turn, and with "
+          "that "
           "after it, {} keeps {} from {}. As it turns, its corners reach {} from its axis.",
           name(one_), name(one_), in_centimetres(*kept), name(other_), in_centimetres(turn.footprint.reach_m())));
     const double radius_m = turn.footprint.length_m / 2.0 + std::abs(turn.footprint.centre_ahead_m);
     const OrientedRectangle axis{turn.start.position_m, Vec2::UnitX(), 0.0, 0.0};
     const auto disc = kept_in_piece_m([&](SimTime) { return Shapes{{axis}, radius_m}; });
     if (disc)
-      told_.push_back(fmt::format(
-          "This needs the corners of {} in its turn on the spot: a disc about its axis that reaches to the ends of {}, "
-          "{}, keeps {} from {}. Its corners are {} from the axis.",
-          name(one_), name(one_), in_centimetres(radius_m), in_centimetres(*disc), name(other_),
-          in_centimetres(turn.footprint.reach_m())));
+      told_.push_back(
+          fmt::format("As they moved, it took the corners of {} in its turn on the spot: a disc about its axis that "
+                      "reaches to the ends of {}, "
+                      "{}, keeps {} from {}. Its corners are {} from the axis.",
+                      name(one_), name(one_), in_centimetres(radius_m), in_centimetres(*disc), name(other_),
+                      in_centimetres(turn.footprint.reach_m())));
   }
 
   void tell_bend() {
@@ -112,10 +114,10 @@ class ShapeStory {
       const Vec2 at = curve.pose_at(curve.length_m() * i / 100.0).position_m - from;
       aside_m = std::max(aside_m, std::abs(cross(along, at)));
     }
-    told_.push_back(
-        fmt::format("This needs the bend of the lane of {}: on the straight line between the ends of that lane, {} "
-                    "keeps {} from {}. The lane goes up to {} aside of the line.",
-                    name(one_), name(one_), in_centimetres(*kept), name(other_), in_centimetres(aside_m)));
+    told_.push_back(fmt::format(
+        "As they moved, it took the bend of the lane of {}: on the straight line between the ends of that lane, {} "
+        "keeps {} from {}. The lane goes up to {} aside of the line.",
+        name(one_), name(one_), in_centimetres(*kept), name(other_), in_centimetres(aside_m)));
   }
 
   // The way that it drove, with another size.
@@ -129,11 +131,11 @@ class ShapeStory {
     if (piece_->footprint == bare) return;
     const auto kept = kept_with_m(bare);
     if (!kept) return;
-    told_.push_back(
-        fmt::format("This needs the load of {}: without it, {} keeps {} from {}. The load makes it {:.2f} m longer and "
-                    "{:.2f} m wider.",
-                    name(one_), name(one_), in_centimetres(*kept), name(other_),
-                    piece_->footprint.length_m - bare.length_m, piece_->footprint.width_m - bare.width_m));
+    told_.push_back(fmt::format(
+        "As they moved, it took the load of {}: without it, {} keeps {} from {}. The load makes it {:.2f} m longer and "
+        "{:.2f} m wider.",
+        name(one_), name(one_), in_centimetres(*kept), name(other_), piece_->footprint.length_m - bare.length_m,
+        piece_->footprint.width_m - bare.width_m));
   }
 
   void tell_size() {
@@ -143,8 +145,8 @@ class ShapeStory {
     const auto kept = kept_with_m(type(other_).footprint_with(loaded));
     if (!kept) return;
     told_.push_back(fmt::format(
-        "This needs the size of {}: with the size of {}, it would keep {} from it. {} is {}, {} is {}.", name(one_),
-        name(other_), in_centimetres(*kept), name(one_), size_text(mine), name(other_), size_text(others)));
+        "As they moved, it took the size of {}: with the size of {}, it would keep {} from it. {} is {}, {} is {}.",
+        name(one_), name(other_), in_centimetres(*kept), name(one_), size_text(mine), name(other_), size_text(others)));
   }
   static std::string size_text(const Footprint& footprint) {
     std::string text = fmt::format("{:.2f} m by {:.2f} m", footprint.length_m, footprint.width_m);

@@ -85,8 +85,6 @@ class Storyteller {
                       name(v.a), name(v.b), limit, in_milliseconds(v.first), in_milliseconds(v.last),
                       millimetres(v.min_clearance_um), in_milliseconds(v.closest_at), where, speed_mps));
     }
-    const SimTime over = at_ns(static_cast<std::int64_t>(outcome_.simulated_ns));
-    for (std::string& sentence : shape_sentences(scenario_, bodies_, v, over)) add(std::move(sentence));
     const web::Happening* end = crash();
     if (end != nullptr && end->at_us <= film_us(v.first)) add(crash_text(*end));
     for (const auto& [one, other] : {std::pair(v.a, v.b), std::pair(v.b, v.a)}) {
@@ -96,6 +94,9 @@ class Storyteller {
     }
     for (std::string& sentence : evidence_.messages(v.a, v.b, v.first)) add(std::move(sentence));
     add(evidence_.faults(film_.involved, v.first));
+    // Of the motions as they were: why they met, this does not say.
+    const SimTime over = at_ns(static_cast<std::int64_t>(outcome_.simulated_ns));
+    for (std::string& sentence : shape_sentences(scenario_, bodies_, v, over)) add(std::move(sentence));
     tell_more_violations();
   }
 

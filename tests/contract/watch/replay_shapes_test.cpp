@@ -45,7 +45,7 @@ class ReplayShapes : public test::ProgramTest {
     std::vector<std::string> said;
     for (const auto& found : document.select_nodes("//div[starts-with(@class, 'story')]/p")) {
       const std::string sentence = found.node().text().get();
-      if (sentence.starts_with("This needs") || sentence.starts_with("They keep") ||
+      if (sentence.starts_with("As they moved, it took") || sentence.starts_with("They keep") ||
           sentence.find("share no station") != sentence.npos)
         said.push_back(sentence);
     }
@@ -58,29 +58,34 @@ constexpr const char* kApart =
 
 // A turns to 90 degrees. The near corner of B is at (0.625, 0.625): 0.125 m beside A before the turn and after it.
 TEST_F(ReplayShapes, ASweepThatIsNeeded) {
-  EXPECT_THAT(said_of({.b = "[0, 9]", .other = "[1.425, 1.125]"}),
-              ElementsAre("This needs the sweep of the turn on the spot of A: with the heading before the turn, and "
-                          "with that after it, A keeps 0.12 m from B. As it turns, its corners reach 0.94 m from "
-                          "its axis.",
-                          kApart));
+  EXPECT_THAT(
+      said_of({.b = "[0, 9]", .other = "[1.425, 1.125]"}),
+      ElementsAre(
+          "As they moved, it took the sweep of the turn on the spot of A: with the heading before the turn, and "
+          "with that after it, A keeps 0.12 m from B. As it turns, its corners reach 0.94 m from "
+          "its axis.",
+          kApart));
 }
 
 // At (0.665, 0.665) it is 0.94 m from the axis: 0.14 m from a disc of 0.8 m.
 TEST_F(ReplayShapes, CornersThatAreNeeded) {
-  EXPECT_THAT(said_of({.b = "[0, 9]", .other = "[1.465, 1.165]"}),
-              ElementsAre("This needs the sweep of the turn on the spot of A: with the heading before the turn, and "
-                          "with that after it, A keeps 0.16 m from B. As it turns, its corners reach 0.94 m from "
-                          "its axis.",
-                          "This needs the corners of A in its turn on the spot: a disc about its axis that reaches to "
-                          "the ends of A, 0.80 m, keeps 0.14 m from B. Its corners are 0.94 m from the axis.",
-                          kApart));
+  EXPECT_THAT(
+      said_of({.b = "[0, 9]", .other = "[1.465, 1.165]"}),
+      ElementsAre(
+          "As they moved, it took the sweep of the turn on the spot of A: with the heading before the turn, and "
+          "with that after it, A keeps 0.16 m from B. As it turns, its corners reach 0.94 m from "
+          "its axis.",
+          "As they moved, it took the corners of A in its turn on the spot: a disc about its axis that reaches to "
+          "the ends of A, 0.80 m, keeps 0.14 m from B. Its corners are 0.94 m from the axis.",
+          kApart));
 }
 
 // The near corner of B, (3.11, 0.89), is 1.57 m from the straight line, and so 1.07 m from A on it.
 TEST_F(ReplayShapes, ABendThatIsNeeded) {
   EXPECT_THAT(
       said_of({.b = "[4, 4]", .bend = R"(, "control_points_m": [[2.2, 0], [4, 1.8]])", .other = "[3.91, 0.39]"}),
-      ElementsAre("This needs the bend of the lane of A: on the straight line between the ends of that lane, A keeps "
+      ElementsAre("As they moved, it took the bend of the lane of A: on the straight line between the ends of that "
+                  "lane, A keeps "
                   "1.06 m from B. The lane goes up to 1.16 m aside of the line.",
                   "A was on the lane between a and b, B at p: these share no station and no segment. Only their shapes "
                   "on the floor come too close."));
@@ -89,20 +94,22 @@ TEST_F(ReplayShapes, ABendThatIsNeeded) {
 TEST_F(ReplayShapes, ALoadThatIsNeeded) {
   EXPECT_THAT(
       said_of({.script = kPick, .other = "[1.905, 0]", .vehicle = R"(, "loaded": {"extra_length_m": 0.6})"}),
-      ElementsAre("This needs the load of A: without it, A keeps 0.30 m from B. The load makes it 0.60 m longer "
-                  "and 0.00 m wider.",
-                  kApart));
+      ElementsAre(
+          "As they moved, it took the load of A: without it, A keeps 0.30 m from B. The load makes it 0.60 m longer "
+          "and 0.00 m wider.",
+          kApart));
 }
 
 // A passes beside B, 0.055 m apart; 0.3 m more if it were as narrow.
 TEST_F(ReplayShapes, ASizeThatIsNeeded) {
   EXPECT_THAT(
       said_of({.other = "[5, 1.3552]", .vehicle = R"(, "width_m": 1.6)"}),
-      ElementsAre("This needs the size of A: with the size of B, it would keep 0.35 m from it. A is 1.60 m by "
-                  "1.60 m, B is 1.60 m by 1.00 m.",
-                  "A was on the lane between a and b, B at p: these share no station and no segment. Only their "
-                  "shapes on the floor come too close.",
-                  "They keep more than half of the safety distance: 0.055 m of 0.10 m."));
+      ElementsAre(
+          "As they moved, it took the size of A: with the size of B, it would keep 0.35 m from it. A is 1.60 m by "
+          "1.60 m, B is 1.60 m by 1.00 m.",
+          "A was on the lane between a and b, B at p: these share no station and no segment. Only their "
+          "shapes on the floor come too close.",
+          "They keep more than half of the safety distance: 0.055 m of 0.10 m."));
 }
 
 // 0.04 m is less than half of it.
