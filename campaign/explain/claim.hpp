@@ -26,6 +26,7 @@ struct Share {
   Scenario run;      // with its own draws
   std::vector<std::uint32_t> failing_draws;
   std::size_t of = 0;                // 1: nothing is drawn that changes anything, so all draws are one run
+  bool tells_why = false;            // it is about radio or faults, not about who takes part or what made them meet
   bool smallest_case_fails = false;  // with the change, too: then the failure does not need what it takes away
 
   std::size_t failing() const { return failing_draws.size(); }

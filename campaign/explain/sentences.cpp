@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kEnoughFailing = 12;
 // As Sentence::decides. That a drive needed the message which let it begin says least: it may have been right to send
 // it.
+constexpr std::ptrdiff_t kMostDeciding = 2;  // messages
 constexpr int kByGoAhead = 1, kByShare = 2, kByThing = 3, kByMessage = 4;
 constexpr Duration kNotable = std::chrono::milliseconds(10);  // so late a message is worth a word
 
@@ -117,7 +118,9 @@ class Words {
             : say_at(sent, "It needs {} of {}. Had it arrived by {:.3f} s, no failure; at {:.3f} s, it fails.", trouble,
                      name, shown_seconds(delivery.sent + need.latest->in_time),
                      shown_seconds(delivery.sent + need.latest->too_late));
-    if (need.is_needed) sentence.decides = kByMessage;
+    // Of many that are needed, most only make the AGVs meet.
+    const auto needed = std::ranges::count_if(of_.messages, &MessageNeed::is_needed);
+    if (need.is_needed) sentence.decides = needed <= kMostDeciding ? kByMessage : kByGoAhead;
     shown_by(need.claims.size(), sentence);
   }
 
@@ -335,7 +338,8 @@ class Words {
       }
       Sentence& sentence = say("If {}: {} of {}{}.", share.what, share.failing(), share.of, verdict(share, base));
       sentence.share = i + 1;
-      if (base.failing() < kEnoughFailing || share.failing() > 0 || share.smallest_case_fails) continue;
+      const bool is_needed = base.failing() >= kEnoughFailing && share.failing() == 0 && !share.smallest_case_fails;
+      if (!is_needed || !share.tells_why) continue;
       sentence.decides = kByShare;
       sentence.lead = fmt::format("If {}, it fails in none of {} runs with other draws; as it is, in {}.", share.what,
                                   share.of, base.failing());

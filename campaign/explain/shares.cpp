@@ -16,6 +16,8 @@
 namespace fleetproof {
 namespace {
 
+constexpr const char* kNoFault = "no fault strikes";
+
 struct WorldChange {
   std::string what;
   std::function<void(Scenario&)> edit;
@@ -47,7 +49,7 @@ void add_radio(std::vector<WorldChange>& changes, const RadioSetup& radio) {
 std::vector<WorldChange> changes_of(const Scenario& scenario) {
   std::vector<WorldChange> changes{{"as it is", [](Scenario&) {}}};
   add_radio(changes, scenario.radio);
-  if (!scenario.faults.empty()) changes.push_back({"no fault strikes", [](Scenario& s) { s.faults.clear(); }});
+  if (!scenario.faults.empty()) changes.push_back({kNoFault, [](Scenario& s) { s.faults.clear(); }});
   if (!scenario.obstacles.empty())
     changes.push_back({"there are no obstacles", [](Scenario& s) { s.obstacles.clear(); }});
   changes.push_back({"speeds are a tenth lower", [](Scenario& s) { scale_speeds(s, 0.9); }});
@@ -102,6 +104,7 @@ void add_shares(CaseHost& host, const FailingCase& failing, const FailingCase& s
   for (const WorldChange& change : changes) {
     Share share{.what = change.what, .run = failing.scenario, .failing_draws = {}, .of = kRunsPerShare};
     change.edit(share.run);
+    share.tells_why = change.spares != nullptr || change.what == kNoFault;
     if (!is_fair(share.run)) continue;
     const auto runs = all_runs(host, {kRunsPerShare, [&](std::size_t rank) {
                                         return std::optional(with_other_draws(share.run, draw(rank)));
