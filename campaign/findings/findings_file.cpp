@@ -353,15 +353,40 @@ std::string toml_of(const KnownIssue& finding) {
          text_of_circumstances("circumstances", finding.neighbours.circumstances) + text_of_whole_runs(finding);
 }
 
+namespace {
+
+// Where the line "KEY = ..." begins, as a user may have written it; npos: not between these places.
+std::size_t line_of(std::string_view text, std::string_view key, std::size_t from, std::size_t to) {
+  for (std::size_t line = from; line < to; line = text.find('\n', line) + 1) {
+    std::string_view rest = text.substr(line);
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    const bool has_key = rest.starts_with(key);
+    if (has_key) rest.remove_prefix(key.size());
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    if (has_key && rest.starts_with('=')) return line;
+    if (text.find('\n', line) == text.npos) break;
+  }
+  return text.npos;
+}
+
+}  // namespace
+
 // The user may have written into the file: all else stays as it is.
 std::string with_refuted(std::string text, const KnownIssue& finding, const std::vector<std::string>& refuted) {
-  const std::string line = fmt::format("refuted = {}\n", list_of(refuted));
-  const std::size_t id = text.find("\"" + finding.id + "\"");
-  if (id == std::string::npos) return text;
-  const std::size_t end = std::min(text.find("[[finding]]", id), text.size());
-  const std::size_t old = text.find("\nrefuted = ", id);
-  if (old < end) return text.replace(old + 1, text.find('\n', old + 1) - old, line);
-  return text.insert(std::min(text.find('\n', id), text.size() - 1) + 1, line);
+  constexpr std::string_view kFinding = "[[finding]]";
+  for (std::size_t begin = text.find(kFinding); begin < text.size();) {
+    const std::size_t end = std::min(text.find(kFinding, begin + 1), text.size());
+    const std::size_t id = line_of(text, "id", begin, end);
+    const std::size_t end_of_id = std::min(text.find('\n', id), text.size());
+    if (id < end && text.substr(id, end_of_id - id).find('"' + finding.id + '"') != text.npos) {
+      const std::string line = fmt::format("refuted = {}", list_of(refuted));
+      const std::size_t old = line_of(text, "refuted", begin, end);
+      if (old < end) return text.replace(old, std::min(text.find(']', old) + 1, end) - old, line);
+      return text.insert(end_of_id, "\n" + line);
+    }
+    begin = end;
+  }
+  return text;
 }
 
 std::string standing_of(const KnownIssue* kept, std::string_view today) {

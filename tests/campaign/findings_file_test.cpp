@@ -121,6 +121,12 @@ TEST_F(FindingsFiles, ARefutedNeedIsStruckInItsPlace) {
   EXPECT_THAT(changed, HasSubstr("# mine\n"));
   EXPECT_THAT(changed, HasSubstr("# yours\n"));
   EXPECT_EQ(with_refuted(changed, second, {"restart"}), with_refuted(text, first, {"late messages"}));
+  // As a user may write it.
+  std::string own = "# see \"F-00000002\"\n" + text;
+  own.replace(own.find("refuted = [\"restart\"]"), 21, "  refuted=[ # mine\n  \"restart\",\n]");
+  const FindingsFile own_file(written(with_refuted(own, second, {"late messages"})));
+  EXPECT_EQ(own_file.find(second.id)->refuted, std::vector<std::string>{"late messages"});
+  EXPECT_TRUE(own_file.find(first.id)->refuted.empty());
 }
 
 TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {
