@@ -152,6 +152,7 @@ void put_curve(const NoReturn& curve) {
 
 int explain_case(const ExplainWords& words) {
   const WorkTime time(words.max_time);
+  if (!words.html.empty()) require_page_folder(words.html);
   AgentPrograms programs;
   const CaseSource source = read_case(words.from, programs);
   const CaseHost host(source.agent, programs, worker_count(words.jobs));

@@ -142,11 +142,16 @@ std::vector<std::string> shapes_of(const FailingCase& failing, const CaseAgent& 
                          at_ns(static_cast<std::int64_t>(outcome.simulated_ns)));
 }
 
-void write_pages(const std::string& folder, const CaseSource& source, const AgentPrograms& programs,
-                 const Explanation& explanation, const std::function<bool()>& is_over) {
+void require_page_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError("--html", fmt::format("{} cannot be made: {}", folder, error.message()));
+  for (const char* page : {kRunPage, kSmallPage})
+    require_writable({(std::filesystem::path(folder) / page).string(), "--html", OutputKind::ReplayPage});
+}
+
+void write_pages(const std::string& folder, const CaseSource& source, const AgentPrograms& programs,
+                 const Explanation& explanation, const std::function<bool()>& is_over) {
   Pages(folder, source, programs, explanation).write(is_over);
 }
 

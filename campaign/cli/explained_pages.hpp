@@ -28,6 +28,9 @@ web::ExplainedRun kept_explained(const std::string& path, const std::string& of)
 // What in the shapes of the two bodies broke the distance in the smallest case (shape_sentences). Simulates it again.
 std::vector<std::string> shapes_of(const FailingCase& failing, const CaseAgent& agent, const AgentPrograms& programs);
 
+// Before the work: makes the folder. Throws InputError if its pages cannot be written.
+void require_page_folder(const std::string& folder);
+
 // Writes a page of the run, index.html, one of its smallest case, and one of each run that shows a sentence, beside the
 // smallest case. Once the time is over, the runs that are left get none. Throws InputError.
 void write_pages(const std::string& folder, const CaseSource& source, const AgentPrograms& programs,

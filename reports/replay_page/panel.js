@@ -18,6 +18,11 @@ const tableOf = lines => {
   return table;
 };
 const place = pose => '(' + pose.x_m.toFixed(2) + ', ' + pose.y_m.toFixed(2) + ') m';
+// "A4.2, " at a station.
+const stationAt = pose => {
+  const here = film.stations.find(s => Math.hypot(s.x_um / 1e6 - pose.x_m, s.y_um / 1e6 - pose.y_m) < 0.005);
+  return here ? here.name + ', ' : '';
+};
 // From -179 to 180 degrees, without a minus before a zero.
 const heading = pose => {
   const degrees = Math.round(pose.heading_rad * 180 / Math.PI) % 360;
@@ -94,7 +99,7 @@ const tellBody = (body, t_s, all, box) => {
   if (isComputer(body)) return tellComputer(body, t_s, box);
   if (!one) return void box.append(element('p', 'is not on the floor', 'soft'));
   const speed = one.piece[kManner] === 1 ? speedAt(one.piece, t_s * 1e6) : 0;
-  const lines = [['at', place(one.pose) + ', heads ' + heading(one.pose)],
+  const lines = [['at', stationAt(one.pose) + place(one.pose) + ', heads ' + heading(one.pose)],
                  ['speed', speed.toFixed(2) + ' m/s']];
   if (film.bodies[body].kind === 'AGV') {
     lines.push(['does', aboutActivity(body, t_s)], ['load', isLoaded(body, t_s) ? 'yes' : 'no']);

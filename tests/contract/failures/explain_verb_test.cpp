@@ -155,6 +155,20 @@ TEST_F(ExplainVerb, ThePageOfARunShowsWhatWasFound) {
   EXPECT_THAT(read(path("p.html")), testing::Not(HasSubstr("Why it failed</h3>")));
 }
 
+TEST_F(ExplainVerb, PagesThatCannotBeWrittenAreRefusedBeforeTheWork) {
+  write("file", "mine");
+  std::filesystem::create_directory(path("pages"));
+  write("pages/index.html", "mine");
+  for (const char* folder : {"file", "file/below", "pages"}) {
+    const auto refused = run("explain case.json --agent timeout-grant --html " + std::string(folder));
+    EXPECT_EQ(refused.exit_code, 2) << folder << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("--html")) << folder;
+    EXPECT_THAT(refused.err, HasSubstr(folder));
+    EXPECT_EQ(refused.err.find("looking for the smallest case"), std::string::npos);
+  }
+  EXPECT_EQ(read(path("pages/index.html")), "mine");
+}
+
 TEST_F(ExplainVerb, ADrawIsACountingNumber) {
   for (const std::string words : {"--draw 0", "--radio-draw 4294967296"}) {
     const auto refused = run("simulate case.json --agent reckless " + words);
