@@ -212,11 +212,17 @@ TEST_F(LongCase, WhatWasFoundInTheTimeIsToldWithWhatWasNotTried) {
   EXPECT_FALSE(page["not_tried"].empty());
   const json shrunk = json::parse(run("shrink a.db 0 --max-time 12 --max-trials 50 --json -o s.json").out);
   EXPECT_FALSE(shrunk["search_ended"].get<bool>());
-  EXPECT_THAT(run("shrink a.db 0 --jobs 1 --max-time 8 -o t.json").out,
-              testing::AllOf(HasSubstr("1-minimal: not known; the time "),
-                             HasSubstr("; the same command goes on where this one ended\n")));
+  // A fast machine is done in a time in which a slow one has hardly begun.
+  std::string out;
+  for (const char* time_s : {"8", "4", "2", "1"}) {
+    std::filesystem::remove(path("t.json.trials"));
+    out = run("shrink a.db 0 --jobs 1 --max-time " + std::string(time_s) + " -o t.json").out;
+    if (out.find("1-minimal: not known; the time ") != std::string::npos) break;
+  }
+  EXPECT_THAT(out, testing::AllOf(HasSubstr("1-minimal: not known; the time "),
+                                  HasSubstr("; the same command goes on where this one ended\n")));
   EXPECT_THAT(run("simulate s.json").out, HasSubstr("  as expected: "));
-  const auto findings = run("findings a.db --jobs 1 --max-time 2");
+  const auto findings = run("findings a.db --jobs 1 --max-time 1");
   EXPECT_EQ(findings.exit_code, 4) << "nothing was found, and not all was looked at";
   EXPECT_THAT(findings.err, HasSubstr("the time is over: 0 of 1 failing runs were looked at"));
 }
