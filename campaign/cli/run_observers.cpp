@@ -107,6 +107,7 @@ void RunObservers::finish(const Outcome& outcome, const std::string& remark) {
   if (!words_.poses.empty()) write_whole(poses_file(words_), poses_csv(scenario_, pieces_->pieces(), step_of(words_)));
   if (chrome_) write_whole(chrome_file(words_), chrome_->text(outcome.violations, end));
   if (moment_) write_whole(moment_file(words_), moment_svg(moment_->moment(), scenario_));
+  if (!remark.empty()) replay_.explained = {};  // it is about another run than the page shows
   if (film_) write_whole(html_file(words_), replay_html(*film_, scenario_, outcome, replay_, remark));
 }
 
