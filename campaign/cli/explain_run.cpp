@@ -58,6 +58,7 @@ Explanation explained(const ExplainLimits& limits, const CaseHost& host, const C
 
 void keep_for_page(const CaseWords& words, const CaseSource& source, const Explanation& explanation) {
   if (words.run.empty() || !source.stored || is_interrupted()) return;
+  if (explanation.original.digest != source.stored->digest) return;  // other software, or another run of it
   const ArchiveReader archive(words.source, Checksums::Ignore);
   const auto run = std::stoull(words.run);
   keep_explained(explained_path(words.source, run, words.failure),
