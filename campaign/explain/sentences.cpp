@@ -320,7 +320,9 @@ class Words {
   void shares() {
     if (of_.shares.empty()) return;
     const Share& base = of_.shares.front();
-    if (base.of == 1) {
+    if (base.of == 1 && base.failing() == 0) {
+      say("With other draws, {} runs are all alike, and none fails so.", kRunsPerShare).share = 1;
+    } else if (base.of == 1) {
       say("Other draws change nothing: this run always fails so.").share = 1;
     } else {
       say("With other draws, the run fails in the same way in {} of {}.", base.failing(), base.of).share = 1;
