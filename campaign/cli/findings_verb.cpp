@@ -105,11 +105,14 @@ class FindingsOfCampaign {
       }
       if (TimeLimit::Clock::now() - kept < kKeepEvery) return;
       survey_ = so_far();
-      findings_ = findings_of(survey_.failures);
-      write_found();
+      group();
       kept = TimeLimit::Clock::now();
     });
+    group();
+  }
+  void group() {
     findings_ = findings_of(survey_.failures);
+    for (Finding& finding : findings_) finding.is_searched = false;
     write_found();
   }
   // A need that is told is one that was looked for in vain in runs without it.
@@ -127,6 +130,7 @@ class FindingsOfCampaign {
         add_refuted_needs(host, finding, survey_.failures,
                           {smaller, scenarios.scenario(simplest.run), words_.need_trials.value_or(kTrialsPerNeed)},
                           finding.refuted);
+        finding.is_searched = true;
       } catch (const GivenUp&) {
         ++not_searched_;
       }
@@ -167,7 +171,7 @@ class FindingsOfCampaign {
     std::string text = read_text_file_if_there(words_.file).value_or("# findings: what is known about failures\n");
     for (Finding& finding : findings_) {
       if (const KnownIssue* known = kept(finding)) {
-        if (finding.refuted != known->refuted) text = with_refuted(std::move(text), *known, finding.refuted);
+        if (finding.refuted != known->refuted) strike(text, *known, finding.refuted);
         continue;
       }
       ++new_;
@@ -182,6 +186,14 @@ class FindingsOfCampaign {
       }
     }
     write_file(text);
+  }
+  void strike(std::string& text, const KnownIssue& known, const std::vector<std::string>& refuted) const {
+    if (auto struck = with_refuted(text, known, refuted)) {
+      text = std::move(*struck);
+    } else {
+      talk("note: {} fails without {}, too; {} is written so that this cannot be added: write \"refuted\" yourself\n",
+           known.id, joined(refuted, ", "), words_.file);
+    }
   }
   void write_file(const std::string& text) const { write_whole({words_.file, "--file", OutputKind::Findings}, text); }
 

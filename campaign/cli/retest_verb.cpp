@@ -13,6 +13,7 @@
 #include "campaign/cli/streams.hpp"
 #include "campaign/cli/verbs.hpp"
 #include "campaign/cli/work_time.hpp"
+#include "campaign/findings/finding.hpp"
 #include "campaign/findings/findings_file.hpp"
 #include "campaign/findings/retest.hpp"
 #include "core/base/error.hpp"
@@ -84,7 +85,7 @@ std::string reason(const Retest& result, const NeighbourCounts& before) {
 
 void put_line(const Retested& retested) {
   const auto& [finding, result] = retested;
-  put("{}  {}\n  {}\n  {}\n", finding.id, name_of(result.verdict), finding.mechanism,
+  put("{}  {}\n  {}\n  {}\n", finding.id, name_of(result.verdict), without_refuted(finding.mechanism, finding.refuted),
       reason(result, finding.neighbours));
   // Beside each verdict: software may fail otherwise and no longer as it did.
   put("  {} of {} neighbours end as the case did{}; in {}, where it was found, {} of {}\n", result.now.alike,

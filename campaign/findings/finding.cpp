@@ -338,18 +338,45 @@ std::string Mechanism::text() const {
 std::string Finding::text() const {
   Mechanism shown = mechanism;
   const bool is_single = members.size() == 1;
-  const auto is_untold = [&](const std::string& need) { return is_single || names_all(refuted, {need}); };
-  const bool had_needs = !shown.needs.empty();
-  std::erase_if(shown.needs, is_untold);
-  std::erase_if(shown.traits, [&](const std::string& trait) { return trait == kThirdAgvTrait && is_untold(trait); });
-  if (is_single && had_needs) {
-    std::string text = shown.text();
-    const std::string nothing = "; needs nothing";
-    return text.replace(text.find(nothing), nothing.size(), "; one failure does not tell what it needs");
+  if (!is_single && is_searched) return without_refuted(shown.text(), refuted);
+  std::erase(shown.traits, kThirdAgvTrait);
+  if (std::exchange(shown.needs, {}).empty()) return without_refuted(shown.text(), refuted);
+  std::string text = shown.text();
+  const std::string nothing = "; needs nothing";
+  return text.replace(text.find(nothing), nothing.size(),
+                      is_single ? "; one failure does not tell what it needs"
+                                : "; whether it needs what these failures needed is not known");
+}
+
+namespace {
+
+std::vector<std::string> split(std::string_view text, std::string_view between) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(between, begin), text.size());
+    parts.emplace_back(text.substr(begin, end - begin));
+    begin = end + between.size();
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::string without_refuted(const std::string& mechanism, const std::vector<std::string>& refuted) {
+  if (refuted.empty()) return mechanism;
+  constexpr std::string_view kNeeds = "needs ", kFailsWithout = " (fails without ";
+  const auto is_refuted = [&](const std::string& need) { return names_all(refuted, {need}); };
+  std::vector<std::string> parts = split(mechanism.substr(0, mechanism.rfind(kFailsWithout)), "; ");
+  std::erase_if(parts, [&](const std::string& part) { return part == kThirdAgvTrait && is_refuted(part); });
+  for (std::string& part : parts) {
+    if (!part.starts_with(kNeeds) || part == kThirdAgvTrait) continue;
+    std::vector<std::string> needs = split(part.substr(kNeeds.size()), ", ");
+    std::erase_if(needs, is_refuted);
+    part = needs.empty() ? "needs nothing" : fmt::format("needs {}", fmt::join(needs, ", "));
   }
   std::vector<std::string> names;
   for (const std::string& need : refuted) names.push_back(need == kThirdAgvTrait ? "a third AGV" : need);
-  return names.empty() ? shown.text() : fmt::format("{} (fails without {}, too)", shown.text(), fmt::join(names, ", "));
+  return fmt::format("{}{}{}, too)", fmt::join(parts, "; "), kFailsWithout, fmt::join(names, ", "));
 }
 
 std::string Finding::id() const {

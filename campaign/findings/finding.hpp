@@ -39,13 +39,17 @@ struct Finding {
   std::vector<std::size_t> members;    // places in the list of failures, in its order
   std::size_t representative = 0;      // one of them: the simplest
   std::vector<std::string> refuted{};  // needs, a third AGV among them, without which a run fails, too
+  bool is_searched = true;             // for runs that fail without its needs
 
-  // The mechanism in words, without what is refuted. Of a single failure it names no needs: other runs may fail so
-  // without them.
+  // The mechanism in words, without what is refuted. Of a single failure, and before the search, it names no needs:
+  // other runs may fail so without them.
   std::string text() const;
   // "F-1c2d3e4f": the same for equal agent, end, needs, doing and words on any machine, in any campaign.
   std::string id() const;
 };
+
+// A mechanism in words, without the needs that are refuted; these are told behind it.
+std::string without_refuted(const std::string& mechanism, const std::vector<std::string>& refuted);
 
 // Failures of one agent with the same end and the same needs are one finding. A set of needs that is rare joins the
 // simplest frequent one that it contains: all that the other needs, it needs, too. Unless one in ten of them just drove

@@ -23,6 +23,9 @@
 namespace fleetproof {
 namespace {
 
+constexpr std::string_view kFindings = "finding", kRefuted = "refuted";
+const std::string kNoFile = "findings";  // what errors call a text that is not read from a file
+
 // In the quotes of TOML's basic strings.
 std::string toml_text(std::string_view text) {
   std::string written = "\"";
@@ -257,7 +260,7 @@ KnownIssue read_finding(TomlTable& table) {
         "a waiver has a last day, one of the calendar, and a reason: until = \"2027-01-31\" and reason = \"...\"");
   finding.end = needed(table, "end");
   finding.choice = read_choice(table);
-  finding.refuted = texts(table, "refuted");
+  finding.refuted = texts(table, kRefuted);
   finding.ways = lists(table, "ways");
   finding.doings = texts(table, "doings");
   finding.says = texts(table, "says");
@@ -273,18 +276,34 @@ KnownIssue read_finding(TomlTable& table) {
   return finding;
 }
 
+std::vector<KnownIssue> read_findings(TomlTable root) {
+  std::vector<KnownIssue> findings;
+  for (TomlTable& table : root.tables(kFindings)) {
+    KnownIssue finding = read_finding(table);
+    if (std::ranges::count(findings, finding.id, &KnownIssue::id) > 0)
+      throw InputError(table.place("id"), fmt::format("{} stands in the file twice", toml_text(finding.id)));
+    findings.push_back(std::move(finding));
+  }
+  root.finish();
+  return findings;
+}
+
+// A failure that needs less is this one, too.
+KeptFailure struck_failure(const KnownIssue& finding) {
+  KeptFailure kept{.end = finding.end, .ways = finding.ways, .doings = finding.doings, .says = finding.says};
+  for (const std::vector<std::string>& way : finding.ways) {
+    std::vector<std::string> left = way;
+    std::erase_if(left, [&](const std::string& need) { return names_all(finding.refuted, {need}); });
+    if (std::ranges::count(kept.ways, left) == 0) kept.ways.push_back(std::move(left));
+  }
+  std::erase_if(kept.doings, [&](const std::string& doing) { return names_all(finding.refuted, {doing}); });
+  return kept;
+}
+
 }  // namespace
 
 FindingsFile::FindingsFile(std::string path) : path_(std::move(path)) {
-  if (!is_name_taken(path_)) return;
-  TomlTable root = TomlTable::read(path_);
-  for (TomlTable& table : root.tables("finding")) {
-    findings_.push_back(read_finding(table));
-    const std::string& id = findings_.back().id;
-    if (find(id) != &findings_.back())
-      throw InputError(table.place("id"), fmt::format("{} stands in the file twice", toml_text(id)));
-  }
-  root.finish();
+  if (is_name_taken(path_)) findings_ = read_findings(TomlTable::read(path_));
 }
 
 const KnownIssue* FindingsFile::find(std::string_view id) const {
@@ -297,19 +316,9 @@ std::string FindingsFile::path_beside(const std::string& name) const {
 }
 
 KeptFailure FindingsFile::failure(const KnownIssue& finding) const {
-  KeptFailure kept{read_scenario(path_beside(finding.smallest)),
-                   read_scenario(path_beside(finding.world)),
-                   finding.end,
-                   finding.ways,
-                   finding.doings,
-                   finding.says};
-  // A failure that needs less is this one, too.
-  for (std::size_t i = 0, count = kept.ways.size(); i < count; ++i) {
-    std::vector<std::string> left = kept.ways[i];
-    std::erase_if(left, [&](const std::string& need) { return names_all(finding.refuted, {need}); });
-    if (std::ranges::count(kept.ways, left) == 0) kept.ways.push_back(std::move(left));
-  }
-  std::erase_if(kept.doings, [&](const std::string& doing) { return names_all(finding.refuted, {doing}); });
+  KeptFailure kept = struck_failure(finding);
+  kept.smallest = read_scenario(path_beside(finding.smallest));
+  kept.world = read_scenario(path_beside(finding.world));
   for (const std::string& world : finding.other_worlds) kept.other_worlds.push_back(read_scenario(path_beside(world)));
   for (const std::string& run : finding.whole.files) kept.runs.push_back(read_scenario(path_beside(run)));
   return kept;
@@ -323,9 +332,7 @@ KnownRuns FindingsFile::known_runs(const KnownIssue& finding) const {
                             finding.whole.counts.said.usually});
   for (const KnownIssue& other : findings_) {
     if (other.found_in != finding.found_in || other.id == finding.id) continue;
-    known.others.push_back({{.end = other.end, .ways = other.ways, .doings = other.doings, .says = other.says},
-                            other.neighbours.said.always,
-                            other.neighbours.said.usually,
+    known.others.push_back({struck_failure(other), other.neighbours.said.always, other.neighbours.said.usually,
                             other.whole.counts.circumstances});
   }
   return known;
@@ -334,7 +341,7 @@ KnownRuns FindingsFile::known_runs(const KnownIssue& finding) const {
 std::string toml_of(const KnownIssue& finding) {
   std::string text = fmt::format("\n[[finding]]\nid = {}\nmechanism = {}\nstatus = \"{}\"\n", toml_text(finding.id),
                                  toml_text(finding.mechanism), name_of(finding.status));
-  if (!finding.refuted.empty()) text += fmt::format("refuted = {}\n", list_of(finding.refuted));
+  if (!finding.refuted.empty()) text += fmt::format("{} = {}\n", kRefuted, list_of(finding.refuted));
   text += text_of_choice(finding.choice);
   if (!finding.doings.empty()) text += fmt::format("doings = {}\n", list_of(finding.doings));
   if (!finding.says.empty()) text += fmt::format("says = {}\n", list_of(finding.says));
@@ -353,40 +360,24 @@ std::string toml_of(const KnownIssue& finding) {
          text_of_circumstances("circumstances", finding.neighbours.circumstances) + text_of_whole_runs(finding);
 }
 
-namespace {
-
-// Where the line "KEY = ..." begins, as a user may have written it; npos: not between these places.
-std::size_t line_of(std::string_view text, std::string_view key, std::size_t from, std::size_t to) {
-  for (std::size_t line = from; line < to; line = text.find('\n', line) + 1) {
-    std::string_view rest = text.substr(line);
-    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
-    const bool has_key = rest.starts_with(key);
-    if (has_key) rest.remove_prefix(key.size());
-    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
-    if (has_key && rest.starts_with('=')) return line;
-    if (text.find('\n', line) == text.npos) break;
+std::optional<std::string> with_refuted(const std::string& text, const KnownIssue& finding,
+                                        const std::vector<std::string>& refuted) {
+  std::vector<KnownIssue> wanted = read_findings(TomlTable::parse(text, kNoFile));
+  const auto its = std::ranges::find(wanted, finding.id, &KnownIssue::id);
+  if (its == wanted.end()) return std::nullopt;
+  const auto index = static_cast<std::size_t>(its - wanted.begin());
+  std::string changed = with_value(text, kNoFile, kFindings, index, kRefuted, list_of(refuted), "id");
+  its->refuted = refuted;
+  try {
+    const auto texts_of = [](const std::vector<KnownIssue>& findings) {
+      std::vector<std::string> texts;
+      std::ranges::transform(findings, std::back_inserter(texts), toml_of);
+      return texts;
+    };
+    if (texts_of(read_findings(TomlTable::parse(changed, kNoFile))) == texts_of(wanted)) return changed;
+  } catch (const InputError&) {
   }
-  return text.npos;
-}
-
-}  // namespace
-
-// The user may have written into the file: all else stays as it is.
-std::string with_refuted(std::string text, const KnownIssue& finding, const std::vector<std::string>& refuted) {
-  constexpr std::string_view kFinding = "[[finding]]";
-  for (std::size_t begin = text.find(kFinding); begin < text.size();) {
-    const std::size_t end = std::min(text.find(kFinding, begin + 1), text.size());
-    const std::size_t id = line_of(text, "id", begin, end);
-    const std::size_t end_of_id = std::min(text.find('\n', id), text.size());
-    if (id < end && text.substr(id, end_of_id - id).find('"' + finding.id + '"') != text.npos) {
-      const std::string line = fmt::format("refuted = {}", list_of(refuted));
-      const std::size_t old = line_of(text, "refuted", begin, end);
-      if (old < end) return text.replace(old, std::min(text.find(']', old) + 1, end) - old, line);
-      return text.insert(end_of_id, "\n" + line);
-    }
-    begin = end;
-  }
-  return text;
+  return std::nullopt;
 }
 
 std::string standing_of(const KnownIssue* kept, std::string_view today) {

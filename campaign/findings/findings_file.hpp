@@ -73,8 +73,10 @@ class FindingsFile {
 // Appended to a findings file, it is one more finding.
 std::string toml_of(const KnownIssue& finding);
 
-// The text of a findings file in which these needs of a finding are struck, too. Its id stays what it is.
-std::string with_refuted(std::string text, const KnownIssue& finding, const std::vector<std::string>& refuted);
+// The text of a findings file in which these needs of a finding are struck. All else that the user may have written
+// stays as it is, the id, too. None if that cannot be: it is not in there, or not a table of its own.
+std::optional<std::string> with_refuted(const std::string& text, const KnownIssue& finding,
+                                        const std::vector<std::string>& refuted);
 
 // What a finding of a campaign is to the user, on a day ("2026-11-23"): "new", "known", "waived until 2027-01-31",
 // "known (waived until 2026-10-31)", "back".

@@ -88,7 +88,6 @@ KeptFailure with_words(KeptFailure kept, const std::vector<std::string>& words) 
 // them. Empty: it is.
 std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const std::vector<OtherKind>& others_known,
                             const Neighbourhood& neighbourhood, const NeighbourCounts& now, Retest& result) {
-  if (now.alike < kFewestNew) return "";
   const auto first = needs_of_neighbours(host, neighbourhood, now.first_alike);
   const auto is_kept = [&](const FailureNeeds& found) {
     return is_one_of(kept, found) ||
@@ -102,6 +101,7 @@ std::string other_mechanism(CaseHost& host, const KeptFailure& kept, const std::
   result.known_other = others;
   result.known_kept = static_cast<std::size_t>(
       std::ranges::count_if(first, [&](const FailureNeeds& found) { return is_one_of(kept, found); }));
+  if (now.alike < kFewestNew) return "";
   const auto known = static_cast<std::size_t>(std::ranges::count_if(first, is_kept));
   if (2 * others > first.size() || others > known) return text_of_new(kept, *std::ranges::find_if(first, is_other));
   return std::ranges::any_of(first, is_kept) ? "" : text_of_new(kept, first.front());
@@ -276,7 +276,11 @@ Retest retest(CaseHost& host, const KeptFailure& found, const NeighbourCounts& b
     result.verdict = !result.new_kind.empty() ? RetestVerdict::NewKind
                      : is_rarer(now, before)  ? RetestVerdict::StillThere
                                               : RetestVerdict::Dodged;
-  } else {
+  }
+  // Too few for a kind of their own, and none of them is the kept failure.
+  const bool are_all_others = result.new_kind.empty() && result.known_other == now.alike;
+  if (!result.case_fails && are_all_others) {
+    result.upper_bound = upper_bound(0, now.of, Confidence{0.95});
     result.verdict = verdict_of_none(host, kept, before, result);
   }
   if (result.verdict != RetestVerdict::NewKind && now.alike > 0) compare_signs(before, result, now);

@@ -104,6 +104,27 @@ void refuse_deep_keys(std::string_view text, const std::string& file) {
   }
 }
 
+toml::table parsed(std::string_view text, const std::string& path) {
+  refuse_deep_keys(text, path);
+  try {
+    return toml::parse(text, std::string_view(path));
+  } catch (const toml::parse_error& error) {
+    throw InputError(at(path, error.source()), fmt::format("not valid TOML: {}", error.description()));
+  }
+}
+
+// toml++ counts columns in code points.
+std::size_t byte_at(std::string_view text, toml::source_position position) {
+  std::size_t byte = 0;
+  for (toml::source_index line = 1; line < position.line; ++line) byte = text.find('\n', byte) + 1;
+  const auto is_inside_code_point = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+  for (toml::source_index column = 1; column < position.column && byte < text.size(); ++column) {
+    do ++byte;
+    while (byte < text.size() && is_inside_code_point(text[byte]));
+  }
+  return byte;
+}
+
 }  // namespace
 
 TomlTable::TomlTable(Impl* impl) : impl_(impl) {}
@@ -113,14 +134,21 @@ TomlTable::TomlTable(TomlTable&& other) noexcept : impl_(std::exchange(other.imp
 TomlTable TomlTable::read(const std::string& path) { return parse(read_text_file(path), path); }
 
 TomlTable TomlTable::parse(std::string_view text, const std::string& path) {
-  refuse_deep_keys(text, path);
-  try {
-    auto root = std::make_shared<toml::table>(toml::parse(text, std::string_view(path)));
-    const toml::table* table = root.get();
-    return TomlTable(new Impl{path, "", std::move(root), table, {}});
-  } catch (const toml::parse_error& error) {
-    throw InputError(at(path, error.source()), fmt::format("not valid TOML: {}", error.description()));
+  auto root = std::make_shared<toml::table>(parsed(text, path));
+  const toml::table* table = root.get();
+  return TomlTable(new Impl{path, "", std::move(root), table, {}});
+}
+
+std::string with_value(std::string text, const std::string& path, std::string_view tables, std::size_t index,
+                       std::string_view key, std::string_view value, std::string_view after) {
+  const toml::table root = parsed(text, path);
+  const auto& item = *root.get(tables)->as_array()->get(index)->as_table();
+  if (const toml::node* old = item.get(key)) {
+    const std::size_t begin = byte_at(text, old->source().begin), end = byte_at(text, old->source().end);
+    return text.replace(begin, end - begin, value);
   }
+  const std::size_t line = std::min(text.find('\n', byte_at(text, item.get(after)->source().end)), text.size());
+  return text.insert(line, fmt::format("\n{} = {}", key, value));
 }
 
 bool TomlTable::has(std::string_view key) const { return impl_->table->contains(key); }

@@ -65,6 +65,12 @@ class TomlTable {
   Impl* impl_;
 };
 
+// The text of a TOML file in which the table number `index` of [[tables]] has `key = value`, with `value` as TOML
+// writes it: in the place of the old one, or else on a line of its own behind the value of `after`, a key of that
+// table. All else stays as it is. Throws InputError if the text is not valid. `path` is what errors call it.
+std::string with_value(std::string text, const std::string& path, std::string_view tables, std::size_t index,
+                       std::string_view key, std::string_view value, std::string_view after);
+
 struct TomlTable::Item {
   std::string word;
   std::optional<TomlTable> table;  // instead of a word

@@ -112,8 +112,8 @@ TEST_F(FindingsFiles, ARefutedNeedIsStruckInItsPlace) {
   second.id = "F-00000002";
   second.refuted = {"restart"};
   const std::string text = "# mine\n" + toml_of(first) + "# yours\n" + toml_of(second);
-  std::string changed = with_refuted(text, first, {"late messages"});
-  changed = with_refuted(changed, second, {"restart", "lost messages"});
+  std::string changed = with_refuted(text, first, {"late messages"}).value();
+  changed = with_refuted(changed, second, {"restart", "lost messages"}).value();
   const FindingsFile file(written(changed));
   EXPECT_EQ(file.find(first.id)->refuted, std::vector<std::string>{"late messages"});
   EXPECT_EQ(file.find(second.id)->refuted, (std::vector<std::string>{"restart", "lost messages"}));
@@ -124,9 +124,59 @@ TEST_F(FindingsFiles, ARefutedNeedIsStruckInItsPlace) {
   // As a user may write it.
   std::string own = "# see \"F-00000002\"\n" + text;
   own.replace(own.find("refuted = [\"restart\"]"), 21, "  refuted=[ # mine\n  \"restart\",\n]");
-  const FindingsFile own_file(written(with_refuted(own, second, {"late messages"})));
+  const FindingsFile own_file(written(with_refuted(own, second, {"late messages"}).value()));
   EXPECT_EQ(own_file.find(second.id)->refuted, std::vector<std::string>{"late messages"});
   EXPECT_TRUE(own_file.find(first.id)->refuted.empty());
+}
+
+// What looks like a finding, an id or the end of a list, and is none.
+TEST_F(FindingsFiles, ARefutedNeedIsStruckInTextsOfAnyShape) {
+  KnownIssue first = odd(), second = odd();
+  first.refuted = {"the \"é]b\" messages"};
+  second.id = "F-00000002";
+  second.refuted.clear();
+  const std::string plain = toml_of(first) + toml_of(second);
+  const auto with = [&](std::string_view what, std::string_view instead) {
+    std::string text = plain;
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, text.npos) << what;
+    return text.replace(at, what.size(), instead);
+  };
+  const std::vector<std::string> texts = {
+      plain,
+      with("status = \"known\"",
+           "status = \"known\"\nreason = \"\"\"see\n[[finding]]\nrefuted = []\nid = \"F-00000002\"\n\"\"\""),
+      with("[[finding]]\nid", "# [[finding]] id = \"F-00000001\"\n[[ finding ]]\n\"id\""),
+      with("id = \"F-00000001\"", "id = 'F-00000001' # \"F-00000002\""),
+      with("refuted = [\"the \\\"é]b\\\" messages\"]",
+           "refuted = [ # ]\n \"the \\\"é]b\\\" messages\", # ] é\n] # mine"),
+  };
+  for (const std::string& text : texts) {
+    const std::vector<std::string> needs{"late messages", "the \"c]\" messages"};
+    for (const KnownIssue& struck : {first, second}) {
+      const auto changed = with_refuted(text, struck, needs);
+      ASSERT_TRUE(changed.has_value()) << text;
+      const FindingsFile file(written(*changed));
+      ASSERT_EQ(file.findings().size(), 2U) << *changed;
+      for (const KnownIssue& one : file.findings()) {
+        const auto& before = one.id == first.id ? first : second;
+        EXPECT_EQ(one.refuted, one.id == struck.id ? needs : before.refuted) << *changed;
+        EXPECT_EQ(one.ways, before.ways);
+      }
+    }
+  }
+}
+
+TEST_F(FindingsFiles, WhatCannotBeStruckIsSaidAndStays) {
+  const KnownIssue issue = odd();
+  KnownIssue missing = issue;
+  missing.id = "F-00000003";
+  EXPECT_EQ(with_refuted(toml_of(issue), missing, {"restart"}), std::nullopt);
+  const std::string in_one_line =
+      "finding = [{id = \"F-00000001\", mechanism = \"m\", end = \"too close\", ways = [], found_in = \"a\", "
+      "case = \"c.json\", world = \"w.json\"}]\n";
+  EXPECT_EQ(FindingsFile(written(in_one_line)).findings().size(), 1U);
+  EXPECT_EQ(with_refuted(in_one_line, issue, {"restart"}), std::nullopt);
 }
 
 TEST_F(FindingsFiles, ErrorsNameTheLineAndTheRemedy) {

@@ -353,8 +353,23 @@ TEST(Findings, TellNoNeedThatIsRefuted) {
   EXPECT_EQ(finding.text(),
             "too close, two AGVs; needs lost messages; one turns (fails without restart, a third AGV, too)");
   EXPECT_EQ(finding.id(), id) << "it is the same finding";
+  finding.is_searched = false;
+  EXPECT_EQ(finding.text(), "too close, two AGVs; whether it needs what these failures needed is not known; one turns");
   finding.members = {0};
   EXPECT_EQ(finding.text(), "too close, two AGVs; one failure does not tell what it needs; one turns");
+}
+
+// A mechanism that was kept before a need of it was refuted.
+TEST(Findings, AKeptMechanismIsToldWithoutWhatIsRefuted) {
+  const std::string third = kThirdAgvTrait;
+  const auto told = [](const std::string& kept, std::vector<std::string> refuted) {
+    return without_refuted(kept, refuted);
+  };
+  EXPECT_EQ(told("e; needs a, b; one turns", {}), "e; needs a, b; one turns");
+  EXPECT_EQ(told("e; needs a, b; one turns", {"b"}), "e; needs a; one turns (fails without b, too)");
+  EXPECT_EQ(told("e; needs a; " + third, {"a", third}), "e; needs nothing (fails without a, a third AGV, too)");
+  EXPECT_EQ(told("e; needs a (fails without b, too)", {"b", "a"}), "e; needs nothing (fails without b, a, too)");
+  EXPECT_EQ(told("my own words", {"a"}), "my own words (fails without a, too)");
 }
 
 // Two AGVs that drive as they like touch without any third AGV, lost message or restart.
