@@ -21,7 +21,8 @@ std::int16_t heading_units(double part) {
 
 std::optional<std::string_view> noted(const char* text) {
   if (text == nullptr) return std::nullopt;
-  return std::string_view(text, ::strnlen(text, kNoteBytesMax));
+  const std::string_view note(text, ::strnlen(text, kNoteBytesMax));
+  return note.substr(0, note.find(kFieldEnd));
 }
 
 std::optional<NotedPose> noted(const fp_pose* where) {
@@ -62,6 +63,7 @@ std::optional<std::string> noted(const fp_message_fields* fields) {
     for (const auto& [word, field] : {std::pair("answers ", answers), std::pair("asks ", asks), std::pair("", about)}) {
       if (!field.empty()) content += (content.empty() ? "" : ", ") + (word + field);
     }
+    content = content.substr(0, room);
   }
   std::string text = kind;
   if (!content.empty()) text += ": " + content;

@@ -248,6 +248,21 @@ TEST(Notes, OfAMessageMayHaveFields) {
   EXPECT_EQ(std::ranges::count(longest, 'x'), 200) << "the content has no room";
   EXPECT_EQ(message_words(longest).answers.size(), 64U);
   EXPECT_EQ(message_words(longest).content, "");
+  const std::string made_up = described({size, "A", nullptr, text.c_str(), text.c_str(), nullptr});
+  EXPECT_EQ(message_words(made_up).content.size(), 200U - 1U - 2 * 64U) << "what fields make up has no more room";
+  EXPECT_EQ(message_words(made_up).answers.size(), 64U);
+}
+
+// What parts fields is in no text of a user.
+TEST(Notes, OfAMessageHaveNoFieldsThatNobodyGave) {
+  const auto trace = notes_of([](const fp_host& host, fp_controller* c) {
+    host.describe(c,
+                  "GRANT: a\x1f"
+                  "4.0\x1f"
+                  "3.0");
+    host.send_broadcast(c, "m", 1);
+  });
+  EXPECT_THAT(trace.words_of(TraceKind::Described), testing::ElementsAre("GRANT: a"));
 }
 
 TEST(Notes, AListOfAnswersHasWholeRequests) {

@@ -47,11 +47,18 @@ class Arguments {
   }
   bool is_object(std::size_t place) const { return at(place).is_object(); }
   // Of an object; empty: it has no such field.
-  std::string field(std::size_t place, const char* name) const {
+  std::string field(std::size_t place, std::string_view name) const {
     const auto found = at(place).find(name);
     if (found == at(place).end() || found->is_null()) return {};
     if (!found->is_string()) refuse(place, "has a field that is no text");
     return found->get<std::string>();
+  }
+  // Of an object: the first has to be there, and no others may be.
+  void require_fields(std::size_t place, std::string_view needed, std::initializer_list<std::string_view> known) const {
+    if (field(place, needed).empty()) refuse(place, "has no \"" + std::string(needed) + '"');
+    for (const auto& [name, value] : at(place).items()) {
+      if (std::ranges::count(known, name) == 0) refuse(place, "has an unknown field, " + cited(name));
+    }
   }
   std::uint64_t bits(std::size_t place) const {
     if (at(place).is_number_unsigned()) return at(place).get<std::uint64_t>();
@@ -119,7 +126,7 @@ class Arguments {
     if (!found->is_number_unsigned() || found->get<std::uint64_t>() > FP_NONE) refuse(place, "has a wrong number");
     return found->get<std::uint32_t>();
   }
-  [[noreturn]] void refuse(std::size_t place, const char* why) const {
+  [[noreturn]] void refuse(std::size_t place, const std::string& why) const {
     throw Broken("made a call whose argument " + std::to_string(place) + " " + why + ": " + cited(call_.dump()));
   }
 
@@ -168,6 +175,7 @@ CallResult note(const Controller& c, const Arguments& given, LineWriter& out) {
 // "GRANT: answers 7", or {"kind": "GRANT", "answers": "7"}.
 CallResult describe(const Controller& c, const Arguments& given, LineWriter& out) {
   if (!given.is_object(1)) return note<&fp_host::describe>(c, given, out);
+  given.require_fields(1, "kind", {"kind", "content", "asks", "answers", "about"});
   const std::string kind = given.field(1, "kind"), content = given.field(1, "content"), asks = given.field(1, "asks"),
                     answers = given.field(1, "answers"), about = given.field(1, "about");
   const auto or_null = [](const std::string& text) { return text.empty() ? nullptr : text.c_str(); };

@@ -35,6 +35,10 @@ def misbehave(how, told):
         say({"calls": [["move", -1]]})
     elif how == "missing-argument":
         say({"calls": [["set_timer", 1]]})
+    elif how == "no-kind":
+        say({"calls": [["describe", {"content": "holds C2"}]]})
+    elif how == "unknown-field":
+        say({"calls": [["describe", {"kind": "GRANT", "anwsers": "7"}]]})
     elif how == "no-byte":
         say({"calls": [["send_broadcast", "\u20ac"]]})
     elif how == "calls-no-list":
