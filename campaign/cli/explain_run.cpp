@@ -61,8 +61,10 @@ void keep_for_page(const CaseWords& words, const CaseSource& source, const Expla
   if (explanation.original.digest != source.stored->digest) return;  // other software, or another run of it
   const ArchiveReader archive(words.source, Checksums::Ignore);
   const auto run = std::stoull(words.run);
-  keep_explained(explained_path(words.source, run, words.failure),
-                 explained_run(explanation, explained_name(archive.campaign(), run, *source.stored, words.failure)));
+  const std::string path = explained_path(words.source, run, words.failure);
+  const auto found = explained_run(explanation, explained_name(archive.campaign(), run, *source.stored, words.failure));
+  const auto is_better = [](const web::ExplainedRun& kept) { return kept.is_whole && !kept.lines.empty(); };
+  if (found.is_whole || !is_better(kept_explained(path, found.of))) keep_explained(path, found);
 }
 
 void explain_unless_kept(const std::string& archive, std::uint64_t run) {

@@ -62,11 +62,21 @@ class Pages {
     put(kSmallPage, failing, part_);
     part_.shows = web::ExplainedPart::Shows::Run;
     put(kRunPage, film(found_.original.scenario, {}, source_.name), part_);
+    remove_old_ones();
     if (part_.run_pages < claims.size())
       talk("the time is over: {} of {} have a page\n", part_.run_pages, count_text(claims.size(), "run"));
   }
 
  private:
+  // Of an explanation before, with more runs.
+  void remove_old_ones() const {
+    for (std::size_t number = part_.run_pages + 1;; ++number) {
+      const auto old = std::filesystem::path(folder_) / web::page_of_run(number);
+      if (!std::filesystem::exists(old)) return;
+      require_writable({old.string(), "--html", OutputKind::ReplayPage});
+      std::filesystem::remove(old);
+    }
+  }
   web::Film film(const Scenario& scenario, const std::string& remark, const std::string& name) const {
     FilmRecorder recorder(scenario);
     const Outcome outcome = watch_case(scenario, source_.agent, programs_, recorder);
@@ -103,6 +113,7 @@ web::ExplainedRun explained_run(const Explanation& explanation, const std::strin
     run.lines.push_back({sentence.text, sentence.at ? std::optional(film_us(*sentence.at)) : std::nullopt,
                          sentence.is_of_run, sentence.claims});
   run.branches = kBranches;
+  run.is_whole = explanation.is_smallest && explanation.not_tried.empty();
   for (const Branching& branching : explanation.no_return.curve)
     run.curve.push_back({film_us(branching.at), branching.failing()});
   return run;

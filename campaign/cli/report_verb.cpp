@@ -76,6 +76,11 @@ void show_history(ReportInput& input, const ReportWords& words) {
 }
 
 constexpr std::uint64_t kMostCases = 100;
+constexpr const char* kPageOfAll = "report.html";
+
+std::string in_folder(const ReportWords& words, const std::string& name) {
+  return (std::filesystem::path(words.html) / name).string();
+}
 
 void check_cases(const ReportWords& words) {
   if (!words.cases) return;
@@ -87,10 +92,7 @@ void check_cases(const ReportWords& words) {
   if (!std::filesystem::is_directory(words.html))
     throw InputError("--html", fmt::format("{} is no folder{}; with --cases it names the folder of all pages",
                                            words.html, error ? " and cannot be made" : ""));
-}
-
-std::string in_folder(const ReportWords& words, const std::string& name) {
-  return (std::filesystem::path(words.html) / name).string();
+  require_writable({in_folder(words, kPageOfAll), "--html", OutputKind::Report});
 }
 
 // A run whose software is gone, for instance, gets no page, and the others do.
@@ -124,7 +126,7 @@ int html_report(const ArchiveReader& archive, const ReportWords& words) {
   if (!words.no_film) input.strips = film_strips(archive, words.archive, input.report.failures);
   if (!words.evidence.empty()) write_evidence_set(words.evidence, archive, input);
   if (words.cases) write_cases(input, words);
-  const std::string page = words.cases ? in_folder(words, "report.html") : words.html;
+  const std::string page = words.cases ? in_folder(words, kPageOfAll) : words.html;
   if (!page.empty()) write_whole({page, "--html", OutputKind::Report}, render_html(input));
   return told_to_ci(input.report, words);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -18,12 +19,17 @@ using html::text_element;
 
 constexpr std::size_t kMostDifferences = 400;  // that differ
 
-// Without the numbers of messages: one message more, and all later ones have others.
+// Without the number of a message: one message more, and all later ones have others. A kind may have a # of its own.
+std::string without_number(const std::string& what) {
+  for (auto at = what.find(" #"); at != what.npos; at = what.find(" #", at + 1)) {
+    const auto end = std::min(what.find_first_not_of("0123456789", at + 2), what.size());
+    if (end > at + 2 && (end == what.size() || what[end] == ' ')) return what.substr(0, at) + what.substr(end);
+  }
+  return what;
+}
 auto event_of(const LogLine& line) {
-  const auto number = line.kind == LogLine::Kind::Message ? line.what.find(" #") : line.what.npos;
-  const auto content = number == line.what.npos ? number : line.what.find(' ', number + 1);
-  const std::string what = line.what.substr(0, number) + (content == line.what.npos ? "" : line.what.substr(content));
-  return std::tuple(line.at.at_us, line.who, what);
+  return std::tuple(line.at.at_us, line.who,
+                    line.kind == LogLine::Kind::Message ? without_number(line.what) : line.what);
 }
 auto key_of(const LogLine& line) { return std::pair(event_of(line), line.details); }
 
@@ -111,6 +117,38 @@ class Rows {
   bool ended_difference_ = false;
 };
 
+using Lines = std::span<const LogLine>;
+
+// The next lines, as far as they are of this event.
+template <class Event>
+Lines lines_of_event(std::vector<LogLine>::const_iterator& next, std::vector<LogLine>::const_iterator end,
+                     const Event& event) {
+  const auto begin = next;
+  next = std::find_if(next, end, [&](const LogLine& line) { return event_of(line) != event; });
+  return {begin, next};
+}
+
+// Lines with equal details are alike; of the others, one of each run stand beside each other.
+void add_event(Lines failing, Lines changed, Rows& rows) {
+  const auto others_than = [](Lines lines, Lines other) {
+    std::vector<const LogLine*> left;
+    std::vector<LogLine> open(other.begin(), other.end());
+    for (const LogLine& line : lines) {
+      const auto same = std::ranges::find(open, line.details, &LogLine::details);
+      if (same == open.end()) {
+        left.push_back(&line);
+      } else {
+        open.erase(same);
+      }
+    }
+    return left;
+  };
+  const std::vector<const LogLine*> one = others_than(failing, changed), other = others_than(changed, failing);
+  for (std::size_t i = one.size(); i < failing.size(); ++i) rows.add_same();
+  for (std::size_t i = 0; i < std::max(one.size(), other.size()); ++i)
+    rows.add(i < one.size() ? one[i] : nullptr, i < other.size() ? other[i] : nullptr);
+}
+
 }  // namespace
 
 Element differences_part(const Film& failing, const Film& changed, const std::string& failing_page) {
@@ -118,18 +156,9 @@ Element differences_part(const Film& failing, const Film& changed, const std::st
                              after = unfolded(event_log_of(as_seen_from(failing, changed)));
   Rows rows(failing_page);
   for (auto one = before.begin(), other = after.begin(); one != before.end() || other != after.end();) {
-    const bool are_one_event = one != before.end() && other != after.end() && event_of(*one) == event_of(*other);
-    if (are_one_event && one->details != other->details) {
-      rows.add(&*one++, &*other++);
-    } else if (other == after.end() || (one != before.end() && key_of(*one) < key_of(*other))) {
-      rows.add(&*one++, nullptr);
-    } else if (one == before.end() || key_of(*other) < key_of(*one)) {
-      rows.add(nullptr, &*other++);
-    } else {
-      rows.add_same();
-      ++one;
-      ++other;
-    }
+    const bool is_before = other == after.end() || (one != before.end() && event_of(*one) <= event_of(*other));
+    const auto event = event_of(is_before ? *one : *other);
+    add_event(lines_of_event(one, before.end(), event), lines_of_event(other, after.end(), event), rows);
   }
   Element part = html::titled("Beside the failing case");
   part.add(

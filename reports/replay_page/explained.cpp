@@ -33,8 +33,17 @@ ExplainedRun explained_from(const Json& json) {
     told.runs = line.at("runs").get<std::vector<std::size_t>>();
   }
   run.branches = json.at("branches");
+  run.is_whole = json.value("whole", true);
   for (const Json& at : json.at("curve")) run.curve.push_back({at.at("at_us"), at.at("failing")});
   return run;
+}
+
+// No run lasts longer: figures and clicks can count with these instants.
+bool has_possible_instants(const ExplainedRun& run) {
+  constexpr std::int64_t kLatest_us = 1'000'000'000'000'000;
+  const auto is_possible = [](std::int64_t at_us) { return at_us >= 0 && at_us <= kLatest_us; };
+  return std::ranges::all_of(run.curve, is_possible, &ExplainedBranches::at_us) &&
+         std::ranges::all_of(run.lines, [&](const ExplainedLine& line) { return is_possible(line.at_us.value_or(0)); });
 }
 
 // An instant of this page is one that a click goes to; that of another page is a link.
@@ -110,6 +119,7 @@ std::string explained_text(const ExplainedRun& run) {
                {"lead", run.lead},
                {"sentences", Json::array()},
                {"branches", run.branches},
+               {"whole", run.is_whole},
                {"curve", Json::array()}};
   for (const ExplainedLine& line : run.lines)
     json["sentences"].push_back({{"text", line.text},
@@ -124,7 +134,8 @@ std::optional<ExplainedRun> parse_explained(const std::string& text) {
   const Json json = read_json(text);
   if (!json.is_object() || json.value("schema_version", Json()) != kExplainedVersion) return std::nullopt;
   try {
-    return explained_from(json);
+    ExplainedRun run = explained_from(json);
+    return has_possible_instants(run) ? std::optional(std::move(run)) : std::nullopt;
   } catch (const Json::exception&) {
     return std::nullopt;
   }

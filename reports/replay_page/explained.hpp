@@ -36,6 +36,7 @@ struct ExplainedRun {
   std::vector<ExplainedLine> lines;
   std::vector<ExplainedBranches> curve;  // in order of time
   std::size_t branches = 0;              // of each instant
+  bool is_whole = true;                  // false: the time was over before all was tried
   friend bool operator==(const ExplainedRun&, const ExplainedRun&) = default;
 };
 std::string explained_text(const ExplainedRun& run);  // JSON

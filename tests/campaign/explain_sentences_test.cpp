@@ -148,6 +148,17 @@ TEST(Explain, WhatTheSmallestCaseDoesWithoutIsNoNeedOfTheFailure) {
                                                                      "failure needs this to be otherwise")));
 }
 
+// Draws that change nothing make one run of all. It may be another one than the run that failed.
+TEST(Explain, WhereAllDrawsAreAlikeAndPassItIsNotSaidToFail) {
+  AgentPrograms programs;
+  CaseHost host({"scripted", ""}, programs, 2);
+  Explanation is;
+  is.original = is.small = {line(), *failure_of(host(line()))};
+  is.shares = {{.what = "as it is", .run = line(), .failing_draws = {}, .of = 1}};
+  EXPECT_THAT(sentences_of(is),
+              testing::Contains("With other draws, 59 runs are all alike, and none fails so [share 1]."));
+}
+
 TEST(Explain, TheSentencesTellWhichAgentCrashed) {
   MadeUp made;
   made.is.ended = "agent of " + made.name(made.a) + ": aborted (SIGABRT) in event message at 7.5 s";

@@ -59,6 +59,17 @@ TEST(Explained, IsReadAsItWasWritten) {
     EXPECT_FALSE(parse_explained(other)) << other;
 }
 
+TEST(Explained, AnInstantThatNoRunHasIsRefused) {
+  for (const std::int64_t at_us : {std::int64_t{-1}, std::int64_t{1'000'000'000'000'001}, INT64_MAX}) {
+    ExplainedRun run = found();
+    run.curve.front().at_us = at_us;
+    EXPECT_FALSE(parse_explained(explained_text(run)).has_value()) << at_us;
+    run = found();
+    run.lines.back().at_us = at_us;
+    EXPECT_FALSE(parse_explained(explained_text(run)).has_value()) << at_us;
+  }
+}
+
 TEST(Explained, ThePageOfTheRunGoesToItsOwnInstantsOnly) {
   ExplainedPart part;
   part.run = found();
@@ -133,6 +144,21 @@ TEST(Differences, BodiesAreTheSameByTheirNames) {
   const auto told = rows(failing, changed);
   EXPECT_THAT(told, testing::Contains(HasSubstr("A: begins drive, p to q")));
   EXPECT_THAT(told, testing::Contains(HasSubstr("|B: begins drive, p to q|")));
+}
+
+// Of several lines of one event, those that both runs have stand once, whatever stands before them.
+TEST(Differences, OfOneEventWhatBothHaveIsNoDifference) {
+  const auto with = [](std::vector<std::string> details) {
+    Film film = film_of("B");
+    for (const std::string& one : details) film.activities.push_back({0, 15'000'000, 20'000'000, "drive", one});
+    return film;
+  };
+  EXPECT_THAT(rows(with({"a", "b"}), with({"b"})),
+              testing::Contains("smallest.html#t=15.000|A: begins drive, a||#difference-2"));
+  EXPECT_THAT(rows(with({"b"}), with({"a", "b"})),
+              testing::Contains("smallest.html#t=15.000||A: begins drive, a|#difference-2"));
+  EXPECT_THAT(rows(with({"a", "b"}), with({"b", "c"})),
+              testing::Contains("smallest.html#t=15.000|A: begins drive, a|A: begins drive, c|#difference-2"));
 }
 
 TEST(Differences, TheNumberOfAMessageIsNone) {

@@ -1,3 +1,5 @@
+#include <SQLiteCpp/Database.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -59,6 +61,15 @@ transports_per_agv_hour = 60
     return false;
   }
 
+  // Its page is p.html.
+  std::string failing_run() {
+    for (int index = 0; index < 12; ++index) {
+      const auto replayed = run("replay a.db " + std::to_string(index) + " --html p.html");
+      if (replayed.out.find("  failure: contact") != std::string::npos) return std::to_string(index);
+    }
+    return "none";
+  }
+
   std::string simulate(const std::string& words) {
     const json run_json = json::parse(run("simulate " + words + " --json --agent timeout-grant").out);
     return run_json["outcome"];
@@ -118,14 +129,7 @@ TEST_F(ExplainVerb, ThePageTellsHowToSimulateThem) {
 
 // What was found of a run is kept beside its results file, and its page shows it; that of another run does not.
 TEST_F(ExplainVerb, ThePageOfARunShowsWhatWasFound) {
-  int failing = -1;
-  for (int index = 0; index < 12 && failing < 0; ++index) {
-    if (run("replay a.db " + std::to_string(index) + " --html p.html").out.find("  failure: contact") !=
-        std::string::npos)
-      failing = index;
-  }
-  ASSERT_GE(failing, 0);
-  const std::string index = std::to_string(failing);
+  const std::string index = failing_run();
   const std::string before = read(path("p.html"));
   EXPECT_THAT(before, HasSubstr("<code>fleetproof explain a.db " + index + "</code>"));
   EXPECT_THAT(before, testing::Not(HasSubstr("Why it failed</h3>")));
@@ -153,6 +157,76 @@ TEST_F(ExplainVerb, ThePageOfARunShowsWhatWasFound) {
   const auto other = run("replay a.db " + index + " --html p.html");
   EXPECT_THAT(other.err, HasSubstr("is of another run, or of other software: explain the run again"));
   EXPECT_THAT(read(path("p.html")), testing::Not(HasSubstr("Why it failed</h3>")));
+}
+
+// What other software does is not why the run of the results file failed.
+TEST_F(ExplainVerb, OtherSoftwareLeavesNoWordAboutTheRun) {
+  std::filesystem::copy_file(FLEETPROOF_FAILING_AGENT, path("failing.so"));
+  write("b.toml", R"(
+name = "b"
+kind = "search"
+seed = 5
+horizon_s = 30
+replicates = 1
+agent_config = "segfault 1000000"
+[factors]
+agents = ["failing.so"]
+layouts = ["aisle-grid"]
+loss = [0.4]
+delay_s = [2]
+)");
+  run("run b.toml --db b.db");
+  const std::string kept = "b.run-0.explained.json";
+  const auto rebuilt =
+      shell("FLEETPROOF_TEST_REBUILT=yes \"$FLEETPROOF\" explain b.db 0 --max-trials 20 --max-time 10");
+  EXPECT_THAT(rebuilt.out, HasSubstr("SIGSEGV"));
+  EXPECT_FALSE(std::filesystem::exists(path(kept)));
+  run("explain b.db 0 --max-trials 20 --max-time 10");
+  EXPECT_TRUE(std::filesystem::exists(path(kept)));
+}
+
+// As if the software did something else than when it was explained: the page shows what it does now.
+TEST_F(ExplainVerb, APageOfAnotherRunThanTheExplainedOneDoesNotSayWhy) {
+  const std::string index = failing_run();
+  ASSERT_EQ(run("explain a.db " + index + " --max-trials 300").exit_code, 0);
+  const std::string kept = "a.run-" + index + ".explained.json", text = read(path(kept));
+  std::smatch of;
+  ASSERT_TRUE(std::regex_search(text, of, std::regex("\"of\": \"[0-9a-f]+ [0-9]+ ([0-9a-f]+) ")));
+  SQLite::Database(path("a.db"), SQLite::OPEN_READWRITE).exec("UPDATE runs SET digest = digest + 1");
+  const auto other = std::stoull(of[1].str(), nullptr, 16) + 1;
+  write(kept, std::regex_replace(text, std::regex(of[1].str()), fmt::format("{:016x}", other)));
+  const auto replayed = run("replay a.db " + index + " --html p.html");
+  EXPECT_EQ(replayed.exit_code, 3) << replayed.out;
+  EXPECT_EQ(replayed.err.find("is of another run"), std::string::npos) << replayed.err;
+  EXPECT_THAT(read(path("p.html")), testing::Not(HasSubstr("Why it failed</h3>")));
+}
+
+// A search that had more time is not replaced by one that had less.
+TEST_F(ExplainVerb, AShorterSearchLeavesTheFullerOne) {
+  const std::string index = failing_run(), kept = "a.run-" + index + ".explained.json";
+  ASSERT_EQ(run("explain a.db " + index + " --max-time 1h").exit_code, 0);
+  const std::string whole = read(path(kept));
+  ASSERT_THAT(whole, HasSubstr("\"whole\": true"));
+  ASSERT_EQ(run("explain a.db " + index + " --max-trials 1").exit_code, 0);
+  EXPECT_EQ(read(path(kept)), whole);
+  std::filesystem::remove(path(kept));
+  ASSERT_EQ(run("explain a.db " + index + " --max-trials 1").exit_code, 0);
+  EXPECT_THAT(read(path(kept)), HasSubstr("\"whole\": false"));
+}
+
+TEST_F(ExplainVerb, PagesOfAnExplanationBeforeAreGone) {
+  const std::string words = "explain case.json --agent timeout-grant --max-time 1h --html pages --max-trials ";
+  ASSERT_EQ(run(words + "300").exit_code, 0);
+  const std::string page = read(path("pages/001.html"));
+  std::size_t pages = 0;
+  for (const auto& file : std::filesystem::directory_iterator(path("pages")))
+    pages += file.path().filename().string().starts_with('0') ? 1 : 0;
+  const auto old = [&](std::size_t more) { return fmt::format("pages/{:03}.html", pages + more); };
+  for (const std::size_t more : {1, 2}) write(old(more), page);
+  write("pages/0.html", "mine");
+  ASSERT_EQ(run(words + "300").exit_code, 0);
+  for (const std::size_t more : {0, 1, 2}) EXPECT_EQ(std::filesystem::exists(path(old(more))), more == 0) << more;
+  EXPECT_EQ(read(path("pages/0.html")), "mine");
 }
 
 TEST_F(ExplainVerb, PagesThatCannotBeWrittenAreRefusedBeforeTheWork) {
