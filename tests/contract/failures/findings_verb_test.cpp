@@ -125,6 +125,27 @@ TEST_F(FindingsVerb, OtherSoftwareIsRetested) {
   EXPECT_THAT(run("retest findings.toml --agent hull-lock").err, HasSubstr(".case.json"));
 }
 
+// In the file, in the sentences, and for what other failures are compared with.
+TEST_F(FindingsVerb, ANeedThatIsRefutedLaterIsStruckInTheFile) {
+  ASSERT_EQ(run("findings a.db --file findings.toml --add --need-trials 0").exit_code, 0);
+  const std::string before = read(path("findings.toml"));
+  ASSERT_THAT(before, HasSubstr("needs lost messages"));
+  ASSERT_THAT(before, Not(HasSubstr("refuted")));
+  write("findings.toml", "# ours: [[finding]] id = \"F-0\"\n" + before);
+  ASSERT_EQ(run("findings a.db --file findings.toml --add").exit_code, 0);
+  const std::string after = read(path("findings.toml"));
+  EXPECT_THAT(after, HasSubstr("# ours: [[finding]] id = \"F-0\"\n"));
+  const auto struck = after.find("refuted = [\"lost messages\"]\n");
+  ASSERT_NE(struck, after.npos);
+  EXPECT_EQ(std::string(after).erase(struck, std::string("refuted = [\"lost messages\"]\n").size()),
+            "# ours: [[finding]] id = \"F-0\"\n" + before);
+  const auto retested = run("retest findings.toml --agent timeout-grant --neighbours 100");
+  EXPECT_EQ(retested.exit_code, 1) << retested.err;
+  EXPECT_THAT(retested.out, HasSubstr("  still there\n"));
+  EXPECT_THAT(retested.out, HasSubstr(" (fails without lost messages, too)\n"));
+  EXPECT_THAT(retested.out, Not(HasSubstr("needs lost messages")));
+}
+
 TEST_F(FindingsVerb, KnownCasesArePlayedBeforeACampaign) {
   ASSERT_EQ(run("findings a.db --file findings.toml --add").exit_code, 0);
   const std::string digest = run("report a.db --digest").out;
