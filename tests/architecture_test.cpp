@@ -95,6 +95,8 @@ const std::map<std::string, std::string> kInsideARoom = {
     {"campaign/cli/evidence", "one verb of campaign/cli"},
     {"core/agents/central", "the pair of core/agents for fleets with a computer"},
     {"core/bridges/lockstep", "one way in of core/bridges"},
+    {"core/bridges/mqtt", "a broker and its clients, of core/bridges"},
+    {"core/bridges/stream", "a small TCP, of core/bridges"},
     {"core/bridges/wrapped", "the faults around any way in, of core/bridges"},
     {"core/agents/faulty", "the faulty agents of core/agents"},
     {"core/sdk/starting", "programs of core/sdk to start from: data of the verb new"},

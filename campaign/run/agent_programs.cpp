@@ -10,6 +10,7 @@
 #include "core/base/catalogue.hpp"
 #include "core/base/error.hpp"
 #include "core/base/outside_text.hpp"
+#include "core/bridges/built_in_programs.hpp"
 #include "core/bridges/wrapped/wrapped_program.hpp"
 #include "core/sdk/agent_table.hpp"
 
@@ -104,6 +105,10 @@ AgentPrograms::AgentPrograms() {
   for (std::uint32_t i = 0; const fp_agent_type* agent = fp_reference_agent(i); ++i) {
     programs_.push_back(program_of(*agent));
     programs_.back().most_of_each = fp_reference_agent_limit(agent);
+  }
+  for (const BuiltInProgram& program : bridge_programs()) {
+    programs_.push_back(program_of(*program.type));
+    programs_.back().most_of_each = program.most_of_each;
   }
 }
 

@@ -79,6 +79,8 @@ const std::map<std::string, std::string> kFoldersWithoutPage = {
     {"core/sdk/fleetproof", "core/sdk/README.md describes the headers in it"},
     {"core/sdk/starting", "core/sdk/README.md says what is in it"},
     {"core/bridges/lockstep", "core/bridges/README.md describes it: one way in"},
+    {"core/bridges/mqtt", "core/bridges/README.md describes it: a broker and its clients"},
+    {"core/bridges/stream", "core/bridges/README.md describes it: a small TCP"},
     {"core/bridges/wrapped", "core/bridges/README.md describes it: the faults around a program"},
     {"tests/agents", "mirrors core/agents: tests/README.md"},
     {"tests/bridges", "mirrors core/bridges: tests/README.md"},
