@@ -97,6 +97,7 @@ const std::map<std::string, std::string> kInsideARoom = {
     {"core/bridges/lockstep", "one way in of core/bridges"},
     {"core/bridges/mqtt", "a broker and its clients, of core/bridges"},
     {"core/bridges/stream", "a small TCP, of core/bridges"},
+    {"core/bridges/vda5050", "VDA 5050, of core/bridges"},
     {"core/bridges/wrapped", "the faults around any way in, of core/bridges"},
     {"core/agents/faulty", "the faulty agents of core/agents"},
     {"core/sdk/starting", "programs of core/sdk to start from: data of the verb new"},

@@ -33,6 +33,7 @@ const std::vector<Catalogue> kCatalogues = {
     {"campaign/cli/", "_verb.cpp", "campaign/cli/verbs.hpp"},
     {"campaign/cli/", "_methods.cpp", "campaign/cli/evidence/evidence_methods.hpp"},
     {"core/agents/central/", ".cpp", "core/agents/central/programs.hpp"},
+    {"core/bridges/vda5050/", ".cpp", "core/bridges/vda5050/documents.hpp"},
     {"core/bridges/wrapped/", "_faults.cpp", "core/bridges/wrapped/fault_agents.hpp"},
     {"generators/families/", ".cpp", "generators/families/families.hpp"}};
 
@@ -54,6 +55,16 @@ const std::map<std::string, std::string> kForTests = {
     {"Client::take_connected", "for the vehicle of a master"},
     {"Client::take_messages", "for the vehicle of a master"},
     {"broker_of", "for the vehicle of a master"},
+    {"VehicleProtocol::order_received", "the agent comes with the streams"},
+    {"VehicleProtocol::instant_actions_received", "the agent comes with the streams"},
+    {"VehicleProtocol::last_will", "the agent comes with the streams"},
+    {"VehicleProtocol::farewell", "the agent comes with the streams"},
+    {"VehicleProtocol::next_deadline_ns", "the agent comes with the streams"},
+    {"VehicleProtocol::take_action_wishes", "the agent comes with the streams"},
+    {"VehicleProtocol::driving_wish", "the agent comes with the streams"},
+    {"find_version", "the agent comes with the streams"},
+    {"is_topic_level", "the agent comes with the streams"},
+    {"topic_name", "the agent comes with the streams"},
     {"parse_campaign_file", "fuzzers and tests give bytes instead of a file"},
 };
 

@@ -34,6 +34,9 @@ const std::map<std::string, std::string> kLargeClasses = {
     {"core/agents/hull_lock.hpp HullLock", "one agent, one state machine: every event may change every member"},
     {"core/agents/neighbours.hpp Neighbour", "plain data: everything that one AGV knows about another"},
     {"core/agents/lock_protocol.hpp LockProtocol", "the protocol's messages and the lock state that they change"},
+    {"core/bridges/vda5050/documents.hpp Edge", "plain data: every field that the standard has for it"},
+    {"core/bridges/vda5050/documents.hpp State", "plain data: every field that the standard has for it"},
+    {"core/bridges/vda5050/vehicle_protocol.hpp VehicleProtocol", "one state machine: all may change with every fact"},
     {"core/scenario/scenario.hpp Scenario", "plain data: everything that one simulation needs"},
     {"core/scenario/vehicle_type.hpp VehicleType", "plain data: everything that a kind of AGV can do"},
     {"core/outcome/counters.hpp Counters", "plain data: one number for each counter"},
@@ -70,6 +73,7 @@ const std::map<std::string, std::string> kWideFiles = {
     {"tests/fuzz/seeds.cpp", "sample files, as programs write them"},
     {"tests/generators/lif_test.cpp", "a sample file whose line numbers errors name"},
     {"tests/generators/opentcs_test.cpp", "a sample file whose line numbers errors name"},
+    {"core/bridges/vda5050/shall_table.md", "a table whose rows end with the name of a test"},
     {"campaign/fields.md", "tables that a test writes from the lists of fields"},
     {"tests/contract/hostile/hostile_names_test.cpp", "a sample file"},
 };
