@@ -128,7 +128,7 @@ class FindingsOfCampaign {
         CaseHost host = hosts.of(finding.agent).looking_at(simplest.choice).within(limit_);
         const std::vector<Scenario> smaller = known == nullptr ? std::vector<Scenario>() : cases_of(*known);
         add_refuted_needs(host, finding, survey_.failures,
-                          {smaller, scenarios.scenario(simplest.run), words_.need_trials.value_or(kTrialsPerNeed)},
+                          {smaller, runs_of(finding, scenarios), words_.need_trials.value_or(kTrialsPerNeed)},
                           finding.refuted);
         finding.is_searched = true;
       } catch (const GivenUp&) {
@@ -136,6 +136,11 @@ class FindingsOfCampaign {
       }
     }
     write_found();
+  }
+  std::vector<Scenario> runs_of(const Finding& finding, const ScenarioSource& scenarios) const {
+    std::vector<Scenario> runs;
+    for (const std::size_t member : finding.members) runs.push_back(scenarios.scenario(survey_.failures[member].run));
+    return runs;
   }
   // Those that are kept of it. A file that is missing costs a note.
   std::vector<Scenario> cases_of(const KnownIssue& known) const {
@@ -212,7 +217,7 @@ class FindingsOfCampaign {
     const FailureAnalysis record =
         analysis_of(host, finding, representative(finding).needs, trials(), worlds_of(finding));
     const std::vector<Scenario> smallest{record.kept.smallest};
-    add_refuted_needs(host, finding, survey_.failures, {smallest, record.kept.world, 0}, finding.refuted);
+    add_refuted_needs(host, finding, survey_.failures, {smallest, {}, 0}, finding.refuted);
     const AgentFactor& agent = plan_.agent_of_cell(representative(finding).run);
     const auto write_case = [&](const Scenario& world, const std::string& name) {
       Scenario scenario = played_by(case_agent(plan_, agent), world);

@@ -62,27 +62,71 @@ std::optional<TakeOut> taking_out(const std::string& need, const FailureNeeds& r
   return std::nullopt;
 }
 
-bool fails_without(CaseHost& host, const SameWay& same_way, const TakeOut& take_out, const RefutationSearch& search,
-                   const Scenario& reduced) {
-  const auto without = [&](Scenario scenario) {
-    take_out(scenario);
+// What a trial begins with, and what is taken out of it.
+struct TrialBase {
+  Scenario scenario;
+  TakeOut take_out;
+};
+
+// The reduced and the whole run of a member, and the reduced run of its two AGVs alone.
+void add_bases(const std::string& need, const FailureNeeds& member, const Scenario* run,
+               std::vector<TrialBase>& bases) {
+  const auto take_out = taking_out(need, member);
+  if (!take_out) return;
+  bases.push_back({member.reduced.scenario, *take_out});
+  if (run != nullptr) bases.push_back({*run, *take_out});
+  if (const auto others = taking_out(kThirdAgvTrait, member); others && need != kThirdAgvTrait) {
+    bases.push_back({member.reduced.scenario, *take_out});
+    (*others)(bases.back().scenario);
+  }
+}
+
+// Fails again with what is taken out, in one of the trials.
+class RunsWithout {
+ public:
+  RunsWithout(const std::string& need, const Finding& finding, std::span<const KnownFailure> failures,
+              const RefutationSearch& search) {
+    for (std::size_t i = 0; i < finding.members.size(); ++i) {
+      const FailureNeeds& needs = failures[finding.members[i]].needs;
+      const bool is_simplest = finding.members[i] == finding.representative;
+      if (needs.is_rare || (!is_simplest && others_.size() >= kMostOthers)) continue;
+      add_bases(need, needs, i < search.runs.size() ? &search.runs[i] : nullptr, is_simplest ? simplest_ : others_);
+    }
+  }
+
+  bool empty() const { return simplest_.empty(); }
+  // With another timeline each time. None: what is left is no fair scenario.
+  std::optional<Scenario> trial(std::uint64_t number) const {
+    const bool is_other = number % 2 == 1 && !others_.empty();
+    const std::vector<TrialBase>& bases = is_other ? others_ : simplest_;
+    const std::uint64_t turn = others_.empty() ? number : number / 2;
+    const TrialBase& base = bases[turn % bases.size()];
+    Scenario scenario = base.scenario;
+    base.take_out(scenario);
+    if (!is_fair(scenario)) return std::nullopt;
+    return with_other_timeline(scenario, static_cast<std::uint32_t>(turn / bases.size() + 1), kLatest);
+  }
+  // A case without it, as it is.
+  std::optional<Scenario> without(Scenario scenario) const {
+    simplest_.front().take_out(scenario);
     return is_fair(scenario) ? std::optional(std::move(scenario)) : std::nullopt;
-  };
+  }
+
+ private:
+  static constexpr std::size_t kMostOthers = 40;  // more would get too few trials each
+
+  std::vector<TrialBase> simplest_, others_;
+};
+
+bool fails_without(CaseHost& host, const SameWay& same_way, const RunsWithout& trials, const RefutationSearch& search) {
   const auto any_fails = [&](const Candidates& candidates) {
     const auto runs = all_runs(host, candidates);
     return std::ranges::any_of(runs, [&](const auto& run) { return run && same_way.matches(*run); });
   };
-  if (any_fails({search.smaller.size(), [&](std::size_t i) { return without(search.smaller[i]); }})) return true;
+  if (any_fails({search.smaller.size(), [&](std::size_t i) { return trials.without(search.smaller[i]); }})) return true;
   for (std::uint64_t from = 0; from < search.trials; from += kTrialsAtOnce) {
     const auto count = std::min<std::uint64_t>(kTrialsAtOnce, search.trials - from);
-    const bool fails = any_fails({count, [&](std::size_t i) {
-                                    const std::uint64_t trial = from + i;
-                                    const auto draw = static_cast<std::uint32_t>(trial / 2 + 1);
-                                    const Scenario& base = trial % 2 == 0 ? reduced : search.run;
-                                    auto less = without(base);
-                                    return less ? std::optional(with_other_timeline(*less, draw, kLatest)) : less;
-                                  }});
-    if (fails) return true;
+    if (any_fails({count, [&](std::size_t i) { return trials.trial(from + i); }})) return true;
   }
   return false;
 }
@@ -107,9 +151,8 @@ void add_refuted_needs(CaseHost& host, const Finding& finding, std::span<const K
       found.push_back(need);
       continue;
     }
-    const auto take_out = taking_out(need, representative.needs);
-    if (take_out && fails_without(host, same_way, *take_out, search, representative.needs.reduced.scenario))
-      found.push_back(need);
+    const RunsWithout trials(need, finding, failures, search);
+    if (!trials.empty() && fails_without(host, same_way, trials, search)) found.push_back(need);
   }
 }
 

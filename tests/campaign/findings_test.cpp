@@ -386,7 +386,7 @@ TEST(Refutation, ARunWithoutItRefutesANeed) {
     finding.members = {0};
     failure.needs.reduced = {run, *failure_of(bench.host(run)), 0};
     std::vector<std::string> found;
-    add_refuted_needs(bench.host, finding, {&failure, 1}, {smaller, run, trials}, found);
+    add_refuted_needs(bench.host, finding, {&failure, 1}, {smaller, {&run, 1}, trials}, found);
     return found;
   };
   EXPECT_THAT(refuted(reckless, {"restart", kLostMessages}, {kThirdAgvTrait}, 100),
@@ -408,7 +408,7 @@ TEST(Refutation, IsTheSameForAnyNumberOfWorkers) {
     Finding finding;
     finding.mechanism = {failure.needs.end, failure.needs.needs, "", {}, failure.needs.traits};
     finding.members = {0};
-    add_refuted_needs(bench.host, finding, {&failure, 1}, {{}, run, 200}, found.emplace_back());
+    add_refuted_needs(bench.host, finding, {&failure, 1}, {{}, {&run, 1}, 200}, found.emplace_back());
   }
   EXPECT_EQ(found[0], found[1]);
 }
@@ -421,12 +421,12 @@ TEST(Refutation, AFailureThatDidWithoutRefutes) {
   finding.mechanism = {"too close, two AGVs", {"restart"}, "", {}, {}};
   finding.members = {0, 1};
   std::vector<std::string> found;
-  add_refuted_needs(bench.host, finding, failures, {{}, bad_night(1), 0}, found);
+  add_refuted_needs(bench.host, finding, failures, {{}, {}, 0}, found);
   EXPECT_THAT(found, ElementsAre("restart"));
   failures[1].needs.is_rare = true;
   found.clear();
   failures[0].needs.reduced.scenario = bad_night(1);
-  add_refuted_needs(bench.host, finding, failures, {{}, bad_night(1), 0}, found);
+  add_refuted_needs(bench.host, finding, failures, {{}, {}, 0}, found);
   EXPECT_THAT(found, testing::IsEmpty()) << "what a rare one needs is not known";
 }
 
