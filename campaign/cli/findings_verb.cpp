@@ -35,7 +35,7 @@ namespace fleetproof::cli {
 namespace {
 
 constexpr std::uint64_t kMostFailuresLookedAt = 100, kShrinkTrials = 4000;
-constexpr std::size_t kTellEvery = 50;
+constexpr std::size_t kTellEvery = 50, kShrunkForNeeds = 4;
 constexpr std::chrono::seconds kKeepEvery{2};
 
 struct FindingsWords {
@@ -127,9 +127,15 @@ class FindingsOfCampaign {
       try {
         CaseHost host = hosts.of(finding.agent).looking_at(simplest.choice).within(limit_);
         const std::vector<Scenario> smaller = known == nullptr ? std::vector<Scenario>() : cases_of(*known);
-        add_refuted_needs(host, finding, survey_.failures,
-                          {smaller, runs_of(finding, scenarios), words_.need_trials.value_or(kTrialsPerNeed)},
-                          finding.refuted);
+        const std::uint64_t trials = words_.need_trials.value_or(kTrialsPerNeed);
+        const std::vector<Scenario> runs = runs_of(finding, scenarios);
+        add_refuted_needs(host, finding, survey_.failures, {smaller, runs, trials}, finding.refuted);
+        // What no trial refutes, a smaller case may.
+        if (trials > 0 && !finding.has_no_needs()) {
+          const auto first = std::span(runs).first(std::min(kShrunkForNeeds, runs.size()));
+          const std::vector<Scenario> smallest = shrunk(host, first, trials);
+          add_refuted_needs(host, finding, survey_.failures, {smallest, {}, 0}, finding.refuted);
+        }
         finding.is_searched = true;
       } catch (const GivenUp&) {
         ++not_searched_;

@@ -379,6 +379,11 @@ std::string without_refuted(const std::string& mechanism, const std::vector<std:
   return fmt::format("{}{}{}, too)", fmt::join(parts, "; "), kFailsWithout, fmt::join(names, ", "));
 }
 
+bool Finding::has_no_needs() const {
+  const bool third = names_all(mechanism.traits, {kThirdAgvTrait}) && !names_all(refuted, {kThirdAgvTrait});
+  return !third && names_all(refuted, mechanism.needs);
+}
+
 std::string Finding::id() const {
   const Mechanism named{mechanism.end, mechanism.needs, mechanism.doing, mechanism.words, {}};
   return fmt::format("F-{:08x}", name_hash(agent + ": " + named.text()) >> 32);

@@ -44,6 +44,8 @@ struct Finding {
   // The mechanism in words, without what is refuted. Of a single failure, and before the search, it names no needs:
   // other runs may fail so without them.
   std::string text() const;
+  // All that it might need is refuted, or there was nothing.
+  bool has_no_needs() const;
   // "F-1c2d3e4f": the same for equal agent, end, needs, doing and words on any machine, in any campaign.
   std::string id() const;
 };

@@ -8,6 +8,7 @@
 #include "campaign/shrink/all_runs.hpp"
 #include "campaign/shrink/fitness.hpp"
 #include "campaign/shrink/other_draws.hpp"
+#include "campaign/shrink/shrink.hpp"
 #include "campaign/shrink/surgery.hpp"
 
 namespace fleetproof {
@@ -154,6 +155,21 @@ void add_refuted_needs(CaseHost& host, const Finding& finding, std::span<const K
     const RunsWithout trials(need, finding, failures, search);
     if (!trials.empty() && fails_without(host, same_way, trials, search)) found.push_back(need);
   }
+}
+
+std::vector<Scenario> shrunk(CaseHost& host, std::span<const Scenario> runs, std::uint64_t trials) {
+  std::vector<Scenario> smallest;
+  for (const Scenario& run : runs) {
+    const CaseRun as_it_was = host(run);
+    const auto failure = failure_of(as_it_was);
+    if (!failure) continue;
+    const FailingCase failing{run, *failure, as_it_was.outcome.digest};
+    TrialCache cache;
+    smallest.push_back(
+        shrink(host, cache, failing, pattern_of(host, failing), {trials}, [](const FailingCase&, std::string_view) {
+        }).best.scenario);
+  }
+  return smallest;
 }
 
 }  // namespace fleetproof

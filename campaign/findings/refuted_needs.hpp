@@ -30,4 +30,8 @@ struct RefutationSearch {
 void add_refuted_needs(CaseHost& host, const Finding& finding, std::span<const KnownFailure> failures,
                        const RefutationSearch& search, std::vector<std::string>& found);
 
+// The smallest cases of these runs, found with so many trials each: they may do without a need of the finding of the
+// runs. One that does not fail gives none.
+std::vector<Scenario> shrunk(CaseHost& host, std::span<const Scenario> runs, std::uint64_t trials);
+
 }  // namespace fleetproof
