@@ -23,6 +23,9 @@ bool is_or_copies(std::string_view name, std::string_view sound) {
   for (std::uint32_t i = 0; const fp_agent_type* faulty = fp_faulty_agent(i); ++i) {
     if (program == faulty->name) return sound == fp_sound_agent(faulty)->name;
   }
+  for (const BuiltInProgram& known : bridge_programs()) {
+    if (program == known.type->name && known.sound != nullptr) return sound == known.sound->name;
+  }
   return program == sound;
 }
 
@@ -65,7 +68,7 @@ void require_room(const AgentProgram& program, const LogicalMap& map, std::size_
 // all. Of the reference agents, only `follower` hears from a computer what to do.
 void require_distribution(const AgentProgram& program, bool are_open, bool has_computers, const std::string& where) {
   if (!are_open || !program.is_built_in() || program.innermost().name == "scripted") return;
-  const bool asks_computers = is_or_copies(program.name, "follower");
+  const bool asks_computers = is_or_copies(program.name, "follower") || is_or_copies(program.name, "vda5050");
   if (has_computers && asks_computers) return;
   const char* why = asks_computers
                         ? "there is no computer that distributes them; give the fleet one with \"zone-server\", "

@@ -52,19 +52,9 @@ std::string header_of(const std::string& path, const std::map<std::string, const
 const std::map<std::string, std::string> kForTests = {
     {"OutageProcess::next_change", "the exact instants of change; asking `bad_at` would miss short outages"},
     {"RadioSources::on_process", "the process of one source, for the same reason"},
-    {"Client::take_connected", "for the vehicle of a master"},
-    {"Client::take_messages", "for the vehicle of a master"},
-    {"broker_of", "for the vehicle of a master"},
-    {"VehicleProtocol::order_received", "the agent comes with the streams"},
-    {"VehicleProtocol::instant_actions_received", "the agent comes with the streams"},
-    {"VehicleProtocol::last_will", "the agent comes with the streams"},
     {"VehicleProtocol::farewell", "the agent comes with the streams"},
-    {"VehicleProtocol::next_deadline_ns", "the agent comes with the streams"},
-    {"VehicleProtocol::take_action_wishes", "the agent comes with the streams"},
-    {"VehicleProtocol::driving_wish", "the agent comes with the streams"},
     {"find_version", "the agent comes with the streams"},
     {"is_topic_level", "the agent comes with the streams"},
-    {"topic_name", "the agent comes with the streams"},
     {"parse_campaign_file", "fuzzers and tests give bytes instead of a file"},
 };
 

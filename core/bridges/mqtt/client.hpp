@@ -40,6 +40,9 @@ class Client {
   void tick(std::int64_t now_ns);
   std::optional<std::int64_t> deadline_ns() const;
 
+  // Of connections that are opened from now on.
+  void set_will(Will will) { settings_.will = std::move(will); }
+
   bool is_connected() const { return state_ == State::Connected; }
   // True once for each connect: the broker has accepted it, and the filters were sent.
   bool take_connected() { return std::exchange(has_connected_, false); }

@@ -37,6 +37,12 @@ Outcome outcome_of(Scenario scenario, const fp_agent_type& agent, bool share_fac
   if (serves) software = FleetSoftware({&follower, ""}, {{&agent, ""}});
   if (follows) software = FleetSoftware({&agent, ""}, {{&server, ""}});
   if (serves || follows) scenario.computers.push_back({.name = "server"});
+  const fp_agent_type &vehicle = programs.find("vda5050", ""), &broker = programs.find("mqtt-broker", ""),
+                      &master = programs.find("vda5050-master", "");
+  if (&agent == &vehicle || &agent == &broker || &agent == &master) {
+    software = FleetSoftware({&vehicle, ""}, {{&broker, ""}, {&master, ""}});
+    scenario.computers = {{.name = "broker"}, {.name = "master"}};
+  }
   return simulate(scenario, software, make_default_laws(scenario), nullptr, watch);
 }
 
