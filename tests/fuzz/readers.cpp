@@ -1,11 +1,13 @@
 #include "tests/fuzz/readers.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
 #include "campaign/plan/campaign_file.hpp"
 #include "campaign/plan/plan_check.hpp"
 #include "campaign/plan/plan_text.hpp"
+#include "core/bridges/vda5050/vehicle_protocol.hpp"
 #include "core/scenario/scenario.hpp"
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/factsheet.hpp"
@@ -159,6 +161,61 @@ bool accepts_campaign(std::string_view bytes, Depth depth) {
   return true;
 }
 
+// Of a refusal by a reader that has no file: it can be printed, and it has an end.
+void require_reason(std::string_view why) {
+  const auto is_printable = [](char c) { return c >= ' ' && c <= '~'; };
+  require(!why.empty() && why.size() <= 200 && std::ranges::all_of(why, is_printable),
+          "a refusal has no usable reason");
+}
+
+template <class Document>
+bool accepts_document(std::string_view bytes, const bridges::vda5050::Version& version) {
+  Document document;
+  std::string why;
+  if (!read_document(bytes, version, document, why)) {
+    require_reason(why);
+    return false;
+  }
+  const auto text = write_document(document, version);
+  Document again;
+  require(read_document(text, version, again, why), "a written message is refused: " + why);
+  require(write_document(again, version) == text, "a message is not the same after reading it");
+  return true;
+}
+
+// A vehicle that is sent these bytes says a state that a master can read.
+void require_vehicle_to_live(std::string_view bytes, const bridges::vda5050::Version& version) {
+  using namespace bridges::vda5050;
+  VehicleSettings settings;
+  settings.identity = {&version, "fp", "agv1", 0};
+  settings.abilities.actions = {{"pick"}, {"drop"}, {"beep", true, true, true, {}, true, true}};
+  VehicleProtocol vehicle(settings, {});
+  vehicle.hear(ConnectionOpened{});
+  for (const char* node : {"n1", "n2"}) {
+    vehicle.hear(StandsAt{node});
+    vehicle.order_received(bytes);
+    vehicle.instant_actions_received(bytes);
+    vehicle.hear(Driving{!vehicle.driving_wish().edges.empty()});
+    for (const auto& wish : vehicle.take_action_wishes()) vehicle.hear(ActionFinished{wish.action.action_id, {}});
+  }
+  for (const auto& message : vehicle.publish(0))
+    require(message.topic != Topic::State || accepts_document<State>(message.payload, version), "a state is no state");
+}
+
+bool accepts_vda5050(std::string_view bytes, Depth) {
+  using namespace bridges::vda5050;
+  bool accepts = false;
+  for (const Version& version : versions()) {
+    accepts |= accepts_document<Order>(bytes, version);
+    accepts |= accepts_document<InstantActions>(bytes, version);
+    accepts |= accepts_document<State>(bytes, version);
+    accepts |= accepts_document<Connection>(bytes, version);
+    accepts |= accepts_document<Factsheet>(bytes, version);
+    require_vehicle_to_live(bytes, version);
+  }
+  return accepts;
+}
+
 constexpr std::string_view kXmlSpice = "0123456789-.eEN\"'<>/=& \n\x80\xff",
                            kJsonSpice = "0123456789-.eE\"[]{},:\\ \ntnsau\x80\xff",
                            kYamlSpice = "0123456789-.:[]{},&*!|>'\"%@`#? \n\t\x80\xff",
@@ -169,6 +226,9 @@ constexpr std::string_view kXmlWords[] = {"BEZIER",    "BEZIER_3",        "<!--"
                                           "<!DOCTYPE", "locked=\"true\"", "NaN",  "1e308"};
 constexpr std::string_view kJsonWords[] = {
     "null", "true", "1e308", "-0.0", "18446744073709551616", "-9223372036854775808", "\\u0000", "\\ud800", "[[", "{}"};
+constexpr std::string_view kVdaWords[] = {"null",        "-1",         "4294967296", "1e999", "0.5",
+                                          "\"HARD\"",    "\"n1\"",     "true",       "\"\"",  "\\ud800",
+                                          "cancelOrder", "startPause", "[[[[[[[["};
 constexpr std::string_view kYamlWords[] = {"&a ",  "*a", "<<: *a", "!!str ", "? ",   "---\n", "...\n",
                                            "- - ", "[[", "{[",     "|2\n",   ".inf", ".nan",  "~"};
 constexpr std::string_view kCsvWords[] = {"\"\"",       "lost",    "1e308",   "-1e-308",
@@ -192,6 +252,7 @@ constexpr Reader kReaders[] = {
     {"opentcs-vehicles", accepts_opentcs_vehicles, opentcs_vehicle_seeds, kXmlSpice, kXmlWords},
     {"radio-trace", accepts_radio_trace, radio_trace_seeds, kCsvSpice, kCsvWords},
     {"orders", accepts_orders, order_seeds, kCsvSpice, kCsvWords},
+    {"vda5050", accepts_vda5050, vda5050_seeds, kJsonSpice, kVdaWords},
     {"campaign", accepts_campaign, campaign_seeds, kTomlSpice, kTomlWords},
 };
 

@@ -269,6 +269,30 @@ std::vector<std::string> order_seeds() {
   return {"release_s,from,to,agv\n0,a,\"b, \"\"2\"\"\",\n12.5,b,a,1\n# later\n1e3,c,d\n"};
 }
 
+std::vector<std::string> vda5050_seeds() {
+  const std::string head = R"({"headerId": 1, "timestamp": "2026-01-01T00:00:03.12Z", "version": "2.1.0",
+"manufacturer": "fp", "serialNumber": "agv1", )";
+  return {head + R"("orderId": "o1", "orderUpdateId": 0, "nodes": [{"nodeId": "n1", "sequenceId": 0, "released": true,
+"nodePosition": {"x": 1, "y": 2.5, "theta": 0.1, "mapId": "m", "allowedDeviationXY": 1}, "actions": [{"actionType":
+"pick", "actionId": "a1", "blockingType": "HARD", "actionParameters": [{"key": "loadId", "value": "7"}, {"key": "k",
+"value": [1, {"x": null}]}]}]}, {"nodeId": "n2", "sequenceId": 2, "released": false, "actions": []}], "edges":
+[{"edgeId": "e1", "sequenceId": 1, "released": false, "startNodeId": "n1", "endNodeId": "n2", "length": 3,
+"corridor": {"leftWidth": 1, "rightWidth": 2, "corridorRefPoint": "CONTOUR"}, "trajectory": {"degree": 1,
+"knotVector": [0, 1], "controlPoints": [{"x": 0, "y": 0}]}, "actions": []}]})",
+          head + R"("orderId": "o2", "orderUpdateId": 3, "nodes": [{"nodeId": "n1", "sequenceId": 0, "released": true,
+"actions": [{"actionType": "beep", "actionId": "a1", "blockingType": "SOFT"}]}, {"nodeId": "n2", "sequenceId": 2,
+"released": true, "actions": []}], "edges": [{"edgeId": "e1", "sequenceId": 1, "released": true, "startNodeId": "n1",
+"endNodeId": "n2", "actions": [{"actionType": "beep", "actionId": "a2", "blockingType": "NONE"}]}]})",
+          head + R"("actions": [{"actionType": "startPause", "actionId": "i1", "blockingType": "HARD"}, {"actionType":
+"cancelOrder", "actionId": "i2", "blockingType": "NONE"}, {"actionType": "beep", "actionId": "i3", "blockingType":
+"SOFT", "actionParameters": []}]})",
+          head + R"("connectionState": "ONLINE"})",
+          head + R"("orderId": "", "orderUpdateId": 0, "lastNodeId": "n1", "lastNodeSequenceId": 0, "driving": false,
+"nodeStates": [], "edgeStates": [], "actionStates": [{"actionId": "a", "actionStatus": "PAUSED"}], "batteryState":
+{"batteryCharge": 80, "charging": false}, "operatingMode": "MANUAL", "errors": [{"errorType": "orderError",
+"errorLevel": "WARNING"}], "safetyState": {"eStop": "NONE", "fieldViolation": false}})"};
+}
+
 std::vector<std::string> campaign_seeds() {
   return {kCampaign, text_of("tests/campaigns/families.toml"), text_of("tests/campaigns/soak.toml"),
           text_of("tests/campaigns/demo.toml")};

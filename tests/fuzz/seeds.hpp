@@ -22,6 +22,7 @@ std::vector<std::string> factsheet_seeds();
 std::vector<std::string> opentcs_vehicle_seeds();
 std::vector<std::string> radio_trace_seeds();
 std::vector<std::string> order_seeds();
+std::vector<std::string> vda5050_seeds();
 std::vector<std::string> campaign_seeds();
 
 }  // namespace fleetproof::fuzz

@@ -1,4 +1,5 @@
 #include <charconv>
+#include <cmath>
 
 #include "core/bridges/vda5050/document_fields.hpp"
 
@@ -77,7 +78,10 @@ class FieldWriter {
   }
   void write(const std::string& text) { write(std::string_view(text)); }
   void write(bool value) { json_ += value ? "true" : "false"; }
-  void write(double value) { write_number(value); }
+  void write(double value) {
+    write_number(value);
+    if (value == 0.0 && std::signbit(value)) json_ += ".0";  // or readers take it for the whole number 0
+  }
   void write(std::uint32_t value) { write_number(value); }
   template <Enumeration E>
   void write(E value) {

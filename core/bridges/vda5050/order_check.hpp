@@ -13,7 +13,7 @@ namespace fleetproof::bridges::vda5050 {
 struct Ability {
   std::string action_type;
   bool on_nodes = true, on_edges = false, as_instant_action = false;
-  std::vector<std::string> needed_parameters;
+  std::vector<std::string> needed_parameters{};
   bool can_be_cancelled = false;  // while it runs: at once
   bool can_be_paused = false;
   std::vector<BlockingType> blocking_types = {BlockingType::None, BlockingType::Soft, BlockingType::Hard};
