@@ -423,6 +423,16 @@ TEST_F(Vda5050Orders, CancelKeepsTheNodesToWhichItDrivesInAnyCase) {
   EXPECT_EQ(state().last_node_id, "c");
 }
 
+// A body need not say EdgeBegun: motion away from the node says as much.
+TEST_F(Vda5050Orders, AnEdgeOnWhichItDrivesHasBegun) {
+  send(order("o1", 0, way("abc"), 3));
+  hear(Driving{true});
+  EXPECT_EQ(driving(), "bc");
+  send(action("cancelOrder", "x1"));
+  EXPECT_EQ(status("x1"), "RUNNING");
+  EXPECT_EQ(nodes(), "b");
+}
+
 TEST_F(Vda5050Orders, AVehicleThatStopsBetweenNodesStopsAtOnceWhenCancelled) {
   VehicleSettings agile = settings();
   agile.stops_between_nodes = true;
