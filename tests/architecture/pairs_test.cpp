@@ -52,9 +52,9 @@ std::string header_of(const std::string& path, const std::map<std::string, const
 const std::map<std::string, std::string> kForTests = {
     {"OutageProcess::next_change", "the exact instants of change; asking `bad_at` would miss short outages"},
     {"RadioSources::on_process", "the process of one source, for the same reason"},
-    {"VehicleProtocol::farewell", "the agent comes with the streams"},
-    {"find_version", "the agent comes with the streams"},
-    {"is_topic_level", "the agent comes with the streams"},
+    {"VehicleProtocol::farewell", "no vehicle of a simulation leaves in order"},
+    {"find_version", "campaigns name no version yet"},
+    {"is_topic_level", "the built-in vehicle makes its own names"},
     {"parse_campaign_file", "fuzzers and tests give bytes instead of a file"},
 };
 

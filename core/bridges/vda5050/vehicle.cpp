@@ -13,6 +13,7 @@
 #include "core/bridges/mqtt/broker_link.hpp"
 #include "core/bridges/vda5050/plant_names.hpp"
 #include "core/bridges/vda5050/vda5050_programs.hpp"
+#include "core/bridges/vda5050/vehicle_profile.hpp"
 #include "core/bridges/vda5050/vehicle_protocol.hpp"
 
 namespace fleetproof::bridges::vda5050 {
@@ -24,26 +25,6 @@ constexpr double kClockRunsWrong = 1.02;  // clocks may run wrong by up to 1 %
 
 const Version& version() { return versions().back(); }
 
-VehicleSettings protocol_settings(std::uint32_t self) {
-  VehicleSettings settings;
-  settings.identity = {&version(), kManufacturer, serial_number(self), kUnixSecondsAtZero};
-  settings.abilities.actions = {{"pick", true, false, false, {"loadId"}, false, false, {BlockingType::Hard}},
-                                {"drop", true, false, false, {"loadId"}, false, false, {BlockingType::Hard}},
-                                {"startCharging", true, false, false, {}, false, false, {BlockingType::Hard}}};
-  return settings;
-}
-
-Factsheet factsheet_of(const fp_briefing& briefing) {
-  Factsheet sheet;
-  const fp_agv& self = *fp_agv_at(briefing.fleet, briefing.agv_stride, briefing.self);
-  sheet.type_specification.series_name = briefing.vehicle_type_names[self.vehicle_type];
-  sheet.type_specification.navigation_types = {"VIRTUAL_LINE_GUIDED"};
-  sheet.type_specification.localization_types = {"NATURAL"};
-  sheet.physical_parameters.length = self.length_m;
-  sheet.physical_parameters.width = self.width_m;
-  return sheet;
-}
-
 class Vehicle {
  public:
   Vehicle(const fp_host& host, fp_controller* handle, const fp_briefing& briefing)
@@ -52,7 +33,7 @@ class Vehicle {
         map_(facts_.shared()),
         names_(map_, briefing),
         settings_(agents::read_settings(briefing.config)),
-        protocol_(protocol_settings(briefing.self), factsheet_of(briefing)),
+        protocol_(protocol_settings(briefing.self), factsheet(briefing)),
         link_(controller_, briefing,
               {.name = serial_number(briefing.self),
                .filters = {{topic(briefing.self, Topic::Order), 0}, {topic(briefing.self, Topic::InstantActions), 0}}},
@@ -104,6 +85,20 @@ class Vehicle {
       if (message.topic == topic(self_, Topic::Order)) protocol_.order_received(message.payload);
       if (message.topic == topic(self_, Topic::InstantActions)) protocol_.instant_actions_received(message.payload);
     }
+  }
+
+  VehicleSettings protocol_settings(std::uint32_t self) const {
+    VehicleSettings settings;
+    settings.identity = {&version(), kManufacturer, serial_number(self), kUnixSecondsAtZero};
+    settings.abilities = vehicle_abilities();
+    settings.knows_edge = [this](const Edge& edge) {
+      return names_.lane_of(edge.edge_id, edge.start_node_id, edge.end_node_id).has_value();
+    };
+    return settings;
+  }
+  static Factsheet factsheet(const fp_briefing& briefing) {
+    const fp_agv& self = *fp_agv_at(briefing.fleet, briefing.agv_stride, briefing.self);
+    return factsheet_of(self, briefing.vehicle_type_names[self.vehicle_type]);
   }
 
   // ---- the body

@@ -86,6 +86,10 @@ std::optional<Refusal> VehicleProtocol::refuse_now(const Order& order, bool is_u
     if (is_executing()) return Refusal{"orderError", "another order is being executed", {}};
     if (!is_near(first)) return Refusal{"noRouteError", "the vehicle is not at the first node", at_first};
   }
+  for (const Edge& edge : order.edges) {
+    if (settings_.knows_edge && !settings_.knows_edge(edge))
+      return Refusal{"orderError", "the map of the vehicle has no such edge", {{"edgeId", edge.edge_id}}};
+  }
   return refuse_used_ids(order, is_update);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +27,8 @@ struct VehicleIdentity {
 struct VehicleSettings {
   VehicleIdentity identity;
   Abilities abilities;
+  // Whether the map of the vehicle has an edge; none: it has all.
+  std::function<bool(const Edge&)> knows_edge{};
   // False: a cancelled vehicle drives on to the node ahead, or further if it must (EdgeBegun).
   bool stops_between_nodes = false;
   // How near a node counts as "on the node" if no deviation is allowed.
