@@ -302,6 +302,13 @@ TEST_F(Vda5050Model, LeavesOpenWhetherAnActionAtTheEndKeepsANewOrderOut) {  // F
   EXPECT_TRUE(is_allowed([](const Alternative& a) { return a.order_id == "5678"; }));
 }
 
+TEST_F(Vda5050Model, RejectsANewOrderWithNodesAheadInBothVersions) {
+  become(Version::V2_0_0, true);
+  start(figure_5());
+  send(path("5678", 0, "f d"));
+  EXPECT_FALSE(is_allowed([](const Alternative& a) { return a.order_id == "5678"; }));
+}
+
 TEST_F(Vda5050Model, AcceptsANewOrderWhenTheOldOneIsDone) {
   start(path("1234", 0, "f d"));
   reach("d", 2);
@@ -396,6 +403,7 @@ TEST_F(Vda5050Model, DrivesToTheNextNodeIfItCannotStopBetweenNodes) {  // Figure
   EXPECT_EQ(nodes(told), "d") << "the nodeState for the node the AGV is driving to is kept";
   EXPECT_EQ(told.drivable_edges, Edges{1});
   EXPECT_EQ(status(told, "c"), StatusSet{Running});
+  EXPECT_EQ(required_errors(send(path("1234", 1, "d g", 2))), Names{"orderUpdateError"});
   const Alternative& state = reach("d", 2);
   EXPECT_EQ(state.last, (LastNode{"d", 2}));
   EXPECT_EQ(nodes(state) + edges(state), "");
@@ -668,9 +676,12 @@ TEST_F(Vda5050Model,
 TEST_F(Vda5050Model, AcceptsOrdersWhilePaused) {  // nothing in Figure 8 asks for a pause
   instant("startPause", "p");
   pause(true);
-  const Alternative& state = start(figure_5());
+  Order order = figure_5();
+  order.nodes[0].actions = {action("a")};
+  const Alternative& state = start(order);
   EXPECT_EQ(state.order_id, "1234");
   EXPECT_EQ(state.drivable_edges, Edges{});
+  EXPECT_TRUE(status(state, "a").contains(Waiting));
 }
 
 TEST_F(Vda5050Model, RequestsABaseOnlyWithNodesAhead) {  // 6.10.3

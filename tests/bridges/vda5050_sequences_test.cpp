@@ -120,6 +120,32 @@ TEST(Vda5050Judge, FindsAStatusThatGoesBack) {  // Figure 16
   EXPECT_FALSE(model.judge(report).empty());
 }
 
+TEST(Vda5050Judge, FindsAnActionThatWaitsAgain) {  // Figure 16: no arrow leads to WAITING
+  VehicleModel model(at_f());
+  Input soft = instant_action("beep", "i");
+  soft.text = write_instant_actions({{"i", "beep", Blocking::Soft}}, {});
+  Report report = report_of(model.apply(soft).alternatives.front(), first_of);
+  ASSERT_EQ(report.actions["i"], Waiting);
+  report.actions["i"] = Initializing;
+  EXPECT_TRUE(model.judge(report).empty());
+  model.apply(instant_action("stateRequest", "s"));
+  report.actions["s"] = Finished;
+  report.actions["i"] = Waiting;
+  EXPECT_FALSE(model.judge(report).empty());
+}
+
+TEST(Vda5050Judge, TakesAnActionAsBegunThatIsReportedAsRunning) {  // so a cancel cannot fail it (6.6.3)
+  VehicleModel model(at_f());
+  Input order;
+  order.text = write_order({"1234", 0, {{"f", 0, true, {}, {{"a", "pick", Blocking::Hard}}}}, {}}, {});
+  const Expectation said = model.apply(order);
+  const auto at_once = std::ranges::find_if(said.alternatives, [](const auto& a) { return a.nodes.empty(); });
+  ASSERT_NE(at_once, said.alternatives.end());
+  EXPECT_TRUE(model.judge(report_of(*at_once, [](const StatusSet&) { return Running; })).empty());
+  const Expectation cancelled = model.apply(instant_action("cancelOrder", "c"));
+  EXPECT_EQ(cancelled.alternatives.front().actions.at("a"), StatusSet{Running});
+}
+
 TEST(Vda5050Judge, FindsACancelThatFinishesTooEarly) {  // 6.6.3
   VehicleModel model(at_f());
   model.apply(order_of_two_nodes());
@@ -136,15 +162,17 @@ TEST(Vda5050Judge, FindsAPauseThatFinishesWithoutEffect) {  // 6.8.2
   EXPECT_EQ(model.judge(report), std::vector<std::string>{"startPause has finished without effect"});
 }
 
-TEST(Vda5050Judge, FindsAChangeWithoutAMessage) {  // 6.10
+TEST(Vda5050Judge, FindsAChangeWithoutAMessage) {  // 6.10: "change in the nodeStates, edgeStates or actionStates"
   VehicleModel model(at_f());
   Report report = report_of(model.apply(instant_action("beep", "i")).alternatives.front(), first_of);
   EXPECT_TRUE(model.judge(report).empty());
-  model.apply(instant_action("cancelOrder", "c"));
-  report.actions["c"] = Failed;
-  report.errors = {{"noOrderToCancel", "WARNING", {{"actionId", "c"}}}};
+  Input nothing;
+  nothing.kind = Kind::Stopped;
+  nothing.node_id = "f";
+  EXPECT_FALSE(model.apply(nothing).alternatives.front().must_publish);
+  report.actions["i"] = Running;
   report.published = false;
-  EXPECT_FALSE(model.judge(report).empty());
+  EXPECT_EQ(model.judge(report), std::vector<std::string>{"states changed without a message"});
 }
 
 TEST(Vda5050Judge, ReadsAStateMessage) {  // 6.10.6

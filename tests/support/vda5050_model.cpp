@@ -229,7 +229,7 @@ std::vector<Possible> take_update(const State& state, const Order& order) {
   State rejected = with(state, "update rejected");
   reject(rejected, update_error(order));
   const LastNode first{order.nodes.front().id, order.nodes.front().sequence};
-  const bool continues = first == (is_executing(state) ? decision_point(state) : state.order.last);
+  const bool continues = first == decision_point(state);  // (7); of a completed order, its last node: (8)
   if (order.update < state.order.update || !continues || state.order.cancel == Cancel::Running)
     return {{std::move(rejected), true}};
   std::vector<Possible> possible{{accept_update(state, order), true}};

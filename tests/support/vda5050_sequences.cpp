@@ -164,7 +164,9 @@ std::optional<Input> SequenceDrawer::next(const VehicleModel& model) {
   if (settings_.restarts && chance(0.01)) return fact(Kind::Restarted);
   if (!state.body.online && chance(0.2)) return fact(Kind::ConnectionRestored);
   if (state.body.online && chance(0.03)) return fact(Kind::ConnectionLost);
-  const bool master = state.body.online && chance(state.order.cancel == Cancel::Running ? 0.2 : 0.35);
+  // Master control keeps the base short, and waits for the end of a cancel.
+  const bool waits = state.order.cancel == Cancel::Running || state.order.nodes.size() > 5;
+  const bool master = state.body.online && chance(waits ? 0.2 : 0.35);
   if (!master) {
     if (auto input = body_fact(state)) return input;
   }
