@@ -11,7 +11,7 @@
 
 #include "tests/support/vda5050_model.hpp"
 
-namespace fleetproof::test::vda5050::vda5050_model_test {
+namespace fleetproof::test::vda5050_model::vda5050_model_test {
 namespace {
 
 using enum Status;
@@ -692,4 +692,4 @@ TEST_F(Vda5050Model, RequestsABaseOnlyWithNodesAhead) {  // 6.10.3
 }
 
 }  // namespace
-}  // namespace fleetproof::test::vda5050::vda5050_model_test
+}  // namespace fleetproof::test::vda5050_model::vda5050_model_test

@@ -11,7 +11,7 @@
 #include "tests/support/vda5050_model.hpp"
 #include "tests/support/vda5050_sequences.hpp"
 
-namespace fleetproof::test::vda5050::vda5050_sequences_test {
+namespace fleetproof::test::vda5050_model::vda5050_sequences_test {
 namespace {
 
 using enum Status;
@@ -275,4 +275,4 @@ TEST(Vda5050Sequences, AreTheSameForOneSeedAndOthersForAnother) {
 }
 
 }  // namespace
-}  // namespace fleetproof::test::vda5050::vda5050_sequences_test
+}  // namespace fleetproof::test::vda5050_model::vda5050_sequences_test

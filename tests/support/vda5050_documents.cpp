@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-namespace fleetproof::test::vda5050 {
+namespace fleetproof::test::vda5050_model {
 namespace {
 
 using nlohmann::json;
@@ -233,4 +233,4 @@ std::string write_instant_actions(const std::vector<Action>& actions, const Head
   return document.dump();
 }
 
-}  // namespace fleetproof::test::vda5050
+}  // namespace fleetproof::test::vda5050_model

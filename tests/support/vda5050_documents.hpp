@@ -8,7 +8,7 @@
 
 // Documents of the topics "order" and "instantActions" of VDA 5050 (2.0.0 and 2.1.0), as an independent reader of the
 // standard understands them. Numbers in brackets are sections of VDA5050_EN.md, version 2.1.0.
-namespace fleetproof::test::vda5050 {
+namespace fleetproof::test::vda5050_model {
 
 enum class Blocking { None, Soft, Hard };
 
@@ -80,4 +80,4 @@ struct Header {
 std::string write_order(const Order& order, const Header& header);
 std::string write_instant_actions(const std::vector<Action>& actions, const Header& header);
 
-}  // namespace fleetproof::test::vda5050
+}  // namespace fleetproof::test::vda5050_model

@@ -7,7 +7,7 @@
 #include "tests/support/vda5050_model.hpp"
 
 // What a report says against what the model allows.
-namespace fleetproof::test::vda5050 {
+namespace fleetproof::test::vda5050_model {
 namespace {
 
 using enum Status;
@@ -336,4 +336,4 @@ void VehicleModel::assume_plain_reading() {
   expected_.alternatives.resize(1);
 }
 
-}  // namespace fleetproof::test::vda5050
+}  // namespace fleetproof::test::vda5050_model

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace fleetproof::test::vda5050 {
+namespace fleetproof::test::vda5050_model {
 namespace {
 
 using enum Status;
@@ -514,4 +514,4 @@ Consequence consequence_of(const State& before, const Input& input, const Vehicl
   return consequence;
 }
 
-}  // namespace fleetproof::test::vda5050
+}  // namespace fleetproof::test::vda5050_model

@@ -11,7 +11,7 @@
 // A model of the AGV that VDA 5050 describes, written from the standard alone: what a state message may say after each
 // input. Where the standard leaves a choice, the model keeps every possible state, and a judged report strikes out
 // those that it contradicts. tests/support/vda5050_choices.md lists the choices.
-namespace fleetproof::test::vda5050 {
+namespace fleetproof::test::vda5050_model {
 
 struct Input {
   enum class Kind {
@@ -122,4 +122,4 @@ struct Consequence {
 };
 Consequence consequence_of(const State& state, const Input& input, const VehicleTraits& traits);
 
-}  // namespace fleetproof::test::vda5050
+}  // namespace fleetproof::test::vda5050_model

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-namespace fleetproof::test::vda5050 {
+namespace fleetproof::test::vda5050_model {
 namespace {
 
 using nlohmann::json;
@@ -434,4 +434,4 @@ std::vector<Input> draw_sequence(const VehicleTraits& traits, const SequenceSett
   return inputs;
 }
 
-}  // namespace fleetproof::test::vda5050
+}  // namespace fleetproof::test::vda5050_model

@@ -9,7 +9,7 @@
 
 // Draws what master control sends and what the body of the AGV does, step by step: on a grid of nine nodes, mostly
 // valid, with a share of wrong orders. One seed gives one sequence, as long as the model decides the same.
-namespace fleetproof::test::vda5050 {
+namespace fleetproof::test::vda5050_model {
 
 struct SequenceSettings {
   std::uint64_t seed = 1;
@@ -68,4 +68,4 @@ class SequenceDrawer {
 // A whole sequence for an AGV that always takes the plain reading.
 std::vector<Input> draw_sequence(const VehicleTraits& traits, const SequenceSettings& settings);
 
-}  // namespace fleetproof::test::vda5050
+}  // namespace fleetproof::test::vda5050_model

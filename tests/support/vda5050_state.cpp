@@ -4,7 +4,7 @@
 #include <ranges>
 #include <utility>
 
-namespace fleetproof::test::vda5050 {
+namespace fleetproof::test::vda5050_model {
 namespace {
 
 using enum Status;
@@ -181,4 +181,4 @@ LastNode decision_point(const State& state) {
   return point;
 }
 
-}  // namespace fleetproof::test::vda5050
+}  // namespace fleetproof::test::vda5050_model

@@ -13,7 +13,7 @@
 
 // What an AGV knows and reports, as VDA 5050 fixes it. Numbers in brackets are sections of VDA5050_EN.md,
 // version 2.1.0; "2.0.0" marks what only that version says.
-namespace fleetproof::test::vda5050 {
+namespace fleetproof::test::vda5050_model {
 
 enum class Version { V2_0_0, V2_1_0 };
 
@@ -165,4 +165,4 @@ std::vector<std::uint32_t> drivable_edges(const State& state, const VehicleTrait
 // The last node of the base, or the last node reached: where an update must begin (6.6.2).
 LastNode decision_point(const State& state);
 
-}  // namespace fleetproof::test::vda5050
+}  // namespace fleetproof::test::vda5050_model
