@@ -23,9 +23,9 @@ void Broker::opened(std::uint32_t connection, std::int64_t now_ns) {
 void Broker::received(std::uint32_t connection, std::string_view bytes, std::int64_t now_ns) {
   auto link = links_.find(connection);
   if (link == links_.end()) return;
-  link->second.heard_ns = now_ns;
   link->second.reader.add(bytes);
   while (const auto packet = link->second.reader.next()) {
+    if (link->second.is_connected) link->second.heard_ns = now_ns;  // whole packets count, bytes do not
     handle(connection, link->second, *packet, now_ns);
     link = links_.find(connection);
     if (link == links_.end()) return;
@@ -43,7 +43,10 @@ void Broker::tick(std::int64_t now_ns) {
     if (silent_at_ns(link).value_or(now_ns + 1) <= now_ns) silent.push_back(connection);
   }
   for (const std::uint32_t connection : silent) {
-    if (links_.contains(connection)) end(connection, "silent for more than its keep-alive time and a half");
+    const auto link = links_.find(connection);  // it may be gone: wills are published meanwhile
+    if (link == links_.end()) continue;
+    end(connection,
+        link->second.is_connected ? "silent for more than its keep-alive time and a half" : "no CONNECT in time");
   }
 }
 
@@ -89,7 +92,7 @@ void Broker::connect(std::uint32_t connection, Link& link, const Connect& connec
     return refuse(ConnectCode::WrongClient, "has no name, and asks for a session that is kept");
   if (connect.will && (connect.will->qos > kMostQos || is_of_server(connect.will->topic)))
     return refuse(ConnectCode::NotAuthorized, "has a will with QoS 2, or to a topic of the server");
-  const std::string client = connect.client.empty() ? "nameless-" + std::to_string(++nameless_) : connect.client;
+  const std::string client = connect.client.empty() ? free_name() : connect.client;
   if (!sessions_.contains(client) && sessions_.size() >= settings_.most_sessions)
     return refuse(ConnectCode::NotNow, "one session more than are possible");
   const auto former = sessions_.find(client);
@@ -109,8 +112,17 @@ void Broker::connect(std::uint32_t connection, Link& link, const Connect& connec
   send(connection, Connack{is_present, ConnectCode::Accepted});
   for (Publish& again : session.unacknowledged) {  // [MQTT-4.4.0-1]
     send(connection, again);
+    changes_ += again.is_again ? 0 : 1;
     again.is_again = true;
   }
+}
+
+// [MQTT-3.1.3-6]
+std::string Broker::free_name() {
+  std::string name;
+  do name = "nameless-" + std::to_string(++nameless_);
+  while (sessions_.contains(name));
+  return name;
 }
 
 void Broker::take(std::uint32_t connection, const Publish& publish) {
@@ -292,6 +304,35 @@ std::vector<std::size_t> take_numbers(std::string_view& text, std::size_t count)
   return numbers;
 }
 
+// A message as `saved` writes it: of a QoS that is offered.
+const Publish* saved_message(const std::optional<Packet>& packet) {
+  const auto* message = packet ? std::get_if<Publish>(&*packet) : nullptr;
+  return message != nullptr && message->qos <= kMostQos ? message : nullptr;
+}
+
+// One session, up to its end. Session: that of the broker, which is its own.
+template <class Session>
+bool read_session(PacketReader& reader, std::map<std::string, Session>& sessions) {
+  const auto first = reader.next();
+  const auto* client = first ? std::get_if<Connect>(&*first) : nullptr;
+  if (client == nullptr) return false;
+  Session& session = sessions[client->client];
+  session.is_clean = false;
+  for (auto packet = reader.next(); packet; packet = reader.next()) {
+    if (std::holds_alternative<Pingreq>(*packet)) return true;
+    if (const auto* one = std::get_if<Subscribe>(&*packet)) {
+      if (one->filters.front().qos > kMostQos) return false;
+      session.subscriptions[one->filters.front().text] = one->filters.front().qos;
+    } else if (const Publish* kept = saved_message(packet)) {
+      session.unacknowledged.push_back(*kept);
+      session.last_id = kept->id;
+    } else {
+      return false;
+    }
+  }
+  return false;  // its end is missing
+}
+
 }  // namespace
 
 bool Broker::restore(std::string_view text) {
@@ -305,30 +346,14 @@ bool Broker::restore(std::string_view text) {
   std::map<std::string, Session> sessions;
   for (std::size_t i = 0; i < numbers[0]; ++i) {
     const auto packet = reader.next();
-    const auto* kept = packet ? std::get_if<Publish>(&*packet) : nullptr;
+    const Publish* kept = saved_message(packet);
     if (kept == nullptr) return false;
     retained[kept->topic] = *kept;
   }
   for (std::size_t i = 0; i < numbers[1]; ++i) {
-    const auto first = reader.next();
-    const auto* client = first ? std::get_if<Connect>(&*first) : nullptr;
-    if (client == nullptr) return false;
-    Session& session = sessions[client->client];
-    session.is_clean = false;
-    while (true) {
-      const auto packet = reader.next();
-      if (!packet) return false;
-      if (const auto* one = std::get_if<Subscribe>(&*packet)) {
-        session.subscriptions[one->filters.front().text] = one->filters.front().qos;
-      } else if (const auto* kept = std::get_if<Publish>(&*packet)) {
-        session.unacknowledged.push_back(*kept);
-        session.last_id = kept->id;
-      } else {
-        if (!std::holds_alternative<Pingreq>(*packet)) return false;
-        break;
-      }
-    }
+    if (!read_session(reader, sessions)) return false;
   }
+  if (reader.left() > 0) return false;
   retained_ = std::move(retained);
   sessions_ = std::move(sessions);
   return true;

@@ -18,10 +18,10 @@ namespace fleetproof::mqtt {
 
 struct BrokerSettings {
   std::size_t most_packet_bytes = std::size_t{1} << 18U;
-  // Kept at most: messages and subscriptions of one session, sessions, retained messages. What is above is dropped or
-  // refused.
+  // Kept at most: messages and subscriptions of one session (up to 65 535), sessions, retained messages. A message
+  // above is dropped, so the oldest stay; a subscription or a session above is refused.
   std::size_t most_of_session = 1000, most_sessions = 1000, most_retained = 10'000;
-  std::int64_t connect_within_ns = 30'000'000'000;  // of a connection that says nothing
+  std::int64_t connect_within_ns = 30'000'000'000;  // from the opening of a connection to its CONNECT
 };
 
 // What the broker does to connections, each under the number that its owner gave it. `text`: for people.
@@ -36,6 +36,7 @@ class Broker {
  public:
   Broker(Wires wires, BrokerSettings settings = {}) : wires_(std::move(wires)), settings_(settings) {}
 
+  // Requires: the number is that of no open connection.
   void opened(std::uint32_t connection, std::int64_t now_ns);
   void received(std::uint32_t connection, std::string_view bytes, std::int64_t now_ns);
   // The connection is gone: its will is published.
@@ -44,7 +45,8 @@ class Broker {
   // When `tick` has to be called at the latest.
   std::optional<std::int64_t> deadline_ns() const;
 
-  // Retained messages and kept sessions, and back. Text that was not written by `saved` is refused.
+  // Retained messages and kept sessions, and back. Text that was not written by `saved` is refused, and changes
+  // nothing. Requires: no connection is open.
   std::string saved() const;
   bool restore(std::string_view text);
   // Counts what `saved` would tell: equal numbers, equal texts.
@@ -72,7 +74,7 @@ class Broker {
     bool is_connected = false;
     std::optional<Will> will{};
     std::uint16_t keep_alive_s = 0;
-    std::int64_t heard_ns = 0;
+    std::int64_t heard_ns = 0;  // opened, or the last whole packet
   };
 
   void handle(std::uint32_t connection, Link& link, const Packet& packet, std::int64_t now_ns);
@@ -81,6 +83,7 @@ class Broker {
   void subscribe(std::uint32_t connection, Link& link, const Subscribe& subscribe);
   void unsubscribe(std::uint32_t connection, Link& link, const Unsubscribe& unsubscribe);
   void acknowledge(const Link& link, std::uint16_t id);
+  std::string free_name();  // for a client without one
   void retain(const Publish& publish);
   void route(const Publish& publish);
   void deliver(Session& session, Publish publish);

@@ -99,6 +99,8 @@ class PacketReader {
   std::optional<Packet> next();
   // A sentence about what is wrong; empty: nothing is.
   const std::string& error() const { return error_; }
+  // How many bytes are not read yet.
+  std::size_t left() const { return bytes_.size() - read_; }
 
  private:
   // How long the next packet is, its first byte and its length included; none: not known yet, or wrong.
