@@ -32,6 +32,9 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+// clang 14 needs it.
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 // ---- writing
 
@@ -66,7 +69,8 @@ std::string encoded(const Connect& connect) {
   body += static_cast<char>(connect.level);
   std::uint8_t flags = connect.is_clean ? 0x02 : 0;
   if (connect.will) {
-    flags = static_cast<std::uint8_t>(flags | 0x04U | connect.will->qos << 3U | (connect.will->retain ? 0x20U : 0U));
+    const unsigned qos = connect.will->qos;
+    flags = static_cast<std::uint8_t>(flags | 0x04U | qos << 3U | (connect.will->retain ? 0x20U : 0U));
   }
   body += static_cast<char>(flags);
   put_number(body, connect.keep_alive_s);

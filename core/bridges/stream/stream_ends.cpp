@@ -83,8 +83,9 @@ void Streams::flush() {
   for (auto at = ends_.begin(); at != ends_.end();) {
     auto& [number, end] = *at;
     collect(number, end);
+    const std::uint32_t peer = end.peer;  // clang 14 captures no structured bindings
     end.connection.flush(now_ns, [&](const Segment& segment, std::string_view text, std::uint32_t repeats) {
-      put(end.peer, segment, text, repeats);
+      put(peer, segment, text, repeats);
     });
     collect(number, end);
     if (end.connection.is_over()) {
