@@ -78,6 +78,9 @@ TEST(MqttSessions, ADiskWithMoreOrLessThanItsHeadSaysIsRefused) {
   EXPECT_FALSE(BrokerBench().broker.restore(with_head("fleetproof mqtt 1\n0 0 "))) << "messages, too";
   EXPECT_FALSE(BrokerBench().broker.restore(with_head("fleetproof mqtt 1\n1 2 "))) << "a session less";
   EXPECT_FALSE(BrokerBench().broker.restore(with_head("fleetproof mqtt 2\n1 1 "))) << "another version";
+  std::string higher = disk;
+  higher.replace(disk.find('\x33'), 1, "\x35");
+  EXPECT_FALSE(BrokerBench().broker.restore(higher)) << "a message at QoS 2";
   BrokerBench kept;
   ASSERT_TRUE(kept.broker.restore(disk));
   EXPECT_FALSE(kept.broker.restore("fleetproof mqtt 1\n0 0 1\nx"));

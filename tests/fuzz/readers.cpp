@@ -26,6 +26,7 @@
 #include "generators/scenario_file/validator.hpp"
 #include "generators/text/text_file.hpp"
 #include "generators/worlds/order_list.hpp"
+#include "mqtt_verdict.hpp"
 #include "seeds.hpp"
 #include "verdict.hpp"
 
@@ -42,6 +43,22 @@ bool accepts_layout(Depth depth, Parse parse) {
   require_sound(*layout, warnings, kFile);
   if (depth == Depth::WrittenToo) require_same_when_written(*layout);
   return true;
+}
+
+// Bytes of a connection, which are also told to a broker and a client.
+bool accepts_mqtt(std::string_view bytes, Depth depth) {
+  std::size_t packets = 0;
+  auto wrong = wrong_with_packets(bytes, packets);
+  if (wrong.empty() && depth == Depth::WrittenToo) wrong = wrong_with_answers(bytes);
+  require(wrong.empty(), wrong);
+  return packets > 0 && read_packets(bytes, 0).error.empty();
+}
+
+bool accepts_mqtt_disk(std::string_view bytes, Depth) {
+  bool is_accepted = false;
+  const auto wrong = wrong_with_disk(bytes, is_accepted);
+  require(wrong.empty(), wrong);
+  return is_accepted;
 }
 
 bool accepts_opentcs(std::string_view bytes, Depth depth) {
@@ -220,7 +237,10 @@ constexpr std::string_view kXmlSpice = "0123456789-.eEN\"'<>/=& \n\x80\xff",
                            kJsonSpice = "0123456789-.eE\"[]{},:\\ \ntnsau\x80\xff",
                            kYamlSpice = "0123456789-.:[]{},&*!|>'\"%@`#? \n\t\x80\xff",
                            kCsvSpice = "0123456789-.,\"# \n\r\x80\xff", kMapSpice = "0123456789-.@TSE \n\r\x80\xff",
-                           kTomlSpice = "0123456789-.eE\"'[]{},=# \n\\_tnu\x80\xff";
+                           kTomlSpice = "0123456789-.eE\"'[]{},=# \n\\_tnu\x80\xff",
+                           kMqttSpice(
+                               "\0\1\2\3\4\x10\x20\x30\x32\x34\x3a\x40\x82\x90\xa2\xb0\xc0\xd0\xe0/#+$\x7f\x80\xff",
+                               26);
 
 constexpr std::string_view kXmlWords[] = {"BEZIER",    "BEZIER_3",        "<!--", "<![CDATA[", "&#10;", "&lt;", "<?xml",
                                           "<!DOCTYPE", "locked=\"true\"", "NaN",  "1e308"};
@@ -231,6 +251,8 @@ constexpr std::string_view kVdaWords[] = {"null",        "-1",         "42949672
                                           "cancelOrder", "startPause", "[[[[[[[["};
 constexpr std::string_view kYamlWords[] = {"&a ",  "*a", "<<: *a", "!!str ", "? ",   "---\n", "...\n",
                                            "- - ", "[[", "{[",     "|2\n",   ".inf", ".nan",  "~"};
+constexpr std::string_view kMqttWords[] = {"\x04MQTT\x04",     "MQIsdp",   "$SYS/#",
+                                           "\xff\xff\xff\x7f", "\xc3\xa4", "\xed\xa0\x80"};
 constexpr std::string_view kCsvWords[] = {"\"\"",       "lost",    "1e308",   "-1e-308",
                                           "9999999999", "routing", "from,to", "id,x,y"};
 constexpr std::string_view kMapWords[] = {"height ", "width ", "map\n", "10000", "1000000000", "type octile\n"};
@@ -244,6 +266,8 @@ constexpr Reader kReaders[] = {
     {"rmf-nav-graph", accepts_rmf, rmf_nav_graph_seeds, kYamlSpice, kYamlWords},
     {"geojson", accepts_geojson, geojson_seeds, kJsonSpice, kJsonWords},
     {"smap", accepts_smap, smap_seeds, kJsonSpice, kJsonWords},
+    {"mqtt", accepts_mqtt, mqtt_seeds, kMqttSpice, kMqttWords},
+    {"mqtt-disk", accepts_mqtt_disk, mqtt_disk_seeds, kMqttSpice, kMqttWords},
     {"grid", accepts_grid_map, grid_map_seeds, kMapSpice, kMapWords},
     {"csv", accepts_csv_layout, csv_layout_seeds, kCsvSpice, kCsvWords},
     {"layout", accepts_layout_file, layout_seeds, kJsonSpice, kJsonWords},

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "core/base/random.hpp"
+#include "core/bridges/mqtt/broker.hpp"
 #include "generators/families/layout_family.hpp"
 #include "generators/formats/csv_layout.hpp"
 #include "generators/formats/layout_file.hpp"
@@ -223,6 +224,33 @@ std::vector<std::string> smap_seeds() {
  "controlPos1": {"x": 1, "y": 1}, "controlPos2": {"x": 3, "y": 1}, "property": [{"key": "maxspeed", "doubleValue": 0.5}]},
 {"className": "StraightPath", "instanceName": "AP1-CP2", "startPos": {"instanceName": "CP2"}, "endPos": {"instanceName": "AP1"},
  "property": [{"key": "direction", "int32Value": 1}]}]})"};
+}
+
+std::vector<std::string> mqtt_seeds() {
+  using namespace mqtt;
+  const auto connect = encode(Connect{
+      .client = "agv1", .is_clean = false, .keep_alive_s = 15, .will = Will{"c/agv1", "CONNECTIONBROKEN", 1, true}});
+  return {
+      connect + encode(Subscribe{1, {{"order", 1}, {"v/+/state", 0}, {"#", 2}}}) + encode(Pingreq{}),
+      connect + encode(Publish{.topic = "c/agv1", .payload = "{}", .qos = 1, .retain = true, .id = 7}) +
+          encode(Publish{.topic = "c/agv1", .payload = "{}", .qos = 1, .is_again = true, .id = 7}) +
+          encode(Publish{.topic = "s", .payload = std::string(200, '7')}),
+      encode(Connect{.client = ""}) + encode(Unsubscribe{2, {"#", "order"}}) + encode(Puback{1}) + encode(Disconnect{}),
+      encode(Connack{true}) + encode(Suback{1, {0, 1, kRefused}}) + encode(Unsuback{2}) + encode(Pingresp{}) +
+          encode(Publish{.topic = "order", .payload = "x", .qos = 1, .id = 1})};
+}
+
+std::vector<std::string> mqtt_disk_seeds() {
+  using namespace mqtt;
+  Broker broker({[](std::uint32_t, std::string_view, std::string_view) {}, [](std::uint32_t, std::string_view) {}});
+  const auto nothing = broker.saved();
+  broker.opened(1, 0);
+  broker.received(1,
+                  encode(Connect{.client = "agv1", .is_clean = false}) +
+                      encode(Subscribe{1, {{"order", 1}, {"#", 1}}}) +
+                      encode(Publish{.topic = "c", .payload = "ONLINE", .qos = 1, .retain = true, .id = 1}),
+                  0);
+  return {broker.saved(), nothing};
 }
 
 std::vector<std::string> grid_map_seeds() {

@@ -14,6 +14,8 @@ std::vector<std::string> rmf_building_seeds();
 std::vector<std::string> rmf_nav_graph_seeds();
 std::vector<std::string> geojson_seeds();
 std::vector<std::string> smap_seeds();
+std::vector<std::string> mqtt_seeds();
+std::vector<std::string> mqtt_disk_seeds();
 std::vector<std::string> grid_map_seeds();
 std::vector<std::string> csv_layout_seeds();
 std::vector<std::string> layout_seeds();
